@@ -93,10 +93,11 @@ struct NamedHandler
 };
 
 constexpr std::array handlers{
-    NamedHandler{"encode", encodeSound},        NamedHandler{"read", readClipBytes},
-    NamedHandler{"write", writeClipBytes},      NamedHandler{"formats", listFormats},
-    NamedHandler{"render", renderClipOrScene},  NamedHandler{"compare", compareSounds},
-    NamedHandler{"profile", describeProfile},   NamedHandler{"lint", lintClipOrScene},
+    NamedHandler{"defaults", tellDefaults}, NamedHandler{"encode", encodeSound},
+    NamedHandler{"read", readClipBytes},    NamedHandler{"write", writeClipBytes},
+    NamedHandler{"formats", listFormats},   NamedHandler{"render", renderClipOrScene},
+    NamedHandler{"compare", compareSounds}, NamedHandler{"profile", describeProfile},
+    NamedHandler{"lint", lintClipOrScene},
 };
 
 /// What the last call left: its text is the value or the error.
@@ -136,8 +137,8 @@ std::string_view codeOf(ErrorCode code)
     return "";
 }
 
-Result<void> perform(std::string_view name, std::string_view options,
-                     std::vector<std::span<const std::byte>> inputs, Pull pull)
+Result<void> perform(std::string_view name, std::string_view options, std::vector<std::span<const std::byte>> inputs,
+                     Pull pull)
 {
     constexpr std::size_t longestOptions = 1'000'000;
     for (const NamedHandler& one : handlers)
@@ -171,7 +172,7 @@ extern "C"
 {
     /// Fills `samples`, which has room for so many frames, with the next of the sound of a call; how many came.
     [[clang::import_module("pacini"), clang::import_name("pull")]] std::uint32_t paciniPull(float* samples,
-                                                                                          std::uint32_t frames);
+                                                                                            std::uint32_t frames);
 
     [[clang::export_name("allocate")]] void* paciniAllocate(std::uint32_t bytes)
     {
@@ -201,9 +202,8 @@ extern "C"
         const auto done = web::perform({name, nameLength}, {options, optionsLength}, std::move(given), pull);
         if (done)
             return 0;
-        const web::Json error{{"code", web::codeOf(done.error().code)},
-                              {"where", done.error().where},
-                              {"message", done.error().message}};
+        const web::Json error{
+            {"code", web::codeOf(done.error().code)}, {"where", done.error().where}, {"message", done.error().message}};
         web::reply().text = error.dump(-1, ' ', false, web::Json::error_handler_t::replace);
         return 1;
     }

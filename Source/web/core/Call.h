@@ -61,6 +61,7 @@ private:
 using Handler = Result<void> (*)(Call& call);
 
 [[nodiscard]] Result<void> encodeSound(Call& call);
+[[nodiscard]] Result<void> tellDefaults(Call& call);
 [[nodiscard]] Result<void> readClipBytes(Call& call);
 [[nodiscard]] Result<void> writeClipBytes(Call& call);
 [[nodiscard]] Result<void> listFormats(Call& call);

@@ -5,7 +5,6 @@
 #include "io/formats/ClipFormat.h"
 #include "web/core/Call.h"
 
-
 #include <utility>
 
 namespace pacini::web

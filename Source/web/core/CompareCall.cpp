@@ -20,7 +20,7 @@ struct JsonSink
 
     void value(std::string_view name, bool value) { object[std::string(name)] = value; }
     template <typename Value>
-        requires std::integral<Value> || std::floating_point<Value>
+    requires std::integral<Value> || std::floating_point<Value>
     void value(std::string_view name, Value value)
     {
         const auto number = static_cast<double>(value);

@@ -5,8 +5,12 @@
 #include "io/formats/ClipFormat.h"
 #include "web/core/Call.h"
 
+#include <pacini/actuator/ActuatorFit.h>
 #include <pacini/clip/PackedClip.h>
 
+#include <cmath>
+#include <cstdint>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -54,6 +58,16 @@ SoundEncoderParams paramsOf(Call& call, const MethodInfo& info)
 }
 } // namespace
 
+Result<void> tellDefaults(Call& call)
+{
+    const EncoderParams usual;
+    call.value = {{"bands", usual.bands},
+                  {"breakpoints", usual.breakpoints},
+                  {"sensitivity", usual.onsets.sensitivity},
+                  {"strength", standardStrength}};
+    return {};
+}
+
 Result<void> encodeSound(Call& call)
 {
     const std::string methodName = call.word("method", "a2vt");
@@ -62,8 +76,8 @@ Result<void> encodeSound(Call& call)
         return Error{ErrorCode::invalidArgument, "method", fmt::format("'{}' is not known", methodName)};
     const MethodInfo& info = methodInfo(*method);
     const SoundEncoderParams params = paramsOf(call, info);
-    const auto rate = static_cast<int>(call.number("sampleRate", 0.0, limits::lowestSampleRate,
-                                                   limits::highestSampleRate));
+    const auto rate =
+        static_cast<int>(call.number("sampleRate", 0.0, limits::lowestSampleRate, limits::highestSampleRate));
     const auto channels = static_cast<int>(call.number("channels", 1.0, 1.0, limits::channels));
     const auto frames = static_cast<std::uint64_t>(call.number("frames", 0.0, 0.0, 1e12));
     std::string name = call.word("name", ""), source = call.word("source", "");

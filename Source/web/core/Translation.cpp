@@ -27,7 +27,7 @@ extern "C"
 {
     /// For sound at `rate` Hz and the actuator of a profile (JSON), or none; null where either is not possible.
     [[clang::export_name("translatorCreate")]] LiveTranslator* paciniTranslatorCreate(double rate, const char* profile,
-                                                                                     std::uint32_t length)
+                                                                                      std::uint32_t length)
     {
         using namespace pacini;
         if (!isPlayableRate(rate))

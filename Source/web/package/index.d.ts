@@ -63,6 +63,9 @@ export function encode(sound: Sound, options: EncodeOptions & { format: 'packed'
 export function encode(sound: Sound, options: EncodeOptions & { format: 'text' }): Promise<string>
 export function encode(sound: Sound, options?: EncodeOptions): Promise<Clip>
 
+/** What encode() and render() do unless they are told otherwise. */
+export function defaults(options?: Stoppable): Promise<{ bands: number, breakpoints: number, sensitivity: number, strength: number }>
+
 export interface ReadOptions extends Stoppable {
   /** With its dot: tells formats apart that have no mark. */
   extension?: string

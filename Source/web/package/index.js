@@ -85,6 +85,9 @@ export const encode = async (sound, options = {}) => {
   }
 }
 
+/** What encode() and render() do unless they are told otherwise: bands, breakpoints, sensitivity, strength. */
+export const defaults = async ({ signal } = {}) => (await ready(signal)).call('defaults').value
+
 /** A clip of any format as the object of a `.json` clip, with what was let pass. */
 export const read = async (bytes, { extension = '', strict = false, signal } = {}) => {
   const { value, outputs } = (await ready(signal)).call('read', { extension, strict }, [bytesOf(bytes)])

@@ -11,7 +11,8 @@ const element = (id) => document.getElementById(id)
 const core = new Core() // encodes; ended when it works for nothing
 const side = new Core() // everything else
 const view = { clip: undefined, sound: undefined, mono: undefined, drive: undefined }
-let name = 'clip'
+let name = 'clip', source = ''
+const moved = new Set() // knobs that are not where the core has them by itself
 
 const say = (text) => { element('status').textContent = text }
 const complain = (error) => {
@@ -73,10 +74,8 @@ const analyse = async (file) => {
   say('Analysing...')
   const clip = await core.call('encode', view.sound, {
     name,
-    source: file ?? name,
-    bands: Number(element('bands').value),
-    breakpoints: Number(element('breakpoints').value),
-    sensitivity: Number(element('sensitivity').value)
+    source: source = file ?? source,
+    ...Object.fromEntries(['bands', 'breakpoints', 'sensitivity'].filter((id) => moved.has(id)).map((id) => [id, Number(element(id).value)]))
   })
   await shown(clip)
   say(`Analysed in ${((performance.now() - started) / 1000).toFixed(2)} s.`)
@@ -98,7 +97,7 @@ const renderDrive = async () => {
   if (!view.clip) return
   const drive = await side.call('render', view.clip, {
     ...(element('profile').value ? { profile: element('profile').value } : {}), sampleRate: 48000,
-    strength: Number(element('strength').value)
+    ...strength()
   })
   view.drive = drive.samples
   draw(element('lanes'), view)
@@ -111,9 +110,11 @@ const renderDrive = async () => {
   await showLosses()
 }
 
+const strength = () => moved.has('strength') ? { strength: Number(element('strength').value) } : {}
+
 const remember = async () => {
   try {
-    await keep({ name, sound: view.sound, clip: view.clip })
+    await keep({ name, source, sound: view.sound, clip: view.clip })
   } catch (error) {
     say(`This browser does not keep the clip over a reload (${error?.message ?? 'storage is refused'}). Save it.`)
   }
@@ -124,7 +125,7 @@ const remember = async () => {
 const formatNamed = (wanted) => formatList.find((format) => format.name === wanted)
 let formatList = []
 const exportOptions = (format) => ({
-  format: format.name, name, strength: Number(element('strength').value),
+  format: format.name, name, ...strength(),
   ...(element('profile').value ? { profile: element('profile').value } : {})
 })
 const showLosses = async () => {
@@ -250,6 +251,7 @@ const later = (work, milliseconds) => {
 for (const input of document.querySelectorAll('input[type=range]')) {
   const output = input.parentElement.querySelector('output')
   const show = () => { output.value = input.value }
+  input.addEventListener('input', () => moved.add(input.id))
   input.addEventListener('input', show)
   show()
 }
@@ -310,6 +312,11 @@ guarded(async () => {
   for (const file of gallery) element('gallery').add(new Option(file.replace(/\.pacb$/, '').replaceAll('_', ' '), file))
 })()
 guarded(async () => {
+  for (const [id, value] of Object.entries(await side.call('defaults'))) {
+    const input = element(id)
+    input.value = value
+    input.parentElement.querySelector('output').value = input.value
+  }
   formatList = (await side.call('formats')).filter((format) => format.writes)
   for (const format of formatList) element('format').add(new Option(`${format.title} (${format.extension})`, format.name))
   const shared = new URLSearchParams(location.hash.slice(1)).get('c')
@@ -326,6 +333,7 @@ guarded(async () => {
   const before = await kept().catch(() => undefined)
   if (before?.clip) {
     name = before.name
+    source = before.source
     view.sound = before.sound
     view.mono = before.sound ? monoOf(before.sound) : undefined
     await shown(before.clip)

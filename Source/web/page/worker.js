@@ -1,8 +1,8 @@
 // Encoding, rendering and formats, beside the page's own thread. One request after another, each with its number.
 
-import { encode, formats, read, render, write, compare, profileInfo } from './pacini/index.js'
+import { defaults, encode, formats, read, render, write, compare, profileInfo } from './pacini/index.js'
 
-const calls = { encode, formats, read, render, write, compare, profileInfo }
+const calls = { defaults, encode, formats, read, render, write, compare, profileInfo }
 
 self.onmessage = async ({ data: { number, name, parameters } }) => {
   try {
