@@ -31,7 +31,7 @@ cluster_packages=(parallel slurmctld slurmd slurm-client munge)
 # WebAssembly, and the browser that the page is tried in.
 web_packages=(clang-22 lld-22 libc++-22-dev-wasm32 libc++abi-22-dev-wasm32 libclang-rt-22-dev-wasm32 wasi-libc)
 web_test_packages=(nodejs npm chromium)
-web_modules=(puppeteer-core@25.16.0 axe-core@4.14.1)
+web_modules=(puppeteer-core@24.31.0 axe-core@4.14.1)
 # For CI alone: other machines, which must make the same clips, another compiler with its library, and its reader of sources.
 portability_packages=(g++-aarch64-linux-gnu g++-i686-linux-gnu qemu-user clang clang-tidy
     libclang-rt-dev libc++-dev libc++abi-dev)
@@ -141,17 +141,27 @@ install_slow_python_modules() {
     fi
 }
 
-# What the binding for Node.js needs, in a place of its own. Its binary comes within the package.
-install_node_modules() {
-    local folder=build/bindings-node
-    [ "$(cat "$folder/modules" 2>/dev/null)" != "${node_modules[*]}" ] || return 0
-    say "Installing ${node_modules[*]} in $folder"
+# Modules for Node.js, in a place of their own.
+install_npm_modules() { # folder, what is skipped without them, modules
+    local folder=$1 skipped=$2 modules=("${@:3}")
+    [ "$(cat "$folder/modules" 2>/dev/null)" != "${modules[*]}" ] || return 0
+    say "Installing ${modules[*]} in $folder"
     mkdir -p "$folder"
-    if npm install --silent --no-save --no-audit --no-fund --ignore-scripts --prefix "$folder" "${node_modules[@]}"; then
-        printf '%s' "${node_modules[*]}" >"$folder/modules"
+    if npm install --silent --no-save --no-audit --no-fund --ignore-scripts --prefix "$folder" "${modules[@]}"; then
+        printf '%s' "${modules[*]}" >"$folder/modules"
     else
-        printf 'bootstrap: these modules cannot be installed; the test of the binding for Node.js will be SKIPPED\n' >&2
+        printf 'bootstrap: these modules cannot be installed; %s will be SKIPPED\n' "$skipped" >&2
     fi
+}
+
+# What the binding for Node.js needs: its binary comes within the package.
+install_node_modules() {
+    install_npm_modules build/bindings-node "the test of the binding for Node.js" "${node_modules[@]}"
+}
+
+# The browser's remote control, and what finds barriers for people.
+install_web_modules() {
+    install_npm_modules build/web-node "the test of the web page" "${web_modules[@]}"
 }
 
 # As many compilers at once as there are processors, but each needs about 1 GB.
@@ -218,10 +228,11 @@ run_tests() { # preset, arguments of ctest
 case "${1:-}" in
 deps)
     install_packages "${build_packages[@]}" "${test_packages[@]}" "${portability_packages[@]}" "${slow_binding_packages[@]}" \
-        "${cluster_packages[@]}"
+        "${cluster_packages[@]}" "${web_packages[@]}" "${web_test_packages[@]}"
     install_host_modules
     install_python_modules
     install_node_modules
+    install_web_modules
     ;;
 build)
     install_packages "${build_packages[@]}"
@@ -276,9 +287,12 @@ test)
     ;;
 # What only CI runs, after `test`.
 slow-tests)
-    install_packages "${portability_packages[@]}" "${slow_binding_packages[@]}" "${cluster_packages[@]}"
+    install_packages "${portability_packages[@]}" "${slow_binding_packages[@]}" "${cluster_packages[@]}" \
+        "${web_packages[@]}" "${web_test_packages[@]}"
     install_node_modules
+    install_web_modules
     install_slow_python_modules
+    build_web
     run_tests release --label-regex slow --no-tests=ignore
     ;;
 # The slow ones among them take as long as all others together: `sanitized-tests slow` runs these, by hand.

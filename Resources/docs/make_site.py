@@ -17,7 +17,7 @@ DOCS = ROOT / "Resources" / "docs"
 GUIDES = {
     "Start": ["index.md", "getting-started.md", "glossary.md"],
     "Make and feel": ["editor.md", "plugin.md", "scenes.md", "profiles.md", "measuring.md", "devices.md", "formats.md"],
-    "In games and programs": ["runtime.md", "engines.md", "csharp.md", "lua.md", "godot.md", "rust.md", "node.md",
+    "In games and programs": ["runtime.md", "engines.md", "csharp.md", "lua.md", "godot.md", "rust.md", "node.md", "web.md",
                               "sdl.md"],
     "Research": ["python.md", "study.md", "datasets.md", "quality.md", "measurements.md", "corpus.md", "transforms.md"],
     "Interfaces": ["api-python.md", "api-c.md", "api-cpp.md"],

@@ -4,14 +4,15 @@
 #include <utility>
 
 #if JUCE_LINUX
+#include <fcntl.h>
+#include <poll.h>
+#include <unistd.h>
+
 #include <array>
 #include <cstdint>
 #include <cstdlib>
-#include <fcntl.h>
 #include <map>
-#include <poll.h>
 #include <string>
-#include <unistd.h>
 #include <vector>
 #endif
 

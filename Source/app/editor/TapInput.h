@@ -19,9 +19,7 @@ namespace pacini::app
 
 /// Notes of all MIDI inputs, and buttons of the joysticks that Linux lists, become taps while a clip plays and the
 /// program is in front. A note's velocity is the event's level. Devices may come and go.
-class TapInput final : private juce::MidiInputCallback,
-                       private juce::AsyncUpdater,
-                       private juce::Timer
+class TapInput final : private juce::MidiInputCallback, private juce::AsyncUpdater, private juce::Timer
 {
 public:
     /// `folder`: that has the joysticks, as `js0`. [message]

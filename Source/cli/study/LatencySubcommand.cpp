@@ -143,13 +143,13 @@ Exit LatencySubcommand::measure(Console& console, const OpenedStudy& opened)
         return console.fail(recording, reader.error());
     for (const auto& [option, channel] : {std::pair("--sound", sound), std::pair("--touch", touch)})
         if (channel > reader->channels())
-            return console.fail(recording,
-                                {ErrorCode::invalidArgument, option,
-                                 fmt::format("is {}, but there {}", channel,
-                                             reader->channels() == 1
-                                                 ? "is only 1 channel"
-                                                 : fmt::format("are only {} channels", reader->channels()))},
-                                Exit::usage);
+            return console.fail(
+                recording,
+                {ErrorCode::invalidArgument, option,
+                 fmt::format("is {}, but there {}", channel,
+                             reader->channels() == 1 ? "is only 1 channel"
+                                                     : fmt::format("are only {} channels", reader->channels()))},
+                Exit::usage);
     if (sound == touch)
         return console.fail(recording, {ErrorCode::invalidArgument, "--touch", "must be another channel than --sound"},
                             Exit::usage);

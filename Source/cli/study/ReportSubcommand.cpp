@@ -38,7 +38,8 @@ public:
         overwriting.declare(*command);
         command->footer(
             "Means, SDs and intervals; box plots; t-tests (pooled, Welch, paired), Mann-Whitney, effect sizes, Holm\n"
-            "and Bonferroni; ICC, Kendall's W, Friedman; thresholds; choices; words; maps of similarity; mixed models.\n"
+            "and Bonferroni; ICC, Kendall's W, Friedman; thresholds; choices; words; maps of similarity; mixed "
+            "models.\n"
             "A table of ratings has the columns stimulus and rating, and where there are any group, participant and\n"
             "block.\n\nExamples:\n  pacini study report coherence\n"
             "  pacini study report ratings.csv --combine A+B");

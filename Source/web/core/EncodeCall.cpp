@@ -32,12 +32,11 @@ SoundEncoderParams paramsOf(Call& call, const MethodInfo& info)
                              ErrorCode::invalidArgument);
         return value;
     };
-    constexpr double any = 1e9;
-    const auto bands = choice("bands", 1.0, 64.0);
-    params.choices.breakpoints = choice("breakpoints", 0.0, any);
-    const auto quantise = choice("quantise", 0.0, 32.0);
-    params.choices.lowFrequency = choice("low", 0.0, any);
-    params.choices.highFrequency = choice("high", 0.0, any);
+    const auto bands = choice("bands", 1.0, 32.0);
+    params.choices.breakpoints = choice("breakpoints", 0.5, 1000.0);
+    const auto quantise = choice("quantise", 4.0, 16.0);
+    params.choices.lowFrequency = choice("low", 1.0, 1700.0);
+    params.choices.highFrequency = choice("high", 2.0, 1800.0);
     if (bands)
         params.choices.bands = static_cast<std::size_t>(*bands);
     if (quantise)
@@ -48,7 +47,7 @@ SoundEncoderParams paramsOf(Call& call, const MethodInfo& info)
     own.lowFrequency = params.choices.lowFrequency.value_or(own.lowFrequency);
     own.highFrequency = params.choices.highFrequency.value_or(own.highFrequency);
     own.audible = choice("audible", 0.0, 1.0).value_or(own.audible);
-    own.onsets.sensitivity = choice("sensitivity", 0.0, 1.0).value_or(own.onsets.sensitivity);
+    own.onsets.sensitivity = choice("sensitivity", 0.25, 4.0).value_or(own.onsets.sensitivity);
     own.normalise = !call.truth("keepLevel", !own.normalise);
     const std::string spacing = call.word("spacing", "log");
     if (spacing != "log" && spacing != "linear")

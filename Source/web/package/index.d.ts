@@ -48,7 +48,7 @@ export interface EncodeOptions extends Stoppable {
   spacing?: 'log' | 'linear'
   /** 0 to 1. */
   audible?: number
-  /** Of events, 0 to 1. */
+  /** Of events, 0.25 to 4: above 1 there are more. */
   sensitivity?: number
   keepLevel?: boolean
   /** Of the clip. */

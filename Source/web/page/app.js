@@ -132,8 +132,8 @@ const showLosses = async () => {
   const format = formatNamed(element('format').value)
   if (!format || !view.clip) return
   const { losses } = await side.call('write', view.clip, exportOptions(format))
-  element('losses').textContent = losses.length === 0 ? `${format.title} keeps ${format.keeps}` :
-    `${format.title} keeps ${format.keeps} Lost here: ${losses.slice(0, 3).map((loss) => loss.message).join('; ')}${losses.length > 3 ? `; and ${losses.length - 3} more` : ''}.`
+  element('losses').textContent = losses.length === 0 ? format.keeps :
+    `${format.keeps} Lost here: ${losses.slice(0, 3).map((loss) => loss.message).join('; ')}${losses.length > 3 ? `; and ${losses.length - 3} more` : ''}.`
 }
 
 const save = async () => {

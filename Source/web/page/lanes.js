@@ -59,9 +59,13 @@ export const draw = (canvas, { clip, mono, drive }, time) => {
   const left = 8, right = width - 8
   const box = (from, to) => ({ x: left, y: from * height, width: right - left, height: (to - from) * height })
   const label = (text, at) => {
-    context.fillStyle = colour('dim')
     context.font = '12px system-ui, sans-serif'
-    context.fillText(text, at.x, at.y + 12)
+    context.fillStyle = colour('background')
+    context.globalAlpha = 0.8
+    context.fillRect(at.x, at.y, context.measureText(text).width + 8, 17)
+    context.globalAlpha = 1
+    context.fillStyle = colour('dim')
+    context.fillText(text, at.x + 4, at.y + 13)
   }
   const soundBox = box(0.02, 0.22), bandBox = box(0.25, 0.72), driveBox = box(0.77, 0.97)
   if (mono) waveform(context, mono, soundBox, colour('sound'))
@@ -72,7 +76,6 @@ export const draw = (canvas, { clip, mono, drive }, time) => {
     curve(context, band.amplitude, clip.duration,
       { x: bandBox.x, y: bandBox.y + bandBox.height - (i + 1) * each, width: bandBox.width, height: each * 0.92 }, colour('accent'))
   })
-  label(`${bands.length} bands`, bandBox)
   context.fillStyle = colour('event')
   for (const { time: at, amplitude } of clip.transients) {
     const x = left + (at / clip.duration) * (right - left)
@@ -83,6 +86,7 @@ export const draw = (canvas, { clip, mono, drive }, time) => {
     context.fill()
   }
   context.globalAlpha = 1
+  label(bands.length === 1 ? '1 band' : `${bands.length} bands, high ones on top`, bandBox)
   if (drive) waveform(context, drive, driveBox, colour('drive'))
   label('what the actuator plays', driveBox)
   if (time !== undefined) {

@@ -1,0 +1,41 @@
+#!/usr/bin/env python3
+"""The npm package in Node.js, and the page in Chromium: check_web.py package|page PACINI
+
+Exit 0, 1 on a failed check, 77 when build/web, Node.js, Chromium or their modules are not there; `bash cmake/bootstrap.sh
+slow-tests` brings them all.
+"""
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+WEB, MODULES = ROOT / "build/web", ROOT / "build/web-node"
+
+
+def skip(why):
+    print(f"SKIPPED: {why}")
+    sys.exit(77)
+
+
+what, program = sys.argv[1:3]
+try:
+    import soundfile
+except ImportError as error:
+    skip(error)
+if not (WEB / "package/pacini.wasm").exists():
+    skip("build/web is not built")
+if not shutil.which("npm") or (what == "page" and not (shutil.which("chromium") and (MODULES / "modules").exists())):
+    skip("Node.js, Chromium or puppeteer-core is missing")
+with tempfile.TemporaryDirectory() as name:
+    folder = Path(name)
+    for path in sorted((ROOT / "Resources/demo").glob("*.flac")):
+        samples, rate = soundfile.read(path, dtype="int16")
+        soundfile.write(folder / f"{path.stem}.wav", samples, rate, subtype="PCM_16")
+    script = ROOT / "Tests/web" / f"check_{what}.mjs"
+    arguments = ([WEB / "package", program, folder] if what == "package"
+                 else [WEB / "page", MODULES, program, folder / "knock_wood_bridge.wav",
+                       *([os.environ["PACINI_WEB_PICTURES"]] if "PACINI_WEB_PICTURES" in os.environ else [])])
+    sys.exit(subprocess.run(["node", script, *arguments]).returncode)
