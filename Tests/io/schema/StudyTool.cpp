@@ -29,6 +29,8 @@ study::Study sample(int number)
     study::Stimulus tone;
     tone.name = "tone";
     tone.tone = study::Tone{};
+    tone.sensationLevel = 20.0;
+    whole.stimuli[0].acceleration = 5.0;
     whole.stimuli.push_back(silence);
     whole.stimuli.push_back(tone);
     study::Block block;
