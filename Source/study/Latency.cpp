@@ -131,14 +131,18 @@ std::vector<LatencyMeter::Burst> LatencyMeter::burstsOf(const Channel& channel) 
         const auto from = envelope.begin() + static_cast<std::ptrdiff_t>(begin);
         const auto to = envelope.begin() + static_cast<std::ptrdiff_t>(std::min(begin + reach, envelope.size()));
         const auto peak = static_cast<std::size_t>(std::max_element(from, to) - envelope.begin());
-        if (peak == 0 || peak + 1 == envelope.size() || !(envelope[peak] > threshold))
+        if (peak == 0 || peak + 1 == envelope.size() || !(static_cast<double>(envelope[peak]) > threshold))
             continue;
         const std::size_t left = peak > reach ? peak - reach : 0, right = std::min(peak + reach, envelope.size());
         const auto loudest = std::max_element(envelope.begin() + static_cast<std::ptrdiff_t>(left),
                                               envelope.begin() + static_cast<std::ptrdiff_t>(right));
         if (static_cast<std::size_t>(loudest - envelope.begin()) != peak)
             continue;
-        const double before = envelope[peak - 1], here = envelope[peak], after = envelope[peak + 1];
+        const auto level = [&](std::size_t i)
+        {
+            return static_cast<double>(envelope[i]);
+        };
+        const double before = level(peak - 1), here = level(peak), after = level(peak + 1);
         const double bend = before - 2.0 * here + after;
         const double offset = bend < 0.0 ? 0.5 * (before - after) / bend : 0.0;
         bursts.push_back({(static_cast<double>(peak) + offset) / slow, here});

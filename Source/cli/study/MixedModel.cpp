@@ -15,7 +15,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#if defined(__APPLE__)
 extern char** environ;
+#endif
 #endif
 
 namespace pacini::cli
