@@ -31,6 +31,7 @@ ELSEWHERE = {
     "bash cmake/bootstrap.sh plugin": ("cmake/bootstrap.sh", "plugin)"),
     "cmake --workflow --preset test": ("CMakePresets.json", '"name": "test"'),
     "bash cmake/bootstrap.sh deps": ("cmake/bootstrap.sh", "deps)"),
+    "bash cmake/bootstrap.sh web": ("Tests/web/check_web.py", "build/web"),
     "cmake --preset debug": ("CMakePresets.json", '"name": "debug"'),
     "cmake --preset debug -DPACINI_TEST_ROOMS=io": ("Tests/CMakeLists.txt", "set(PACINI_TEST_ROOMS"),
     "cmake --preset release -DPACINI_JUCE_DIR=/path/to/JUCE": ("cmake/PaciniJuce.cmake", "PACINI_JUCE_DIR"),
