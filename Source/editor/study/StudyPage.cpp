@@ -247,6 +247,8 @@ void StudyPage::buildSetUp()
     {
         const auto outputs = services.outputNames();
         // Ears first; the actuator on what comes after them, or on the right channel of a device with two.
+        if (soundOut >= outputs.size())
+            soundOut = 0;
         if (touchOut == soundOut || touchOut >= outputs.size())
             touchOut = outputs.size() > 2 ? 2 : outputs.size() - 1;
         addBox(tr("Sound on"), outputs, soundOut,
@@ -310,6 +312,8 @@ void StudyPage::buildDelay()
             {
                 return static_cast<std::size_t>(std::max(chosen, 0));
             };
+            if (!knowsActuator())
+                return;
             std::optional<Profile> limits;
             if (const NamedProfile* known = profile())
                 limits = *known->profile;
@@ -360,11 +364,19 @@ const NamedProfile* StudyPage::profile() const
     return found == services.profiles.end() ? nullptr : &*found;
 }
 
+/// Without its profile an actuator would lose its protection, so nothing is played without it unawares.
+bool StudyPage::knowsActuator()
+{
+    if (actuator.empty() || profile() != nullptr)
+        return true;
+    status.setText(tr("The actuator of the study is not known: {0}", {toText(actuator)}));
+    return false;
+}
+
 void StudyPage::begin(const fs::path& log)
 {
-    // Without its profile an actuator would lose its protection, so nobody goes on without it unawares.
-    if (!actuator.empty() && profile() == nullptr)
-        return status.setText(tr("The actuator of the study is not known: {0}", {toText(actuator)}));
+    if (!knowsActuator())
+        return;
     study::SessionStart start;
     start.language = language.toStdString();
     start.program = services.program;
@@ -511,6 +523,8 @@ void StudyPage::goOn()
 void StudyPage::stop()
 {
     services.player->stop();
+    if (now == State::delay)
+        return show(State::setUp); // which ends the bursts
     if (!running || now == State::stopped || now == State::goodbye || now == State::setUp)
         return;
     before = now;

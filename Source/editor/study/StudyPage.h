@@ -88,6 +88,7 @@ private:
     void show(State wanted);
     void buildSetUp();
     void buildDelay();
+    [[nodiscard]] bool knowsActuator();
     void pollDelay();
     void buildText(const juce::String& title, const juce::String& text);
     void buildComfort();
