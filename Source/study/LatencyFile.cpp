@@ -23,6 +23,7 @@ void visitMeasurement(AnyMeasurement& measured, Visitor& visitor)
     using enum Need;
     visitor.text("time", measured.time);
     visitor.optionalText("device", measured.device);
+    visitor.optionalText("recording", measured.recording);
     visitor.number("sampleRate", measured.sampleRate, usual);
     auto& latency = measured.latency;
     visitor.number("delay", latency.delay, required);

@@ -18,8 +18,9 @@ inline constexpr const char* latencyFileName = "latency.json";
 
 struct MeasuredLatency
 {
-    std::string time;   ///< UTC, ISO 8601
-    std::string device; ///< or the recording
+    std::string time;      ///< UTC, ISO 8601
+    std::string device;    ///< empty where it is not known: of a recording
+    std::string recording; ///< its name; empty: the program measured by itself
     double sampleRate = 48000.0;
     Latency latency;
 };

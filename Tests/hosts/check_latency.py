@@ -90,6 +90,17 @@ def main():
         check("without a cable nothing is kept", len(measured(study)) == before)
         jack("jack_disconnect", outs[0], "JUCEJack:in_1")
 
+        # Escape ends the bursts, and leads back.
+        for source, target in through:
+            jack("jack_connect", source, target)
+        window.move(*MEASURE)
+        window.tool("click", 1)
+        time.sleep(2)
+        window.keys("Escape")
+        check("Escape closes the inputs", until(lambda: "JUCEJack:in_2" not in jack("jack_lsp"), 5))
+        time.sleep(10)
+        check("and nothing is kept of what was stopped", len(measured(study)) == before)
+
         if len(sys.argv) > 4:
             seconds = int(sys.argv[4])
             probe, recorded = folder / "probe.wav", folder / "recorded.wav"

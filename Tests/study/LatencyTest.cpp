@@ -145,7 +145,7 @@ TEST_CASE("Measured delays are kept beside the study, the newest last", "[study]
     REQUIRE(readLatencies(folder.path()));
     CHECK(readLatencies(folder.path())->empty());
     MeasuredLatency one{
-        "2026-11-27T10:00:00.000Z", "interface", 44100.0, {0.0021, 1e-5, 2e-5, 0.0, 10, 1, -12.0, -20.0}};
+        "2026-11-27T10:00:00.000Z", "interface", "", 44100.0, {0.0021, 1e-5, 2e-5, 0.0, 10, 1, -12.0, -20.0}};
     REQUIRE(keepLatency(folder.path(), one));
     one.latency.delay = -0.3;
     REQUIRE(keepLatency(folder.path(), one));

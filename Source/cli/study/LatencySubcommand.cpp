@@ -208,7 +208,7 @@ Exit LatencySubcommand::measure(Console& console, const OpenedStudy& opened)
         return Exit::ok;
     study::MeasuredLatency measured;
     measured.time = study::utcNow();
-    measured.device = std::filesystem::path(recording).filename().string();
+    measured.recording = std::filesystem::path(recording).filename().string();
     measured.sampleRate = probe.sampleRate;
     measured.latency = *latency;
     const std::string kept = (opened.folder / study::latencyFileName).string();

@@ -265,15 +265,22 @@ void StudyPage::buildSetUp()
                });
         services.wire(soundOut, touchOut);
     }
-    if (const auto measured = study::readLatencies(place.folder); measured && !measured->empty())
+    const auto measured = study::readLatencies(place.folder);
+    touchLatency = 0.0;
+    if (measured && !measured->empty())
     {
         const auto& newest = measured->back();
-        touchLatency = newest.latency.delay;
+        const double known = newest.latency.delay;
+        // A delay is that of its device: on another one it counts only where somebody says so.
+        const bool fits =
+            newest.device.empty() || services.rig == nullptr || newest.device == services.rig->ports().name;
+        touchLatency = fits ? known : 0.0;
+        const std::string& where = newest.device.empty() ? newest.recording : newest.device;
         addBox(tr("Delay"),
-               {tr("Made up for: {0} ms, measured {1}",
-                   {juce::String(1000.0 * newest.latency.delay, 2), toText(newest.time.substr(0, 10))}),
+               {tr("Made up for: {0} ms, measured {1}, {2}",
+                   {juce::String(1000.0 * known, 2), toText(newest.time.substr(0, 10)), toText(where)}),
                 tr("Not made up for")},
-               0, [this, known = touchLatency](int index) { touchLatency = index == 0 ? known : 0.0; });
+               fits ? 0 : 1, [this, known](int index) { touchLatency = index == 0 ? known : 0.0; });
     }
     nextButton = &addButton(tr("New participant"), [this] { begin({}); });
     for (const fs::path& log : study::sessionLogs(place.folder))
@@ -289,6 +296,8 @@ void StudyPage::buildSetUp()
         addButton(tr("Close"), services.close);
     if (services.player->sampleRate() <= 0)
         status.setText(tr("No audio device is open."));
+    else if (!measured)
+        status.setText(toText(measured.error().text()));
 }
 
 void StudyPage::buildDelay()
