@@ -1,5 +1,6 @@
 #include "study/Latency.h"
 
+#include <pacini/evaluate/EventMatching.h>
 #include <pacini/foundation/Units.h>
 
 #include <fmt/format.h>
@@ -25,16 +26,6 @@ constexpr double quietest = 1e-5;    // full scale 1
 double raisedCosine(double at) // 0 to 1
 {
     return 0.5 - 0.5 * std::cos(2.0 * std::numbers::pi * at);
-}
-
-/// Precondition: not empty.
-double medianOf(std::vector<double> values)
-{
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    if (values.size() % 2 == 1)
-        return *middle;
-    return 0.5 * (*middle + *std::max_element(values.begin(), middle));
 }
 } // namespace
 
@@ -121,7 +112,7 @@ std::vector<LatencyMeter::Burst> LatencyMeter::burstsOf(const Channel& channel) 
     const std::vector<float>& envelope = channel.envelope;
     if (envelope.size() < 3)
         return {};
-    const double noise = medianOf(std::vector<double>(envelope.begin(), envelope.end()));
+    const double noise = median(std::vector<double>(envelope.begin(), envelope.end())).value_or(0.0);
     const double threshold = std::max(quietest, aboveNoise * noise);
     std::vector<Burst> bursts;
     // The loudest in each stretch, where it is louder than all that is less than .4 periods from it.
@@ -152,7 +143,7 @@ std::vector<LatencyMeter::Burst> LatencyMeter::burstsOf(const Channel& channel) 
     std::vector<double> levels;
     for (const Burst& burst : bursts)
         levels.push_back(burst.level);
-    const double usual = medianOf(levels);
+    const double usual = median(levels).value_or(0.0);
     std::erase_if(bursts, [&](const Burst& burst) { return burst.level < belowOthers * usual; });
     return bursts;
 }
@@ -191,9 +182,9 @@ Result<Latency> LatencyMeter::latency() const
                                  "recording?",
                                  latency.bursts, latency.missed)};
     const auto count = static_cast<double>(delays.size());
-    latency.delay = medianOf(delays);
-    latency.soundLevel = 20.0 * std::log10(medianOf(soundLevels));
-    latency.touchLevel = 20.0 * std::log10(medianOf(touchLevels));
+    latency.delay = median(delays).value_or(0.0);
+    latency.soundLevel = 20.0 * std::log10(median(soundLevels).value_or(0.0));
+    latency.touchLevel = 20.0 * std::log10(median(touchLevels).value_or(0.0));
     double meanTime = 0.0, meanDelay = 0.0;
     for (std::size_t i = 0; i < delays.size(); ++i)
     {

@@ -1,6 +1,7 @@
 #include "python/native/Support.h"
 
 #include "io/AudioReader.h"
+#include "io/ErrorCodeName.h"
 
 #include <pacini/foundation/DspBlock.h>
 
@@ -19,30 +20,6 @@ namespace pacini::python
 
 namespace
 {
-const char* nameOf(ErrorCode code)
-{
-    switch (code)
-    {
-    case ErrorCode::invalidArgument:
-        return "invalidArgument";
-    case ErrorCode::invalidData:
-        return "invalidData";
-    case ErrorCode::unsupportedVersion:
-        return "unsupportedVersion";
-    case ErrorCode::truncated:
-        return "truncated";
-    case ErrorCode::notFinite:
-        return "notFinite";
-    case ErrorCode::tooLarge:
-        return "tooLarge";
-    case ErrorCode::io:
-        return "io";
-    case ErrorCode::diskFull:
-        return "diskFull";
-    }
-    return "invalidData";
-}
-
 std::atomic<int> abandoned{0};
 
 /// The process that the threads are of: a child that was forked off has none of them.
@@ -69,7 +46,7 @@ std::string placeOf(std::size_t channels, std::size_t channel, std::size_t frame
 void raise(const Error& error)
 {
     const nb::object type = nb::module_::import_("pacini._errors").attr("Error");
-    const nb::object value = type(error.message, error.where, nameOf(error.code));
+    const nb::object value = type(error.message, error.where, std::string(errorCodeName(error.code)));
     PyErr_SetObject(type.ptr(), value.ptr());
     throw nb::python_error();
 }

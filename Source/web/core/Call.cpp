@@ -1,5 +1,6 @@
 #include "web/core/Call.h"
 
+#include "io/ErrorCodeName.h"
 #include "io/JsonTree.h"
 #include "io/ProfileJson.h"
 #include "io/formats/ClipFormat.h"
@@ -97,7 +98,7 @@ constexpr std::array handlers{
     NamedHandler{"read", readClipBytes},    NamedHandler{"write", writeClipBytes},
     NamedHandler{"formats", listFormats},   NamedHandler{"render", renderClipOrScene},
     NamedHandler{"compare", compareSounds}, NamedHandler{"profile", describeProfile},
-    NamedHandler{"lint", lintClipOrScene},
+    NamedHandler{"lint", lintClip},
 };
 
 /// What the last call left: its text is the value or the error.
@@ -111,30 +112,6 @@ Reply& reply()
 {
     static Reply last;
     return last;
-}
-
-std::string_view codeOf(ErrorCode code)
-{
-    switch (code)
-    {
-    case ErrorCode::invalidArgument:
-        return "invalidArgument";
-    case ErrorCode::unsupportedVersion:
-        return "unsupportedVersion";
-    case ErrorCode::tooLarge:
-        return "tooLarge";
-    case ErrorCode::io:
-        return "io";
-    case ErrorCode::diskFull:
-        return "diskFull";
-    case ErrorCode::invalidData:
-        return "invalidData";
-    case ErrorCode::truncated:
-        return "truncated";
-    case ErrorCode::notFinite:
-        return "notFinite";
-    }
-    return "";
 }
 
 Result<void> perform(std::string_view name, std::string_view options, std::vector<std::span<const std::byte>> inputs,
@@ -202,8 +179,9 @@ extern "C"
         const auto done = web::perform({name, nameLength}, {options, optionsLength}, std::move(given), pull);
         if (done)
             return 0;
-        const web::Json error{
-            {"code", web::codeOf(done.error().code)}, {"where", done.error().where}, {"message", done.error().message}};
+        const web::Json error{{"code", errorCodeName(done.error().code)},
+                              {"where", done.error().where},
+                              {"message", done.error().message}};
         web::reply().text = error.dump(-1, ' ', false, web::Json::error_handler_t::replace);
         return 1;
     }

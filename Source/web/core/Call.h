@@ -68,7 +68,7 @@ using Handler = Result<void> (*)(Call& call);
 [[nodiscard]] Result<void> renderClipOrScene(Call& call);
 [[nodiscard]] Result<void> compareSounds(Call& call);
 [[nodiscard]] Result<void> describeProfile(Call& call);
-[[nodiscard]] Result<void> lintClipOrScene(Call& call);
+[[nodiscard]] Result<void> lintClip(Call& call);
 
 /// The clip in a call's input, of any format; `extension` (with dot) tells formats apart that have no mark.
 [[nodiscard]] Result<Clip> clipOf(const Call& call, std::size_t input, std::string_view extension = {});

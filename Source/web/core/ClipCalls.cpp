@@ -1,7 +1,5 @@
 // The calls `read`, `write`, `formats`, `profile` and `lint`: clips between formats, and what is lost on the way.
 
-#include "io/SceneCheck.h"
-#include "io/SceneJson.h"
 #include "io/formats/ClipFormat.h"
 #include "web/core/Call.h"
 
@@ -119,7 +117,7 @@ Result<void> describeProfile(Call& call)
     return {};
 }
 
-Result<void> lintClipOrScene(Call& call)
+Result<void> lintClip(Call& call)
 {
     const auto made = exported(call);
     if (!made)
