@@ -76,7 +76,8 @@ try {
     }
     check(`format ${format.name}`, nonEmpty && back === true, back === true ? '' : back)
   }
-  check('losses are told', (await lint(clip, { format: 'android' })).length >= 0)
+  const losses = await lint(clip, { format: 'android-basic' })
+  check('losses are told', losses.length > 0 && losses.every(({ kind, message }) => kind && message), `${losses.length} losses`)
 
   const skin = await felt(clip, { profile: 'l5-wristband' })
   check('what is felt has samples', skin.samples.some((value) => value !== 0))
