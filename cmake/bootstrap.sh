@@ -28,10 +28,10 @@ slow_binding_packages=(rustc cargo nodejs npm)
 node_modules=(koffi@3.3.4 pyright@1.1.405)
 # Schedulers that the scripts of Resources/cluster are for, likewise.
 cluster_packages=(parallel slurmctld slurmd slurm-client munge)
-# WebAssembly, and the browser that the page is tried in.
+# WebAssembly, the browser that the page is tried in, and the compiler that reads the types of the package.
 web_packages=(clang-22 lld-22 libc++-22-dev-wasm32 libc++abi-22-dev-wasm32 libclang-rt-22-dev-wasm32 wasi-libc)
 web_test_packages=(nodejs npm chromium)
-web_modules=(puppeteer-core@24.31.0 axe-core@4.14.1)
+web_modules=(puppeteer-core@24.31.0 axe-core@4.14.1 typescript@5.9.3)
 # For CI alone: other machines, which must make the same clips, another compiler with its library, and its reader of sources.
 portability_packages=(g++-aarch64-linux-gnu g++-i686-linux-gnu qemu-user clang clang-tidy
     libclang-rt-dev libc++-dev libc++abi-dev)

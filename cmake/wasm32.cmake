@@ -1,5 +1,5 @@
 # Toolchain of WebAssembly: Debian's clang, lld, libc++ and wasi-libc.
-set(CMAKE_SYSTEM_NAME WASI)
+set(CMAKE_SYSTEM_NAME Generic) # WASI is no system that CMake knows
 set(CMAKE_SYSTEM_PROCESSOR wasm32)
 set(PACINI_WASM_CLANG 22)
 set(CMAKE_CXX_COMPILER clang++-${PACINI_WASM_CLANG})

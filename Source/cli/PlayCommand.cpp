@@ -6,8 +6,11 @@
 #include "cli/Options.h"
 #include "devices/ClipRumble.h"
 #include "devices/HidList.h"
+#include "devices/InstantClock.h"
 #include "devices/OpenController.h"
+#include "devices/RumblePlayback.h"
 #include "devices/RumblePlayer.h"
+#include "devices/SteadyClock.h"
 #include "io/ClipFile.h"
 
 #include <fmt/format.h>
@@ -267,8 +270,9 @@ Exit PlayCommand::list(Console& console, const Clip& clip, const devices::PlayRa
     warnOfSilence(console, input, *model);
     devices::InstantClock clock;
     PacketList sink(clock);
-    devices::RumblePlayer player(*model, devices::ClipRumble(clip, range, Decibels(intensity), *model), sink, clock);
-    static_cast<void>(player.finish());
+    devices::ClipRumble rumble(clip, range, Decibels(intensity), *model);
+    devices::RumblePlayback playback(*model, rumble, sink, clock);
+    static_cast<void>(playback.run());
     Json packets = Json::array();
     for (const auto& [time, report] : sink.packets)
     {

@@ -5,7 +5,7 @@
 #include "devices/DriveRumble.h"
 #include "devices/OpenController.h"
 #include "devices/RumblePlayer.h"
-#include "devices/SendClock.h"
+#include "devices/SteadyClock.h"
 
 #include <atomic>
 #include <cstddef>

@@ -1,6 +1,7 @@
+#include "devices/InstantClock.h"
 #include "devices/RumblePlayer.h"
-
 #include "devices/SonyReports.h"
+#include "devices/SteadyClock.h"
 #include "devices/WaveformDevice.h"
 #include "support/Catch.h"
 #include "support/ReportList.h"

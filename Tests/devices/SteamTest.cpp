@@ -1,4 +1,5 @@
 #include "devices/ClipRumble.h"
+#include "devices/InstantClock.h"
 #include "devices/MuLaw.h"
 #include "devices/RumblePlayer.h"
 #include "devices/SteamReports.h"

@@ -2,6 +2,7 @@
 
 // A sink that notes all reports with their times, and a clip that was played on it to its end.
 
+#include "devices/InstantClock.h"
 #include "devices/RumblePlayer.h"
 
 #include <cstddef>

@@ -1,14 +1,14 @@
 // The npm package in Node: the same bytes as the program, errors as they are documented, the examples of its README.
 //
-// check_package.mjs PACKAGE PACINI SOUNDS    PACKAGE: the built folder; SOUNDS: a folder of WAV files. Exit 0, 1 on a
-// failed check.
+// check_package.mjs PACKAGE MODULES PACINI SOUNDS    PACKAGE: the built folder; MODULES: where TypeScript is; SOUNDS: a
+// folder of WAV files. Exit 0, 1 on a failed check.
 import { execFileSync } from 'node:child_process'
 import { cpSync, mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs'
 import { tmpdir } from 'node:os'
 import { basename, join } from 'node:path'
 import { gzipSync } from 'node:zlib'
 
-const [packageFolder, program, sounds] = process.argv.slice(2)
+const [packageFolder, modules, program, sounds] = process.argv.slice(2)
 const folder = mkdtempSync(join(tmpdir(), 'pacini-web-'))
 let failures = 0
 const check = (what, holds, detail = '') => {
@@ -34,7 +34,7 @@ try {
   execFileSync('npm', ['install', '--silent', '--no-audit', '--no-fund', join(folder, packed)], { cwd: folder })
   const installed = join(folder, 'node_modules/pacini')
   const pacini = await import(join(installed, 'index.js'))
-  const { encode, read, write, lint, render, felt, compare, formats, profileNames, profileInfo, readWav, PaciniError } = pacini
+  const { encode, read, write, lint, render, felt, compare, formats, profileNames, profileInfo, readWav, reports, PaciniError } = pacini
 
   let differing = 0, rendered = 0
   const names = readdirSync(sounds).filter((name) => name.endsWith('.wav')).sort()
@@ -85,6 +85,19 @@ try {
   const figures = await compare(sound, drive)
   check('a comparison has its figures', figures.hts > 0 && figures.match > 0, `HTS ${figures.hts}, match ${figures.match}`)
   check('actuators are there', profileNames().length === 12 && (await profileInfo('lra-175')).high > 0)
+  const controllers = [['switch', 0x057e, 0x2009, true], ['switch-usb', 0x057e, 0x2009, false],
+    ['dualsense', 0x054c, 0x0ce6, false], ['dualsense-bluetooth', 0x054c, 0x0ce6, true],
+    ['dualshock4', 0x054c, 0x09cc, false], ['xbox', 0x045e, 0x0b13, true], ['steamdeck', 0x28de, 0x1205, false],
+    ['steam', 0x28de, 0x1302, false]]
+  native('encode', join(sounds, names[0]), '-o', 'native.json', '-y')
+  for (const [like, vendor, product, bluetooth] of controllers) {
+    const listed = JSON.parse(native('play', 'native.json', '--dry-run', '--like', like, '--json')).packets
+    const { reports: own, stops } = await reports(clip, { vendor, product, bluetooth })
+    const hex = (bytes) => Buffer.from(bytes).toString('hex')
+    const same = own.length === listed.length &&
+      own.every(({ time, bytes }, i) => Math.abs(time - listed[i].time) < 1e-9 && hex(bytes) === listed[i].bytes.replaceAll(' ', '').toLowerCase())
+    check(`reports to ${like} are those of the program`, same && stops.length >= 16, `${own.length} and ${listed.length}`)
+  }
   const scene = { format: 'pacini.scene', version: 1, duration: 1, clips: [{ file: '0' }], plays: [{ clip: 0, start: 0.1 }] }
   const sceneDrive = await fails(async () => check('a scene is rendered', (await render(scene, { clips: [clip] })).samples.length > 0))
   if (sceneDrive) check('a scene is rendered', false, sceneDrive.message)
@@ -100,6 +113,7 @@ try {
     ['garbage', () => read(new Uint8Array([1, 2, 3])), ''],
     ['an unknown format', () => write(clip, { format: 'x' }), 'format'],
     ['an unknown profile', () => render(clip, { profile: 'x' }), 'profile'],
+    ['reports of an unknown controller', () => reports(clip, { vendor: 1, product: 2 }), '0001:0002'],
     ['no WAV', async () => readWav(new Uint8Array(50)), '']
   ]
   for (const [what, work, where] of wrong) {
@@ -121,8 +135,23 @@ try {
   const seconds = (performance.now() - started) / 1000
   const megabytes = pacini.memoryInUse() / 1e6
   check('ten minutes take less than 100 MB', megabytes < 100, `${megabytes.toFixed(1)} MB, ${(600 / seconds).toFixed(0)} times real time`)
-  const wasm = readFileSync(join(installed, 'pacini.wasm'))
-  console.log(`     pacini.wasm: ${wasm.length} bytes, ${gzipSync(wasm, { level: 9 }).length} gzipped`)
+  for (const file of readdirSync(installed).filter((name) => name.endsWith('.wasm'))) {
+    const wasm = readFileSync(join(installed, file))
+    console.log(`     ${file}: ${wasm.length} bytes, ${gzipSync(wasm, { level: 9 }).length} gzipped`)
+  }
+
+  // The types, read by the compiler that people have: two settings of how modules are found.
+  cpSync(new URL('types.ts', import.meta.url), join(folder, 'types.ts'))
+  for (const [module, resolution] of [['nodenext', 'nodenext'], ['esnext', 'bundler']]) {
+    let said = ''
+    try {
+      execFileSync('node', [join(modules, 'node_modules/typescript/bin/tsc'), '--strict', '--noEmit', '--target', 'es2022',
+        '--module', module, '--moduleResolution', resolution, '--lib', 'es2022,dom', 'types.ts'], { cwd: folder, encoding: 'utf8' })
+    } catch (error) {
+      said = error.stdout
+    }
+    check(`types, modules found as ${resolution} does`, said === '', said)
+  }
 
   // The README, as printed.
   const work = join(folder, 'readme')

@@ -25,17 +25,17 @@ try:
     import soundfile
 except ImportError as error:
     skip(error)
-if not (WEB / "package/pacini.wasm").exists():
+if not (WEB / "package/encode.wasm").exists():
     skip("build/web is not built")
-if not shutil.which("npm") or (what == "page" and not (shutil.which("chromium") and (MODULES / "modules").exists())):
-    skip("Node.js, Chromium or puppeteer-core is missing")
+if not shutil.which("npm") or not (MODULES / "modules").exists() or (what == "page" and not shutil.which("chromium")):
+    skip("Node.js, its modules or Chromium are missing")
 with tempfile.TemporaryDirectory() as name:
     folder = Path(name)
     for path in sorted((ROOT / "Resources/demo").glob("*.flac")):
         samples, rate = soundfile.read(path, dtype="int16")
         soundfile.write(folder / f"{path.stem}.wav", samples, rate, subtype="PCM_16")
     script = ROOT / "Tests/web" / f"check_{what}.mjs"
-    arguments = ([WEB / "package", program, folder] if what == "package"
+    arguments = ([WEB / "package", MODULES, program, folder] if what == "package"
                  else [WEB / "page", MODULES, program, folder / "knock_wood_bridge.wav",
                        *([os.environ["PACINI_WEB_PICTURES"]] if "PACINI_WEB_PICTURES" in os.environ else [])])
     sys.exit(subprocess.run(["node", script, *arguments]).returncode)

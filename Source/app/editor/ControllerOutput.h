@@ -6,6 +6,7 @@
 #include "devices/HidList.h"
 #include "devices/OpenController.h"
 #include "devices/RumblePlayer.h"
+#include "devices/SteadyClock.h"
 #include "editor/clip/session/Transport.h"
 
 #include <memory>

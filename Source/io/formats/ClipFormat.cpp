@@ -217,6 +217,8 @@ constexpr auto formats = []
     }
     return readers;
 }();
+#elif defined(PACINI_OWN_FORMATS_ONLY)
+constexpr std::array formats{allFormats[0], allFormats[1]};
 #else
 constexpr const auto& formats = allFormats;
 #endif

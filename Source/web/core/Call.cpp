@@ -5,7 +5,6 @@
 #include "io/ProfileJson.h"
 #include "io/formats/ClipFormat.h"
 
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -87,20 +86,6 @@ Result<Profile> profileOf(const Call& call, std::size_t input)
 
 namespace
 {
-struct NamedHandler
-{
-    std::string_view name;
-    Handler handler;
-};
-
-constexpr std::array handlers{
-    NamedHandler{"defaults", tellDefaults}, NamedHandler{"encode", encodeSound},
-    NamedHandler{"read", readClipBytes},    NamedHandler{"write", writeClipBytes},
-    NamedHandler{"formats", listFormats},   NamedHandler{"render", renderClipOrScene},
-    NamedHandler{"compare", compareSounds}, NamedHandler{"profile", describeProfile},
-    NamedHandler{"lint", lintClip},
-};
-
 /// What the last call left: its text is the value or the error.
 struct Reply
 {
@@ -118,7 +103,7 @@ Result<void> perform(std::string_view name, std::string_view options, std::vecto
                      Pull pull)
 {
     constexpr std::size_t longestOptions = 1'000'000;
-    for (const NamedHandler& one : handlers)
+    for (const NamedHandler& one : handlers())
     {
         if (one.name != name)
             continue;

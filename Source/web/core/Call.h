@@ -60,7 +60,17 @@ private:
 /// Does the work of a call. What is wrong with its options stands in the reader.
 using Handler = Result<void> (*)(Call& call);
 
+struct NamedHandler
+{
+    std::string_view name;
+    Handler handler;
+};
+
+/// The calls of a module: each module defines its own (folder `modules`), so that none carries what it does not call.
+[[nodiscard]] std::span<const NamedHandler> handlers();
+
 [[nodiscard]] Result<void> encodeSound(Call& call);
+[[nodiscard]] Result<void> translateSound(Call& call);
 [[nodiscard]] Result<void> tellDefaults(Call& call);
 [[nodiscard]] Result<void> readClipBytes(Call& call);
 [[nodiscard]] Result<void> writeClipBytes(Call& call);
@@ -69,6 +79,7 @@ using Handler = Result<void> (*)(Call& call);
 [[nodiscard]] Result<void> compareSounds(Call& call);
 [[nodiscard]] Result<void> describeProfile(Call& call);
 [[nodiscard]] Result<void> lintClip(Call& call);
+[[nodiscard]] Result<void> listReports(Call& call);
 
 /// The clip in a call's input, of any format; `extension` (with dot) tells formats apart that have no mark.
 [[nodiscard]] Result<Clip> clipOf(const Call& call, std::size_t input, std::string_view extension = {});

@@ -59,6 +59,7 @@ export interface EncodeOptions extends Stoppable {
   progress?: (share: number) => void
 }
 
+/** Methods that make a drive signal give a Float32Array. */
 export function encode(sound: Sound, options: EncodeOptions & { format: 'packed' }): Promise<Uint8Array>
 export function encode(sound: Sound, options: EncodeOptions & { format: 'text' }): Promise<string>
 export function encode(sound: Sound, options?: EncodeOptions): Promise<Clip>
@@ -159,8 +160,27 @@ export function profileInfo(profile: ProfileInput, options?: Stoppable): Promise
 /** The sound in a WAV file, sample for sample as other programs have it. */
 export function readWav(bytes: Uint8Array): { samples: Float32Array | Float32Array[], sampleRate: number }
 
-/** From another place than beside this package. Before the first call. */
-export function loadFrom(place: URL | WebAssembly.Module): void
+export interface ReportsOptions extends Stoppable {
+  /** USB numbers of the controller's maker and product, which it has on Bluetooth too. */
+  vendor: number
+  product: number
+  bluetooth?: boolean
+  /** dB. */
+  gain?: number
+}
+export interface Report {
+  /** Seconds from the start. */
+  time: number
+  /** A feature report. */
+  feature: boolean
+  /** The first is the report's number. */
+  bytes: Uint8Array
+}
+/** The HID reports that play a clip on a game controller, and those that silence it at any moment. */
+export function reports(clip: ClipInput, options: ReportsOptions): Promise<{ reports: Report[], stops: Report[] }>
 
-/** What the module takes of memory, bytes. */
+/** From another place than beside this package: the URL of a folder, or compiled modules by name. Before the first call. */
+export function loadFrom(place: URL | Record<string, WebAssembly.Module>): void
+
+/** What the modules take of memory, bytes. */
 export function memoryInUse(): number

@@ -4,22 +4,18 @@ import { compile, Instance, PaciniError } from './module.js'
 import profileTable from './profiles.js'
 import { monoOf, soundOf } from './sound.js'
 
-export { PaciniError } from './module.js'
+export { loadFrom, PaciniError } from './module.js'
 export { readWav } from './sound.js'
 
-let source
-let instance
+/** Instances by the names of their modules. */
+const instances = new Map()
 
-/** Loads from another place than beside this file: a URL, or a compiled WebAssembly.Module. Before the first call. */
-export const loadFrom = (place) => {
-  source = place
-}
-
-const ready = async (signal) => {
+const ready = async (name, signal) => {
   signal?.throwIfAborted()
-  instance ??= new Instance(await compile(source))
+  const module = await compile(name)
+  if (!instances.has(name)) instances.set(name, new Instance(module))
   signal?.throwIfAborted()
-  return instance
+  return instances.get(name)
 }
 
 const floats = (bytes) => new Float32Array(bytes.buffer, bytes.byteOffset, bytes.byteLength / 4)
@@ -40,6 +36,17 @@ const profileBytes = (profile) => {
   }
   return bytesOf(profile)
 }
+
+/** Whether bytes are a clip of Pacini's own formats, packed or JSON; all others have a module of their own. */
+const isOwn = (bytes) => {
+  const start = new TextDecoder().decode(bytes.subarray(0, 1024))
+  return start.startsWith('PACB') || (/^[\s\uFEFF]*[{/]/.test(start) && start.includes('pacini.clip'))
+}
+const ownBytes = async (clip, signal) => {
+  const bytes = bytesOf(clip)
+  if (isOwn(bytes)) return bytes
+  return (await ready('formats', signal)).call('read', {}, [bytes]).outputs[0]
+}
 const given = (options, names) =>
   Object.fromEntries(names.filter((name) => options[name] !== undefined).map((name) => [name, options[name]]))
 
@@ -48,7 +55,7 @@ export const profileNames = () => Object.keys(profileTable)
 
 /** One of them, or what a profile (an object or a text) says of its actuator. */
 export const profileInfo = async (profile, { signal } = {}) =>
-  (await ready(signal)).call('profile', {}, [profileBytes(profile)]).value
+  (await ready('render', signal)).call('profile', {}, [profileBytes(profile)]).value
 
 /**
  * A sound as a clip: an object as it stands in a `.json` file, the text of that file (`format: 'text'`), or the bytes of
@@ -57,14 +64,16 @@ export const profileInfo = async (profile, { signal } = {}) =>
 export const encode = async (sound, options = {}) => {
   const { signal, progress } = options
   const { sampleRate, channels, frames, reader } = soundOf(sound)
-  const module = await ready(signal)
+  const own = (options.method ?? 'a2vt') === 'a2vt'
+  const name = own ? 'encode' : 'research'
+  const module = await ready(name, signal)
   const read = reader()
   let done = 0
-  const settings = given(options, ['method', 'bands', 'breakpoints', 'quantise', 'low', 'high', 'spacing', 'audible',
+  const settings = given(options, [...(own ? [] : ['method']), 'bands', 'breakpoints', 'quantise', 'low', 'high', 'spacing', 'audible',
     'sensitivity', 'keepLevel', 'name', 'source'])
   settings.format = options.format === 'packed' ? 'packed' : 'json'
   try {
-    const { value, outputs } = module.call('encode', { ...settings, sampleRate, channels, frames }, [], {
+    const { value, outputs } = module.call(own ? 'encode' : 'translate', { ...settings, sampleRate, channels, frames }, [], {
       channels,
       read: (into) => {
         signal?.throwIfAborted()
@@ -80,17 +89,19 @@ export const encode = async (sound, options = {}) => {
     return options.format === 'text' ? text : JSON.parse(text)
   } catch (error) {
     // What a call was in the midst of when it was left is not undone.
-    if (!(error instanceof PaciniError)) instance = undefined
+    if (!(error instanceof PaciniError)) instances.delete(name)
     throw error
   }
 }
 
 /** What encode() and render() do unless they are told otherwise: bands, breakpoints, sensitivity, strength. */
-export const defaults = async ({ signal } = {}) => (await ready(signal)).call('defaults').value
+export const defaults = async ({ signal } = {}) => (await ready('encode', signal)).call('defaults').value
 
 /** A clip of any format as the object of a `.json` clip, with what was let pass. */
 export const read = async (bytes, { extension = '', strict = false, signal } = {}) => {
-  const { value, outputs } = (await ready(signal)).call('read', { extension, strict }, [bytesOf(bytes)])
+  const given = bytesOf(bytes)
+  const module = await ready(isOwn(given) ? 'render' : 'formats', signal)
+  const { value, outputs } = module.call('read', { extension, strict }, [given])
   return { clip: JSON.parse(new TextDecoder().decode(outputs[0])), ...value }
 }
 
@@ -98,7 +109,8 @@ const exporting = ['format', 'name', 'amplitudePoints', 'frequencyPoints', 'samp
 const exported = async (name, clip, options) => {
   const inputs = [bytesOf(clip)]
   if (options.profile !== undefined) inputs.push(profileBytes(options.profile))
-  return (await ready(options.signal)).call(name, given(options, exporting), inputs)
+  const own = ['json', 'packed'].includes(options.format ?? 'json') && isOwn(inputs[0])
+  return (await ready(own ? 'render' : 'formats', options.signal)).call(name, given(options, exporting), inputs)
 }
 
 /** The files that a clip becomes in a format, and what is lost on the way. */
@@ -111,16 +123,16 @@ export const write = async (clip, options = {}) => {
 export const lint = async (clip, options = {}) => (await exported('lint', clip, options)).value.losses
 
 /** All formats, Pacini's own first. */
-export const formats = async ({ signal } = {}) => (await ready(signal)).call('formats').value.formats
+export const formats = async ({ signal } = {}) => (await ready('formats', signal)).call('formats').value.formats
 
 const rendering = ['sampleRate', 'leaveOut', 'adapt', 'strength', 'gain', 'transpose', 'stretch', 'wearer', 'fullScale',
   'protect']
 const rendered = async (what, options, more) => {
   const scene = options.clips !== undefined
-  const inputs = [bytesOf(what)]
+  const inputs = [scene ? bytesOf(what) : await ownBytes(what, options.signal)]
   if (options.profile !== undefined) inputs.push(profileBytes(options.profile))
-  for (const clip of options.clips ?? []) inputs.push(bytesOf(clip))
-  const { value, outputs } = (await ready(options.signal)).call('render',
+  for (const clip of options.clips ?? []) inputs.push(await ownBytes(clip, options.signal))
+  const { value, outputs } = (await ready('render', options.signal)).call('render',
     { ...given(options, rendering), ...more, scene, withProfile: options.profile !== undefined }, inputs)
   const channels = outputs.map(floats)
   return { samples: channels.length === 1 ? channels[0] : channels, sampleRate: options.sampleRate ?? 48000, ...value }
@@ -137,10 +149,21 @@ export const felt = (clip, options = {}) => rendered(clip, options, { felt: true
 
 /** How close a haptic signal is to its sound, by all measures. */
 export const compare = async (sound, candidate, { signal } = {}) => {
-  const module = await ready(signal)
+  const module = await ready('research', signal)
   return module.call('compare', { sampleRate: soundOf(sound).sampleRate, candidateRate: soundOf(candidate).sampleRate },
     [monoOf(sound), monoOf(candidate)]).value
 }
 
-/** What the module takes of memory, bytes. */
-export const memoryInUse = () => instance?.memoryBytes ?? 0
+/**
+ * The HID reports that play a clip on a game controller: bytes with their times, s, and those that silence it at any
+ * moment. The first byte of each is the report's number.
+ */
+export const reports = async (clip, { vendor, product, bluetooth = false, gain = 0, signal } = {}) => {
+  const bytes = await ownBytes(clip, signal)
+  const { value, outputs } = (await ready('devices', signal)).call('reports', { vendor, product, bluetooth, gain }, [bytes])
+  const cut = (index, from) => index.map(({ time, at, length, feature }) => ({ time, feature, bytes: from.subarray(at, at + length) }))
+  return { reports: cut(value.reports, outputs[0]), stops: cut(value.stops, outputs[1]) }
+}
+
+/** What the modules take of memory, bytes. */
+export const memoryInUse = () => [...instances.values()].reduce((sum, { memoryBytes }) => sum + memoryBytes, 0)

@@ -1,4 +1,5 @@
-// The WebAssembly module and calls of it: a name, options and buffers in; a value and buffers out.
+// The WebAssembly modules and calls of them: a name, options and buffers in; a value and buffers out. Each is loaded when
+// one of its calls is made.
 
 /** What is wrong, where, and the kind of error. */
 export class PaciniError extends Error {
@@ -18,22 +19,35 @@ const noImports = (module) => {
   return wasi
 }
 
-/** Compiles the module: once, however often it is asked for. */
-let compiled
-export const compile = (source) => {
-  compiled ??= (async () => {
-    const url = source ?? new URL('./pacini.wasm', import.meta.url)
-    if (url instanceof WebAssembly.Module) return url
-    if (url.protocol === 'file:') {
-      const { readFile } = await import('node:fs/promises')
-      return WebAssembly.compile(await readFile(url))
-    }
-    const answer = await fetch(url)
-    if (!answer.ok) throw new PaciniError({ code: 'io', where: String(url), message: `cannot be loaded (${answer.status})` })
-    return WebAssembly.compile(await answer.arrayBuffer())
-  })()
-  compiled.catch(() => { compiled = undefined })
-  return compiled
+const loading = new Map()
+let place
+
+/** From another place than beside this file: the URL of a folder, or an object of compiled modules by their names. */
+export const loadFrom = (from) => {
+  place = from
+  loading.clear()
+}
+
+const load = async (name) => {
+  if (place?.[name] instanceof WebAssembly.Module) return place[name]
+  const url = new URL(`./${name}.wasm`, place instanceof URL ? place : import.meta.url)
+  if (url.protocol === 'file:') {
+    const { readFile } = await import('node:fs/promises')
+    return WebAssembly.compile(await readFile(url))
+  }
+  const answer = await fetch(url)
+  if (!answer.ok) throw new PaciniError({ code: 'io', where: String(url), message: `cannot be loaded (${answer.status})` })
+  return WebAssembly.compile(await answer.arrayBuffer())
+}
+
+/** The module of that name, compiled once, however often it is asked for. */
+export const compile = (name) => {
+  if (!loading.has(name)) {
+    const compiled = load(name)
+    loading.set(name, compiled)
+    compiled.catch(() => loading.delete(name))
+  }
+  return loading.get(name)
 }
 
 /** An instance; one call at a time, since all of it is synchronous. */

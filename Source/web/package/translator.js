@@ -7,8 +7,8 @@ import profileTable from './profiles.js'
  * A node that turns the sound that is led to it into the drive signal of an actuator, one channel, `latency` frames late.
  * `profile`: a name, or the object or text of a profile; none: a plain drive.
  */
-export const createTranslator = async (context, { profile, wasm } = {}) => {
-  const module = await compile(wasm)
+export const createTranslator = async (context, { profile } = {}) => {
+  const module = await compile('translator')
   await context.audioWorklet.addModule(new URL('./translator-worklet.js', import.meta.url))
   let text = profile
   if (typeof profile === 'string' && Object.hasOwn(profileTable, profile)) text = profileTable[profile]

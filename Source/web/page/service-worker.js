@@ -2,7 +2,7 @@
 
 const cacheName = 'pacini-1'
 const first = ['./', 'index.html', 'style.css', 'app.js', 'core.js', 'feel.js', 'lanes.js', 'store.js', 'worker.js',
-  'gallery/list.js', 'pacini/index.js', 'pacini/module.js', 'pacini/sound.js', 'pacini/profiles.js', 'pacini/pacini.wasm']
+  'gallery/list.js', 'pacini/index.js', 'pacini/module.js', 'pacini/sound.js', 'pacini/profiles.js', 'pacini/encode.wasm', 'pacini/render.wasm', 'pacini/formats.wasm']
 
 self.addEventListener('install', (event) => {
   event.waitUntil(caches.open(cacheName).then((cache) => cache.addAll(first)).then(() => self.skipWaiting()))

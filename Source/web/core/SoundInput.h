@@ -1,0 +1,89 @@
+#pragma once
+
+// The sound that a call works on, which JavaScript hands out piece by piece, and the clip that is made of it.
+
+#include "io/AudioReader.h"
+#include "io/ClipSeal.h"
+#include "io/Utf8.h"
+#include "io/formats/ClipFormat.h"
+#include "web/core/Call.h"
+
+#include <pacini/analysis/EncodeSound.h>
+#include <pacini/clip/PackedClip.h>
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace pacini::web
+{
+
+/// Options `sampleRate`, `channels`, `frames`, `name`, `source` and `format` of a call, and its sound.
+class SoundInput
+{
+public:
+    explicit SoundInput(Call& ofSound)
+        : call(ofSound),
+          rate(static_cast<int>(call.number("sampleRate", 0.0, limits::lowestSampleRate, limits::highestSampleRate))),
+          channels(static_cast<int>(call.number("channels", 1.0, 1.0, limits::channels))),
+          frames(static_cast<std::uint64_t>(call.number("frames", 0.0, 0.0, 1e12))),
+          name(call.word("name", "")),
+          source(call.word("source", "")),
+          format(clipFormatNamed(call.word("format", "json"))),
+          buffer(soundPartLength(static_cast<std::size_t>(channels)))
+    {
+        if (format == nullptr || !format->isOwn())
+            call.reader.fail("format", "must be json or packed", ErrorCode::invalidArgument);
+        if (rate == 0)
+            call.reader.fail("sampleRate", "is missing", ErrorCode::invalidArgument);
+    }
+
+    [[nodiscard]] SoundFormat sound() const { return {rate, channels, frames, std::nullopt}; }
+
+    /// The next part, empty at the end. Errors: notFinite.
+    [[nodiscard]] SoundPart operator()()
+    {
+        const std::size_t got = call.pullSound(buffer);
+        const auto width = static_cast<std::size_t>(channels);
+        const auto samples = std::span<const float>(buffer).first(got * width);
+        for (std::size_t i = 0; i < samples.size(); ++i)
+            if (!std::isfinite(samples[i]))
+                return Error{ErrorCode::notFinite, fmt::format("frame {}, channel {}", done + i / width, i % width),
+                             "is no finite number"};
+        done += got;
+        return samples;
+    }
+
+    /// Puts the clip that was made of it, rounded to its grids, into the call's outputs.
+    [[nodiscard]] Result<void> put(Clip clip) const
+    {
+        clip.name = wellFormedUtf8(name);
+        clip.source.file = wellFormedUtf8(source);
+        clip.source.sampleRate = rate;
+        clip.source.channels = channels;
+        Clip finished = onGrids(std::move(clip));
+        sealClip(finished);
+        const auto written = format->write(finished);
+        if (!written)
+            return written.error();
+        call.put(written->files.front().bytes);
+        return {};
+    }
+
+private:
+    Call& call;
+    int rate;
+    int channels;
+    std::uint64_t frames; ///< 0: not known before its end
+    std::string name, source;
+    const ClipFormat* format;
+    std::vector<float> buffer;
+    std::uint64_t done = 0;
+};
+
+} // namespace pacini::web

@@ -1,0 +1,21 @@
+// The module of the formats of other programs.
+
+#include "web/core/Call.h"
+
+#include <array>
+
+namespace pacini::web
+{
+
+std::span<const NamedHandler> handlers()
+{
+    static constexpr std::array all{
+        NamedHandler{"formats", listFormats},
+        NamedHandler{"read", readClipBytes},
+        NamedHandler{"write", writeClipBytes},
+        NamedHandler{"lint", lintClip},
+    };
+    return all;
+}
+
+} // namespace pacini::web

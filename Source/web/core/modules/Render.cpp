@@ -1,0 +1,20 @@
+// The module of clips in Pacini's own formats, and of what actuators play of them.
+
+#include "web/core/Call.h"
+
+#include <array>
+
+namespace pacini::web
+{
+
+std::span<const NamedHandler> handlers()
+{
+    static constexpr std::array all{
+        NamedHandler{"read", readClipBytes},       NamedHandler{"write", writeClipBytes},
+        NamedHandler{"lint", lintClip},            NamedHandler{"render", renderClipOrScene},
+        NamedHandler{"profile", describeProfile},
+    };
+    return all;
+}
+
+} // namespace pacini::web

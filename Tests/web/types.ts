@@ -1,0 +1,31 @@
+// What the package says of its types, read by a compiler: each line that must be refused stands under its mark.
+import { encode, felt, formats, lint, PaciniError, profileNames, read, render, reports, write } from 'pacini'
+import type { Clip, Loss, Sound } from 'pacini'
+import { createTranslator } from 'pacini/translator'
+
+const sound: Sound = { samples: new Float32Array(4800), sampleRate: 48000 }
+const decoded: Sound = new AudioBuffer({ length: 1, sampleRate: 48000 })
+
+export const use = async (context: AudioContext): Promise<number> => {
+  const clip: Clip = await encode(sound, { bands: 8, signal: new AbortController().signal, progress: (share: number) => share })
+  const packed: Uint8Array = await encode(decoded, { format: 'packed' })
+  const text: string = await encode(sound, { format: 'text' })
+  const drive = await render(packed, { profile: 'l5-wristband' })
+  const skin = await felt(text, { profile: profileNames()[0] })
+  const losses: Loss[] = await lint(clip, { format: 'ahap' })
+  const { files } = await write(clip, { format: (await formats())[0].name })
+  const { reports: bytes } = await reports(clip, { vendor: 0x054c, product: 0x0ce6 })
+  const node: AudioWorkletNode = await createTranslator(context, { profile: 'lra-175' })
+  const { warnings } = await read(files[0].bytes)
+  // @ts-expect-error bands are a number
+  await encode(sound, { bands: 'many' })
+  // @ts-expect-error a sound has a rate
+  await encode({ samples: new Float32Array(1) })
+  // @ts-expect-error what is felt needs an actuator
+  await felt(clip)
+  // @ts-expect-error a controller has numbers
+  await reports(clip, {})
+  const wrong: unknown = new Error()
+  const where: string = wrong instanceof PaciniError ? wrong.where : ''
+  return drive.frames + skin.frames + losses.length + bytes.length + node.numberOfOutputs + warnings.length + where.length
+}
