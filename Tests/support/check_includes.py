@@ -38,7 +38,7 @@ SOURCE = {
     "devices": ({"devices"}, NO_JUCE),
     "library": ({"io", "document", "devices", "library"}, NO_JUCE),
     "python": ({"io", "document", "python"}, NO_JUCE),
-    "web": ({"io", "devices", "web"}, NO_JUCE),
+    "web": ({"io", "document", "devices", "web"}, NO_JUCE),
     "plugin/engine": ({"io", "document", "devices", "plugin/engine"}, NO_WINDOWS),
     "plugin/window": ({"io", "study", "document", "devices", "editor", "plugin/engine", "plugin/window"}, ()),
     "editor": ({"io", "study", "document", "devices", "editor"}, ()),

@@ -34,7 +34,7 @@ try {
   execFileSync('npm', ['install', '--silent', '--no-audit', '--no-fund', join(folder, packed)], { cwd: folder })
   const installed = join(folder, 'node_modules/pacini')
   const pacini = await import(join(installed, 'index.js'))
-  const { encode, read, write, lint, render, felt, compare, formats, profileNames, profileInfo, readWav, reports, PaciniError } = pacini
+  const { encode, read, write, lint, render, felt, compare, formats, profileNames, profileInfo, readWav, reports, spectrogram, PaciniError } = pacini
 
   let differing = 0, rendered = 0
   const names = readdirSync(sounds).filter((name) => name.endsWith('.wav')).sort()
@@ -84,6 +84,12 @@ try {
   const drive = await render(clip, { sampleRate: sound.sampleRate })
   const figures = await compare(sound, drive)
   check('a comparison has its figures', figures.hts > 0 && figures.match > 0, `HTS ${figures.hts}, match ${figures.match}`)
+  const tone = Float32Array.from({ length: 48000 }, (_, n) => Math.sin(2 * Math.PI * 200 * n / 48000))
+  const picture = await spectrogram({ samples: tone, sampleRate: 48000 }, { columns: 40 })
+  const light = (y) => picture.pixels[4 * (y * picture.width + 20)] + picture.pixels[4 * (y * picture.width + 20) + 1]
+  const brightest = Array.from({ length: picture.height }, (_, y) => y).reduce((best, y) => light(y) > light(best) ? y : best, 0)
+  const hertz = picture.low * (picture.high / picture.low) ** ((picture.height - brightest - 0.5) / picture.height)
+  check('a spectrogram shows a tone where it is', picture.width === 40 && Math.abs(hertz / 200 - 1) < 0.05, `${hertz.toFixed(0)} Hz of 200`)
   check('actuators are there', profileNames().length === 12 && (await profileInfo('lra-175')).high > 0)
   const controllers = [['switch', 0x057e, 0x2009, true], ['switch-usb', 0x057e, 0x2009, false],
     ['dualsense', 0x054c, 0x0ce6, false], ['dualsense-bluetooth', 0x054c, 0x0ce6, true],

@@ -1,8 +1,9 @@
 // The page in headless Chromium: a sound is dropped, changed, felt by a controller that records, exported and shared; a
 // reload keeps it, also without a network; nothing leaves the page's own place; axe finds nothing.
 //
-// check_page.mjs PAGE MODULES PACINI SOUND.wav [PICTURES]    PAGE: the built folder; MODULES: the folder with
-// puppeteer-core and axe-core; PICTURES: a folder for pictures in three sizes. Exit 0, 1 on a failed check.
+// check_page.mjs PAGE MODULES PACINI LIVE SOUND.wav [PICTURES]    PAGE: the built folder; MODULES: the folder with
+// puppeteer-core and axe-core; LIVE: pacini_live_reference; PICTURES: a folder for pictures in three sizes. Exit 0, 1 on a
+// failed check.
 import { execFileSync, spawn } from 'node:child_process'
 import { existsSync, mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs'
 import { createRequire } from 'node:module'
@@ -10,7 +11,7 @@ import { tmpdir } from 'node:os'
 import { dirname, join } from 'node:path'
 import { fileURLToPath } from 'node:url'
 
-const [page, modules, program, sound, pictures] = process.argv.slice(2)
+const [page, modules, program, live, sound, pictures] = process.argv.slice(2)
 const require = createRequire(join(modules, 'package.json'))
 const { default: puppeteer } = await import(join(modules, 'node_modules/puppeteer-core/lib/puppeteer/puppeteer-core.js')).catch(() =>
   import(require.resolve('puppeteer-core')))
@@ -32,7 +33,8 @@ const until = async (condition, seconds = 20) => {
 
 const browser = await puppeteer.launch({
   executablePath: ['/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome'].find(existsSync),
-  args: ['--no-sandbox', '--headless=new', '--disable-gpu', '--autoplay-policy=no-user-gesture-required'],
+  args: ['--no-sandbox', '--headless=new', '--disable-gpu', '--autoplay-policy=no-user-gesture-required',
+    '--use-fake-device-for-media-stream', '--use-fake-ui-for-media-stream'],
   userDataDir: join(folder, 'profile')
 })
 try {
@@ -53,6 +55,19 @@ try {
       }
     }
     navigator.getGamepads = () => [pad]
+    // A DualSense on a cable, which is there once it is chosen.
+    globalThis.reports = []
+    const dualSense = {
+      vendorId: 0x054c, productId: 0x0ce6, productName: 'Test DualSense', opened: false,
+      collections: [{ outputReports: [{ reportId: 2 }] }],
+      open: async () => { dualSense.opened = true },
+      sendReport: async (id, data) => { globalThis.reports.push({ at: performance.now(), id, bytes: [...data] }) },
+      sendFeatureReport: async () => {}
+    }
+    Object.defineProperty(navigator, 'hid', { value: {
+      requestDevice: async ({ filters }) => filters.some(({ vendorId }) => vendorId === 0x054c) ? [dualSense] : [],
+      getDevices: async () => [], addEventListener: () => {}
+    } })
     globalThis.copied = ''
     Object.defineProperty(navigator, 'clipboard', { value: { writeText: async (text) => { globalThis.copied = text } } })
   })
@@ -105,6 +120,92 @@ try {
   check('with both motors', rumbles.some(({ strongMagnitude }) => strongMagnitude > 0.1) && rumbles.some(({ weakMagnitude }) => weakMagnitude > 0.1) &&
     rumbles.every(({ strongMagnitude, weakMagnitude }) => strongMagnitude <= 1 && weakMagnitude <= 1), `${rumbles.length} commands`)
 
+  // A controller by its own reports: those that the program lists, at their times.
+  await tab.click('#controller')
+  check('a controller is chosen', await until(async () => (await text('feel-status')).includes('Test DualSense')))
+  await tab.click('#feel')
+  const listed = JSON.parse(execFileSync(program, ['play', 'knock.pacb', '--dry-run', '--like', 'dualsense', '--json'], { cwd: folder, encoding: 'utf8' })).packets
+  await until(() => tab.evaluate((count) => globalThis.reports.length >= count, listed.length))
+  const sent = await tab.evaluate(() => globalThis.reports)
+  const hex = ({ id, bytes }) => Buffer.from([id, ...bytes]).toString('hex')
+  check('its reports are those of the program', sent.length === listed.length && sent.every((report, i) => hex(report) === listed[i].bytes.replaceAll(' ', '').toLowerCase()),
+    `${sent.length} and ${listed.length}`)
+  const late = sent.map(({ at }, i) => at - sent[0].at - 1000 * (listed[i].time - listed[0].time))
+  check('in their order and time', late.every((milliseconds) => milliseconds > -2), `at most ${Math.max(...late).toFixed(1)} ms late`)
+  await tab.evaluate(() => { globalThis.reports = [] })
+  await tab.click('#feel')
+  await until(() => tab.evaluate(() => globalThis.reports.length > 5))
+  await tab.click('#stop')
+  await wait(300)
+  const stopped = await tab.evaluate(() => globalThis.reports)
+  const silent = listed.at(-2).bytes.replaceAll(' ', '').toLowerCase()
+  check('stopped, it is silent', stopped.length < listed.length && hex(stopped.at(-1)) === silent, `${stopped.length} reports`)
+
+  // Editing: by the keyboard, by the pointer, by the numbers, and back.
+  const number = (id) => tab.$eval(`#${id}`, (element) => Number(element.value))
+  await tab.$eval('#edit', (element) => { element.open = true })
+  await tab.select('#lane', 'total')
+  await tab.focus('#lanes')
+  for (let i = 0; i < 3; ++i) await tab.keyboard.press('ArrowRight')
+  check('a point is chosen by the keyboard', (await text('selected')).startsWith('Point 4 of'), await text('selected'))
+  const was = await number('amplitude'), wasTime = await number('time')
+  await tab.keyboard.press('ArrowUp')
+  await tab.keyboard.press('ArrowUp')
+  check('and moved', Math.abs(await number('amplitude') - was - 0.04) < 0.002, `${was} to ${await number('amplitude')}`)
+  await tab.keyboard.down('Control')
+  await tab.keyboard.press('z')
+  await tab.keyboard.up('Control')
+  check('one step is undone', await until(async () => Math.abs(await number('amplitude') - was) < 1e-9), `${await number('amplitude')}`)
+  const box = await (await tab.$('#lanes')).boundingBox()
+  const spot = await tab.$eval('#lanes', (canvas, time, amplitude, duration) => [8 + time / duration * (canvas.clientWidth - 16),
+    canvas.clientHeight * (0.205 + (1 - amplitude) * 0.245)], wasTime, was, parseFloat(await text('figures')))
+  await tab.mouse.move(box.x + spot[0], box.y + spot[1])
+  await tab.mouse.down()
+  await tab.mouse.move(box.x + spot[0] + 1, box.y + spot[1] + 20, { steps: 4 })
+  await tab.mouse.up()
+  const dragged = await number('amplitude')
+  check('a point is dragged', dragged < was - 0.05 && (await text('selected')).startsWith('Point 4'), `${was} to ${dragged}`)
+  await tab.select('#lane', 'events')
+  const events = (await text('selected')).match(/of (\d+)/)?.[1]
+  await tab.$eval('#time', (input) => { input.value = '0.1'; input.dispatchEvent(new Event('change', { bubbles: true })) })
+  await tab.click('#add')
+  check('an event is added', await until(async () => (await text('figures')).includes(`${Number(events) + 1} events`)), await text('figures'))
+  const edited = await save('json', '.json')
+  const clip = JSON.parse(edited)
+  check('an edited clip is saved as it is', clip.transients.length === Number(events) + 1 && Math.abs(clip.envelope[3].amplitude - dragged) < 0.001, `${clip.transients.length} events, ${clip.envelope[3].amplitude}`)
+  writeFileSync(join(folder, 'edited.json'), edited)
+  check('and the program reads it', execFileSync(program, ['info', 'edited.json', '--strict', '-q'], { cwd: folder, encoding: 'utf8' }).length > 0)
+  for (let i = 0; i < 8; ++i) await tab.$eval('#undo', (button) => button.click()).then(() => wait(150))
+  check('all is undone', Buffer.compare(await save('packed', '.pacb') ?? Buffer.alloc(0), packed) === 0)
+
+  // All formats as one archive, which another program unpacks.
+  for (const file of readdirSync(downloads)) rmSync(join(downloads, file))
+  await tab.click('#save-all')
+  await until(() => existsSync(join(downloads, 'knock.zip')), 60)
+  await wait(300)
+  execFileSync('python3', ['-c', 'import zipfile; z = zipfile.ZipFile("saved/knock.zip"); assert z.testzip() is None; z.extractall("unzipped")'], { cwd: folder })
+  check('a ZIP holds all formats', readdirSync(join(folder, 'unzipped/knock')).length > 15 &&
+    Buffer.compare(readFileSync(join(folder, 'unzipped/knock/ahap/knock.ahap')), readFileSync(join(folder, 'knock.ahap'))) === 0,
+  `${readdirSync(join(folder, 'unzipped/knock')).length} formats; ${await text('losses')}`)
+
+  // A spectrogram, and how close the clip is.
+  const colours = () => tab.$eval('#lanes', (canvas) => {
+    const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, Math.round(canvas.height * 0.16))
+    return new Set(Array.from({ length: data.length / 4 }, (_, i) => data[4 * i] << 16 | data[4 * i + 1] << 8 | data[4 * i + 2])).size
+  })
+  const plain = await colours()
+  await tab.click('#spectrogram')
+  check('a spectrogram is shown', await until(async () => (await colours()) > plain + 50), `${plain} and ${await colours()} colours`)
+  await tab.$eval('#comparison', (details) => { details.open = true })
+  await until(() => tab.$eval('#measures', (table) => !table.hidden))
+  execFileSync(program, ['render', 'knock.pacb', '-o', 'flat.wav', '-q', '-y'], { cwd: folder })
+  const measured = JSON.parse(execFileSync(program, ['compare', 'knock.wav', 'flat.wav', '--json'], { cwd: folder, encoding: 'utf8' }))
+  const told = await tab.$eval('#measures td', (cell) => parseFloat(cell.textContent))
+  const own = JSON.stringify(measured).match(/"hts":\s*([\d.]+)/)?.[1]
+  check('measures are those of the program', Math.abs(told - Number(own)) < 0.5, `HTS ${told}, ${own}`)
+  await tab.$eval('#comparison', (details) => { details.open = false })
+  await tab.click('#spectrogram')
+
   // Knobs.
   const before = await text('figures')
   await tab.$eval('#breakpoints', (input) => { input.value = '4'; input.dispatchEvent(new Event('input', { bubbles: true })) })
@@ -152,11 +253,80 @@ try {
   server = serve()
   await until(async () => (await fetch(place).catch(() => undefined))?.ok)
 
+  // The live translator in an audio worklet: sample for sample what the same class gives outside of browsers.
+  const profileText = readFileSync(join(dirname(fileURLToPath(import.meta.url)), '../../profiles/lra-175.json'))
+  writeFileSync(join(folder, 'lra.json'), profileText)
+  const heard = Float32Array.from({ length: 48000 }, (_, n) => 0.6 * Math.exp(-(n % 12000) / 3000) * Math.sin(2 * Math.PI * (60 + n / 200) * n / 48000))
+  writeFileSync(join(folder, 'heard.f32'), Buffer.from(heard.buffer))
+  const expected = execFileSync('sh', ['-c', '"$0" 48000 lra.json < heard.f32', live], { cwd: folder, maxBuffer: 1e8 })
+  const translated = await tab.evaluate(async (base64) => {
+    const samples = new Float32Array(Uint8Array.from(atob(base64), (c) => c.charCodeAt(0)).buffer)
+    const { createTranslator } = await import('./pacini/translator.js')
+    const context = new OfflineAudioContext(1, samples.length, 48000)
+    const buffer = new AudioBuffer({ length: samples.length, sampleRate: 48000 })
+    buffer.copyToChannel(samples, 0)
+    const node = await createTranslator(context, { profile: 'lra-175' })
+    const source = new AudioBufferSourceNode(context, { buffer })
+    source.connect(node).connect(context.destination)
+    source.start()
+    return { latency: node.latency, samples: [...(await context.startRendering()).getChannelData(0)] }
+  }, Buffer.from(heard.buffer).toString('base64'))
+  const reference = new Float32Array(expected.buffer.slice(expected.byteOffset, expected.byteOffset + expected.length))
+  let largest = 0, loudest = 0
+  for (let n = 0; n < reference.length; ++n) {
+    largest = Math.max(largest, Math.abs(reference[n] - translated.samples[n]))
+    loudest = Math.max(loudest, Math.abs(reference[n]))
+  }
+  check('the live translator gives the samples of the program', largest === 0 && loudest > 0.05, `largest difference ${largest}, loudest ${loudest.toFixed(2)}, ${translated.latency} frames late`)
+  const refused = await tab.evaluate(() => import('./pacini/translator.js').then(({ createTranslator }) => createTranslator(new OfflineAudioContext(1, 1, 48000), { profile: '{}' })).catch(({ name, where }) => `${name} ${where}`))
+  check('a profile that is none is refused', refused === 'PaciniError profile', refused)
+  await tab.click('#live')
+  check('and runs on the microphone', await until(async () => (await text('feel-status')).includes('microphone')), await text('error'))
+  await tab.click('#live')
+  await tab.click('#record')
+  await wait(1500)
+  await tab.click('#record')
+  check('a recording is analysed', await analysed() && (await tab.$eval('#lanes', (canvas) => canvas.getAttribute('aria-label'))).startsWith('recording'), await text('figures'))
+
+  // Scrolling a minute: every picture within 1/60 s of work.
+  const minute = Buffer.concat([bytes.subarray(0, 44), ...Array.from({ length: Math.ceil(60 / ((bytes.length - 44) / 88200)) }, () => bytes.subarray(44))])
+  minute.writeUInt32LE(minute.length - 8, 4)
+  minute.writeUInt32LE(minute.length - 44, 40)
+  await tab.setViewport({ width: 1440, height: 900 })
+  await tab.goto(place)
+  await until(async () => (await text('figures')).includes('bytes packed'))
+  await drop(minute, 'minute.wav')
+  check('a minute is analysed', await until(async () => (await text('status')).startsWith('Analysed') && (await text('figures')).startsWith('60.') && (await text('figures')).includes('bytes packed'), 60), await text('figures'))
+  await wait(1000)
+  const pictureTimes = await tab.evaluate(async () => {
+    const canvas = document.getElementById('lanes'), { left, top, width } = canvas.getBoundingClientRect()
+    const turn = (init) => canvas.dispatchEvent(new WheelEvent('wheel', { clientX: left + width / 2, clientY: top + 50, cancelable: true, bubbles: true, ...init }))
+    turn({ deltaY: -500, ctrlKey: true })
+    // What the page does for one picture, from its beginning to its end, while it scrolls.
+    const times = []
+    const native = globalThis.requestAnimationFrame
+    globalThis.requestAnimationFrame = (work) => native((now) => {
+      const started = performance.now()
+      work(now)
+      times.push(performance.now() - started)
+    })
+    for (let i = 0; i < 120; ++i) {
+      turn({ deltaX: 24 })
+      await new Promise((resolve) => native(() => setTimeout(resolve, 0)))
+    }
+    globalThis.requestAnimationFrame = native
+    return times.sort((a, b) => a - b)
+  })
+  const at = (share) => pictureTimes[Math.floor(share * (pictureTimes.length - 1))]
+  // A figure, not a bar: how fast a machine is, is no test.
+  check('a minute is scrolled', pictureTimes.length >= 100, `${pictureTimes.length} pictures, median ${at(0.5)?.toFixed(1)}, 95 % ${at(0.95)?.toFixed(1)}, worst ${at(1)?.toFixed(1)} ms of 16.7`)
+
   // Keyboard, and what screen readers are told.
   await tab.goto(place)
   await until(async () => (await text('figures')).includes('bytes packed'))
+  await tab.$$eval('details', (all) => all.forEach((one) => { one.open = true }))
   const reached = new Set()
-  for (let i = 0; i < 40; ++i) {
+  for (let i = 0; i < 70; ++i) {
     await tab.keyboard.press('Tab')
     reached.add(await tab.evaluate(() => document.activeElement?.id))
   }

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The npm package in Node.js, and the page in Chromium: check_web.py package|page PACINI
+"""The npm package in Node.js, and the page in Chromium: check_web.py package|page PACINI LIVE_REFERENCE
 
 Exit 0, 1 on a failed check, 77 when build/web, Node.js, Chromium or their modules are not there; `bash cmake/bootstrap.sh
 slow-tests` brings them all.
@@ -20,7 +20,7 @@ def skip(why):
     sys.exit(77)
 
 
-what, program = sys.argv[1:3]
+what, program, live = sys.argv[1:4]
 try:
     import soundfile
 except ImportError as error:
@@ -36,6 +36,6 @@ with tempfile.TemporaryDirectory() as name:
         soundfile.write(folder / f"{path.stem}.wav", samples, rate, subtype="PCM_16")
     script = ROOT / "Tests/web" / f"check_{what}.mjs"
     arguments = ([WEB / "package", MODULES, program, folder] if what == "package"
-                 else [WEB / "page", MODULES, program, folder / "knock_wood_bridge.wav",
+                 else [WEB / "page", MODULES, program, live, folder / "knock_wood_bridge.wav",
                        *([os.environ["PACINI_WEB_PICTURES"]] if "PACINI_WEB_PICTURES" in os.environ else [])])
     sys.exit(subprocess.run(["node", script, *arguments]).returncode)

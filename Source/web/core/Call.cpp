@@ -7,7 +7,6 @@
 
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <cstring>
 #include <utility>
 
@@ -135,16 +134,6 @@ extern "C"
     /// Fills `samples`, which has room for so many frames, with the next of the sound of a call; how many came.
     [[clang::import_module("pacini"), clang::import_name("pull")]] std::uint32_t paciniPull(float* samples,
                                                                                             std::uint32_t frames);
-
-    [[clang::export_name("allocate")]] void* paciniAllocate(std::uint32_t bytes)
-    {
-        return std::malloc(bytes == 0 ? 1 : bytes);
-    }
-
-    [[clang::export_name("release")]] void paciniRelease(void* memory)
-    {
-        std::free(memory);
-    }
 
     /// `inputs`: pairs of an address and a length. 0: done, else what is wrong is told as the value would be.
     [[clang::export_name("call")]] std::uint32_t paciniCall(const char* name, std::uint32_t nameLength,

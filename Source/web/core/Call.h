@@ -80,6 +80,7 @@ struct NamedHandler
 [[nodiscard]] Result<void> describeProfile(Call& call);
 [[nodiscard]] Result<void> lintClip(Call& call);
 [[nodiscard]] Result<void> listReports(Call& call);
+[[nodiscard]] Result<void> drawSpectrogram(Call& call);
 
 /// The clip in a call's input, of any format; `extension` (with dot) tells formats apart that have no mark.
 [[nodiscard]] Result<Clip> clipOf(const Call& call, std::size_t input, std::string_view extension = {});

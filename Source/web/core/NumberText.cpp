@@ -1,5 +1,5 @@
-// std::to_chars() of a double, which the C++ library makes with tables of 100 kB that no other call here needs. This one
-// is linked before it and gives the same text: as few digits as read back as the number, in the shorter notation.
+// std::to_chars() of a double, which the C++ library makes with tables of 100 kB that no other call here needs. This
+// one is linked before it and gives the same text: as few digits as read back as the number, in the shorter notation.
 
 #include <fmt/format.h>
 

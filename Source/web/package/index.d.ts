@@ -160,6 +160,19 @@ export function profileInfo(profile: ProfileInput, options?: Stoppable): Promise
 /** The sound in a WAV file, sample for sample as other programs have it. */
 export function readWav(bytes: Uint8Array): { samples: Float32Array | Float32Array[], sampleRate: number }
 
+export interface SpectrogramOptions extends Stoppable {
+  /** Seconds: the whole sound. */
+  from?: number
+  to?: number
+  /** Pixels: 800. */
+  columns?: number
+  /** Hz at the top: 2000. */
+  high?: number
+  dark?: boolean
+}
+/** The picture of a stretch of a sound: four bytes a pixel, the highest frequency first. */
+export function spectrogram(sound: Sound, options?: SpectrogramOptions): Promise<{ width: number, height: number, low: number, high: number, pixels: Uint8Array }>
+
 export interface ReportsOptions extends Stoppable {
   /** USB numbers of the controller's maker and product, which it has on Bluetooth too. */
   vendor: number

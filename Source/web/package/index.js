@@ -155,6 +155,17 @@ export const compare = async (sound, candidate, { signal } = {}) => {
 }
 
 /**
+ * The picture of a stretch of a sound, `from` to `to` s, in the colours of the editor: `pixels` of four bytes, `width` and
+ * `height` of them, the highest frequency first.
+ */
+export const spectrogram = async (sound, { from = 0, to, columns = 800, high, dark = true, signal } = {}) => {
+  const { sampleRate, frames } = soundOf(sound)
+  const { value, outputs } = (await ready('research', signal)).call('spectrogram',
+    { sampleRate, from, to: to ?? frames / sampleRate, columns, dark, ...(high === undefined ? {} : { high }) }, [monoOf(sound)])
+  return { ...value, pixels: outputs[0] }
+}
+
+/**
  * The HID reports that play a clip on a game controller: bytes with their times, s, and those that silence it at any
  * moment. The first byte of each is the report's number.
  */

@@ -9,23 +9,16 @@ class PaciniTranslator extends AudioWorkletProcessor {
       if (one.module === 'wasi_snapshot_preview1') wasi[one.name] = () => 0
     const { exports } = new WebAssembly.Instance(module, { pacini: { pull: () => 0 }, wasi_snapshot_preview1: wasi })
     exports._initialize()
-    const bytes = profile ?? new Uint8Array()
-    const address = exports.allocate(bytes.length)
-    new Uint8Array(exports.memory.buffer, address, bytes.length).set(bytes)
-    this.handle = exports.translatorCreate(sampleRate, address, bytes.length)
+    const address = exports.allocate(profile.length)
+    new Uint8Array(exports.memory.buffer, address, profile.length).set(profile)
+    this.handle = exports.translatorCreate(sampleRate, address, profile.length)
     exports.release(address)
     this.exports = exports
-    if (this.handle !== 0) {
-      this.from = new Float32Array(exports.memory.buffer, exports.translatorIn(this.handle), 1024)
-      this.to = new Float32Array(exports.memory.buffer, exports.translatorOut(this.handle), 1024)
-    }
-    this.port.postMessage(this.handle === 0
-      ? { failed: 'this profile or sample rate cannot be played' }
-      : { latency: exports.translatorLatency(this.handle) })
+    this.from = new Float32Array(exports.memory.buffer, exports.translatorIn(this.handle), 1024)
+    this.to = new Float32Array(exports.memory.buffer, exports.translatorOut(this.handle), 1024)
   }
 
   process([input], [output]) {
-    if (this.handle === 0) return false
     const to = output[0]
     const count = to.length
     const scale = 1 / Math.max(1, input.length)

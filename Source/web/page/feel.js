@@ -1,35 +1,40 @@
 // Touch: game controllers, and phones that vibrate.
 
+import { valueAt } from './edits.js'
+import { choose, chosen, isBluetooth, playReports } from './hid.js'
+
 /** Controllers that rumble now. */
 export const rumbling = () => [...(navigator.getGamepads?.() ?? [])].filter((pad) => pad?.vibrationActuator)
 
+const canVibrate = () => typeof navigator.vibrate === 'function' && navigator.maxTouchPoints > 0
+
+/** Whether there is anything to feel with. */
+export const feelsNow = () => chosen() !== undefined || rumbling().length > 0 || canVibrate()
+
 /** What is there to feel with, in words. */
 export const describeFeel = () => {
+  if (chosen()) return `On ${chosen().productName || 'the controller'}, with its own reports.`
   const pads = rumbling()
   if (pads.length > 0) return `On ${pads.map((pad) => pad.id.replace(/\s*\(.*$/, '')).join(', ')}.`
-  if (typeof navigator.vibrate === 'function' && navigator.maxTouchPoints > 0) return 'On this phone.'
+  if (canVibrate()) return 'On this phone.'
   return 'Connect a game controller and press one of its buttons, or open this page on a phone that vibrates. ' +
     'An actuator on a sound interface plays "Sound left, touch right".'
 }
 
+/** Asks for a controller that understands reports. */
+export const connectController = () => choose()
+
 /** Strong and weak motor over time: low bands and high ones, as `{start, duration, strong, weak}` of 16 ms. */
 export const rumbleOf = (clip) => {
   const step = 0.016, frames = []
-  const at = (points, time) => {
-    let i = points.findIndex((point) => point.time > time)
-    if (i === 0) return points[0].amplitude
-    if (i < 0) return points.length > 0 ? points.at(-1).amplitude : 0
-    const a = points[i - 1], b = points[i]
-    return a.amplitude + (b.amplitude - a.amplitude) * (time - a.time) / (b.time - a.time)
-  }
   for (let time = 0; time < clip.duration; time += step) {
     let low = 0, high = 0
     for (const band of clip.bands) {
-      const value = at(band.amplitude, time)
+      const value = valueAt(band.amplitude, time)
       if (band.centreFrequency < 90) low = Math.hypot(low, value)
       else high = Math.hypot(high, value)
     }
-    if (clip.bands.length === 0) low = high = at(clip.envelope, time)
+    if (clip.bands.length === 0) low = high = valueAt(clip.envelope, time)
     for (const event of clip.transients)
       if (event.time >= time - step && event.time < time + step)
         high = Math.max(high, event.amplitude), low = Math.max(low, event.amplitude * (1 - event.sharpness))
@@ -57,17 +62,31 @@ export const vibrationOf = (clip) => {
   return { start: frames[first].start, pattern: on ? pattern : pattern.slice(0, -1) }
 }
 
-/** Plays on all that is there until it ends or `signal` stops it; whether there was anything. */
-export const feel = async (clip, signal) => {
+/** Waits, or until it is stopped. */
+const rest = (milliseconds, signal) => new Promise((resolve) => {
+  const timer = setTimeout(resolve, milliseconds)
+  signal.addEventListener('abort', () => { clearTimeout(timer); resolve() }, { once: true })
+})
+
+/** Plays on what is there until it ends or `signal` stops it; whether there was anything. `call` calls the core. */
+export const feel = async (clip, signal, call) => {
+  const controller = chosen()
+  if (controller) {
+    const { vendorId: vendor, productId: product } = controller
+    await playReports(controller, await call('reports', clip, { vendor, product, bluetooth: isBluetooth(controller) }), signal)
+    return true
+  }
   const pads = rumbling()
   if (pads.length === 0) {
     if (typeof navigator.vibrate !== 'function') return false
     const { start, pattern } = vibrationOf(clip)
     if (pattern.length === 0) return false
-    await new Promise((resolve) => setTimeout(resolve, 1000 * start))
+    await rest(1000 * start, signal)
     if (signal.aborted) return true
-    signal.addEventListener('abort', () => navigator.vibrate(0), { once: true })
-    return navigator.vibrate(pattern)
+    navigator.vibrate(pattern)
+    await rest(pattern.reduce((sum, part) => sum + part, 0), signal)
+    if (signal.aborted) navigator.vibrate(0)
+    return true
   }
   const frames = rumbleOf(clip)
   const started = performance.now()

@@ -10,8 +10,8 @@ namespace pacini::web
 std::span<const NamedHandler> handlers()
 {
     static constexpr std::array all{
-        NamedHandler{"read", readClipBytes},       NamedHandler{"write", writeClipBytes},
-        NamedHandler{"lint", lintClip},            NamedHandler{"render", renderClipOrScene},
+        NamedHandler{"read", readClipBytes},      NamedHandler{"write", writeClipBytes},
+        NamedHandler{"lint", lintClip},           NamedHandler{"render", renderClipOrScene},
         NamedHandler{"profile", describeProfile},
     };
     return all;

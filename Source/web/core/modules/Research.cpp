@@ -1,4 +1,4 @@
-// The module of other methods and of measures.
+// The module of what compares and shows: other methods, measures, spectrograms.
 
 #include "web/core/Call.h"
 
@@ -12,6 +12,7 @@ std::span<const NamedHandler> handlers()
     static constexpr std::array all{
         NamedHandler{"translate", translateSound},
         NamedHandler{"compare", compareSounds},
+        NamedHandler{"spectrogram", drawSpectrogram},
     };
     return all;
 }

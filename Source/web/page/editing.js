@@ -1,0 +1,161 @@
+// Editing on the picture and by the numbers beside it: pointer, keyboard, fields.
+
+import { addPoint, lanesOf, movePoint, pointsOf, removePoint, valueAt } from './edits.js'
+
+/**
+ * `state`: what is shown, with `clip`, `lane` and `selected`. `change(what, clip, burst)` takes a new clip, `look()` draws anew,
+ * `playhead()` tells where new points go, `say(text)` reads aloud.
+ */
+export const startEditing = ({ canvas, lanes, state, change, look, playhead, say, element }) => {
+  const points = () => pointsOf(state.clip, state.lane)
+  const described = () => {
+    const point = points()[state.selected]
+    if (!point) return 'Nothing is selected.'
+    return `${state.lane === 'events' ? 'Event' : 'Point'} ${state.selected + 1} of ${points().length}: ` +
+      `${point.time.toFixed(3)} s, amplitude ${point.amplitude.toFixed(2)}` +
+      (state.lane === 'events' ? `, sharpness ${point.sharpness.toFixed(2)}` : '')
+  }
+
+  const showFields = () => {
+    const select = element('lane'), lanesNow = lanesOf(state.clip)
+    select.replaceChildren(...lanesNow.map(({ key, title }) => new Option(title, String(key))))
+    if (!lanesNow.some(({ key }) => key === state.lane)) state.lane = lanesNow.at(lanesNow.length > 1 ? 1 : 0).key
+    select.value = String(state.lane)
+    if (state.selected >= points().length) state.selected = points().length - 1
+    const point = points()[state.selected]
+    for (const id of ['time', 'amplitude', 'sharpness', 'remove'])
+      element(id).disabled = !point || (id === 'sharpness' && state.lane !== 'events')
+    element('time').value = point ? +point.time.toFixed(4) : ''
+    element('time').max = state.clip.duration
+    element('amplitude').value = point ? +point.amplitude.toFixed(3) : ''
+    element('sharpness').value = point && state.lane === 'events' ? +point.sharpness.toFixed(3) : ''
+    element('selected').textContent = described()
+  }
+  let selections = 0 // what happens to one selected point by the same key is one step
+  const select = (index) => {
+    ++selections
+    state.selected = index
+    showFields()
+    look()
+  }
+  const move = (to, burst) => {
+    if (!points()[state.selected]) return
+    const moved = movePoint(state.clip, state.lane, state.selected, to)
+    state.selected = moved.index
+    change('Move', moved.clip, burst && `${burst} ${selections}`)
+    showFields()
+  }
+  const add = (time, amplitude) => {
+    const added = addPoint(state.clip, state.lane, { time, amplitude })
+    if (!added) return say('There is a point already.')
+    state.selected = added.index
+    change('Add', added.clip)
+    showFields()
+  }
+  const remove = () => {
+    if (!points()[state.selected]) return
+    const removed = removePoint(state.clip, state.lane, state.selected)
+    if (!removed) return say('A curve keeps its ends.')
+    state.selected = removed.index
+    change('Remove', removed.clip)
+    showFields()
+  }
+  const choose = (lane) => {
+    state.lane = lane
+    select(0)
+  }
+
+  // ---- pointer
+  let dragged
+  const place = (event) => {
+    const { left, top } = canvas.getBoundingClientRect()
+    return [event.clientX - left, event.clientY - top]
+  }
+  canvas.addEventListener('pointerdown', (event) => {
+    if (event.button !== 0 || !state.clip) return
+    const [x, y] = place(event)
+    const found = lanes.hit(x, y, state, event.pointerType === 'touch' ? 22 : 10)
+    if (found.part === 'band') return choose(found.band)
+    if (found.part !== 'edited' || found.index === undefined) return playhead(Math.min(Math.max(lanes.timeAt(x), 0), state.clip.duration))
+    select(found.index)
+    dragged = `drag ${event.timeStamp}`
+    canvas.setPointerCapture(event.pointerId)
+    event.preventDefault()
+    canvas.focus()
+  })
+  canvas.addEventListener('pointermove', (event) => {
+    if (!dragged) return
+    const [x, y] = place(event)
+    move({ time: lanes.timeAt(x), amplitude: lanes.amplitudeAt(y) }, dragged)
+  })
+  for (const end of ['pointerup', 'pointercancel']) canvas.addEventListener(end, () => { dragged = undefined })
+  canvas.addEventListener('dblclick', (event) => {
+    if (!state.clip) return
+    const [x, y] = place(event)
+    const found = lanes.hit(x, y, state)
+    if (found.part === 'edited' && found.index === undefined) add(lanes.timeAt(x), lanes.amplitudeAt(y))
+  })
+  canvas.addEventListener('wheel', (event) => {
+    if (!state.clip || (!event.ctrlKey && !event.shiftKey && Math.abs(event.deltaX) <= Math.abs(event.deltaY))) return
+    event.preventDefault()
+    const length = lanes.range.to - lanes.range.from
+    if (event.ctrlKey) lanes.zoom(2 ** (event.deltaY / 200), lanes.timeAt(place(event)[0]), state.clip.duration)
+    else lanes.scrollTo(lanes.range.from + (event.deltaX || event.deltaY) / 800 * length, state.clip.duration)
+    look()
+  }, { passive: false })
+
+  // ---- keyboard
+  const middle = () => (lanes.range.from + lanes.range.to) / 2
+  const keys = {
+    ArrowRight: () => select(Math.min(state.selected + 1, points().length - 1)),
+    ArrowLeft: () => select(Math.max(state.selected - 1, 0)),
+    'Shift+ArrowRight': () => move({ time: points()[state.selected]?.time + 0.005 }, 'later'),
+    'Shift+ArrowLeft': () => move({ time: points()[state.selected]?.time - 0.005 }, 'earlier'),
+    ArrowUp: () => move({ amplitude: points()[state.selected]?.amplitude + 0.02 }, 'up'),
+    ArrowDown: () => move({ amplitude: points()[state.selected]?.amplitude - 0.02 }, 'down'),
+    PageUp: () => step(1),
+    PageDown: () => step(-1),
+    Insert: () => element('add').click(),
+    a: () => element('add').click(),
+    Delete: remove,
+    Backspace: remove,
+    '+': () => lanes.zoom(0.5, points()[state.selected]?.time ?? middle(), state.clip.duration),
+    '-': () => lanes.zoom(2, middle(), state.clip.duration),
+    0: () => lanes.showAll(state.clip.duration)
+  }
+  const step = (by) => {
+    const all = lanesOf(state.clip).map(({ key }) => key)
+    choose(all[Math.min(Math.max(all.indexOf(state.lane) + by, 0), all.length - 1)])
+  }
+  canvas.addEventListener('keydown', (event) => {
+    if (!state.clip || event.ctrlKey || event.metaKey || event.altKey) return
+    const action = keys[(event.shiftKey && event.key.startsWith('Arrow') ? 'Shift+' : '') + event.key]
+    if (!action) return
+    event.preventDefault()
+    action()
+    const point = points()[state.selected]
+    if (point && (point.time < lanes.range.from || point.time > lanes.range.to))
+      lanes.scrollTo(point.time - 0.5 * (lanes.range.to - lanes.range.from), state.clip.duration)
+    look()
+  })
+
+  // ---- fields
+  element('lane').addEventListener('change', ({ target }) =>
+    choose(['events', 'total'].includes(target.value) ? target.value : Number(target.value)))
+  for (const id of ['time', 'amplitude', 'sharpness'])
+    element(id).addEventListener('change', ({ target }) => {
+      if (target.value !== '') move({ [id]: Number(target.value) })
+    })
+  element('previous').addEventListener('click', keys.ArrowLeft)
+  element('next').addEventListener('click', keys.ArrowRight)
+  element('remove').addEventListener('click', remove)
+  element('add').addEventListener('click', () => {
+    // Behind the selected one, or where the sound plays from.
+    const point = points()[state.selected], next = points()[state.selected + 1]
+    const time = point && next ? (point.time + next.time) / 2 : playhead()
+    add(time, state.lane === 'events' ? 0.8 : valueAt(points(), time))
+  })
+  for (const [id, work] of [['nearer', keys['+']], ['farther', keys['-']], ['all', keys[0]]])
+    element(id).addEventListener('click', () => { work(); look() })
+  return { refresh: showFields }
+}
