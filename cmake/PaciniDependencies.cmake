@@ -11,7 +11,11 @@ if(PACINI_BUILD_CLI OR PACINI_BUILD_LIBRARY OR PACINI_BUILD_PYTHON OR PACINI_BUI
     pkg_check_modules(sndfile REQUIRED IMPORTED_TARGET sndfile)
 endif()
 if(PACINI_BUILD_CLI OR PACINI_BUILD_TESTS OR PACINI_BUILD_PLUGIN)
-    find_package(Boost 1.74 REQUIRED) # headers: Boost.Math's distributions, for what studies report
+    # Headers: Boost.Math's distributions, for what studies report, and Boost.Beast, for phones.
+    find_package(Boost 1.74 REQUIRED)
+    # Without it nothing draws the picture that phones read; the address is shown as a text.
+    find_package(PkgConfig REQUIRED)
+    pkg_search_module(qrcodegen IMPORTED_TARGET qrcodegencpp)
 endif()
 if(PACINI_BUILD_CLI OR PACINI_BUILD_TESTS)
     find_package(CLI11 REQUIRED)

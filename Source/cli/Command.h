@@ -33,6 +33,7 @@ public:
 [[nodiscard]] std::unique_ptr<Command> profilesCommand();
 [[nodiscard]] std::unique_ptr<Command> devicesCommand();
 [[nodiscard]] std::unique_ptr<Command> playCommand();
+[[nodiscard]] std::unique_ptr<Command> serveCommand();
 [[nodiscard]] std::unique_ptr<Command> compareCommand();
 [[nodiscard]] std::unique_ptr<Command> manifestCommand();
 [[nodiscard]] std::unique_ptr<Command> measureCommand();

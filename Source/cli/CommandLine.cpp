@@ -65,8 +65,8 @@ Exit parseAndRun(Console& console, int argc, const char* const* argv)
     app.fallthrough(false);
     std::vector<std::unique_ptr<Command>> commands; // in the order of the help text
     for (const auto make : {encodeCommand, renderCommand, infoCommand, convertCommand, lintCommand, profilesCommand,
-                            devicesCommand, playCommand, compareCommand, manifestCommand, measureCommand, studyCommand,
-                            plotCommand, benchCommand, helpCommand, completionsCommand, manCommand})
+                            devicesCommand, playCommand, serveCommand, compareCommand, manifestCommand, measureCommand,
+                            studyCommand, plotCommand, benchCommand, helpCommand, completionsCommand, manCommand})
         commands.push_back(make());
     std::vector<CLI::App*> declared;
     bool quiet = false, json = false, strict = false;

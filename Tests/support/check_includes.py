@@ -33,7 +33,8 @@ NO_WINDOWS = ("juce_gui_basics", "juce_gui_extra", "juce_audio_utils", "JuceHead
 SOURCE = {
     "io": ({"io"}, NO_JUCE),
     "study": ({"io", "study"}, NO_JUCE),
-    "cli": ({"io", "study", "devices", "cli"}, NO_JUCE),
+    "phone": ({"io", "phone"}, NO_JUCE),
+    "cli": ({"io", "study", "devices", "phone", "cli"}, NO_JUCE),
     "document": ({"io", "document"}, NO_JUCE),
     "devices": ({"devices"}, NO_JUCE),
     "library": ({"io", "document", "devices", "library"}, NO_JUCE),
@@ -42,7 +43,7 @@ SOURCE = {
     "plugin/engine": ({"io", "document", "devices", "plugin/engine"}, NO_WINDOWS),
     "plugin/window": ({"io", "study", "document", "devices", "editor", "plugin/engine", "plugin/window"}, ()),
     "editor": ({"io", "study", "document", "devices", "editor"}, ()),
-    "app": ({"io", "study", "document", "devices", "editor", "plugin/engine", "plugin/window", "app"}, ()),
+    "app": ({"io", "study", "document", "devices", "phone", "editor", "plugin/engine", "plugin/window", "app"}, ()),
 }
 
 # What Core must never touch: files, threads, clocks, JSON, hosts, and process-wide state.

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The npm package in Node.js, and the page in Chromium: check_web.py package|page PACINI LIVE_REFERENCE
+"""The npm package in Node.js, the page and a phone in Chromium: check_web.py package|page|phone PACINI LIVE_REFERENCE
 
 Exit 0, 1 on a failed check, 77 when build/web, Node.js, Chromium or their modules are not there; `bash cmake/bootstrap.sh
 slow-tests` brings them all.
@@ -25,9 +25,9 @@ try:
     import soundfile
 except ImportError as error:
     skip(error)
-if not (WEB / "package/encode.wasm").exists():
+if what != "phone" and not (WEB / "package/encode.wasm").exists():
     skip("build/web is not built")
-if not shutil.which("npm") or not (MODULES / "modules").exists() or (what == "page" and not shutil.which("chromium")):
+if not shutil.which("npm") or not (MODULES / "modules").exists() or (what != "package" and not shutil.which("chromium")):
     skip("Node.js, its modules or Chromium are missing")
 with tempfile.TemporaryDirectory() as name:
     folder = Path(name)
@@ -35,7 +35,9 @@ with tempfile.TemporaryDirectory() as name:
         samples, rate = soundfile.read(path, dtype="int16")
         soundfile.write(folder / f"{path.stem}.wav", samples, rate, subtype="PCM_16")
     script = ROOT / "Tests/web" / f"check_{what}.mjs"
-    arguments = ([WEB / "package", MODULES, program, folder] if what == "package"
-                 else [WEB / "page", MODULES, program, live, folder / "knock_wood_bridge.wav",
-                       *([os.environ["PACINI_WEB_PICTURES"]] if "PACINI_WEB_PICTURES" in os.environ else [])])
+    sound = folder / "knock_wood_bridge.wav"
+    pictures = [os.environ["PACINI_WEB_PICTURES"]] if "PACINI_WEB_PICTURES" in os.environ else []
+    arguments = {"package": [WEB / "package", MODULES, program, folder],
+                 "page": [WEB / "page", MODULES, program, live, sound, *pictures],
+                 "phone": [MODULES, program, sound]}[what]
     sys.exit(subprocess.run(["node", script, *arguments]).returncode)

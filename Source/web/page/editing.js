@@ -1,12 +1,14 @@
 // Editing on the picture and by the numbers beside it: pointer, keyboard, fields.
 
-import { addPoint, lanesOf, movePoint, pointsOf, removePoint, valueAt } from './edits.js'
+import { valueAt } from './curve.js'
+import { addPoint, lanesOf, movePoint, pointsOf, removePoint } from './edits.js'
 
 /**
  * `state`: what is shown, with `clip`, `lane` and `selected`. `change(what, clip, burst)` takes a new clip, `look()` draws anew,
  * `playhead()` tells where new points go, `say(text)` reads aloud.
  */
 export const startEditing = ({ canvas, lanes, state, change, look, playhead, say, element }) => {
+  let dragged // which drag, while there is one
   const points = () => pointsOf(state.clip, state.lane)
   const described = () => {
     const point = points()[state.selected]
@@ -21,6 +23,7 @@ export const startEditing = ({ canvas, lanes, state, change, look, playhead, say
     select.replaceChildren(...lanesNow.map(({ key, title }) => new Option(title, String(key))))
     if (!lanesNow.some(({ key }) => key === state.lane)) state.lane = lanesNow.at(lanesNow.length > 1 ? 1 : 0).key
     select.value = String(state.lane)
+    if (!dragged) lanes.fit(state.clip, state.lane)
     if (state.selected >= points().length) state.selected = points().length - 1
     const point = points()[state.selected]
     for (const id of ['time', 'amplitude', 'sharpness', 'remove'])
@@ -66,7 +69,6 @@ export const startEditing = ({ canvas, lanes, state, change, look, playhead, say
   }
 
   // ---- pointer
-  let dragged
   const place = (event) => {
     const { left, top } = canvas.getBoundingClientRect()
     return [event.clientX - left, event.clientY - top]
@@ -88,7 +90,12 @@ export const startEditing = ({ canvas, lanes, state, change, look, playhead, say
     const [x, y] = place(event)
     move({ time: lanes.timeAt(x), amplitude: lanes.amplitudeAt(y) }, dragged)
   })
-  for (const end of ['pointerup', 'pointercancel']) canvas.addEventListener(end, () => { dragged = undefined })
+  for (const end of ['pointerup', 'pointercancel']) canvas.addEventListener(end, () => {
+    if (!dragged) return
+    dragged = undefined
+    showFields()
+    look()
+  })
   canvas.addEventListener('dblclick', (event) => {
     if (!state.clip) return
     const [x, y] = place(event)

@@ -1,6 +1,7 @@
 // The picture of a clip: the sound, the lane that is edited, its bands, its events, and what the actuator plays.
 
-import { pointsOf, valueAt } from './edits.js'
+import { valueAt } from './curve.js'
+import { pointsOf } from './edits.js'
 
 const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim()
 const left = 8 // pixels at both sides
@@ -11,6 +12,8 @@ export class Lanes {
   #colours = {}
   /** What is shown, s. */
   range = { from: 0, to: 1 }
+  /** The amplitude at the top of the edited lane: bands are much weaker than their sum. */
+  top = 1
 
   constructor(canvas) {
     this.#canvas = canvas
@@ -25,7 +28,14 @@ export class Lanes {
   }
   amplitudeAt(y) {
     const { y: top, height } = this.#box('edited')
-    return 1 - (y - top) / height
+    return this.top * (1 - (y - top) / height)
+  }
+  #heightOf(amplitude) { return 1 - Math.min(1, amplitude / this.top) }
+
+  /** Chooses the top for a lane; not while a point of it is dragged. */
+  fit(clip, lane) {
+    const most = pointsOf(clip, lane).reduce((largest, { amplitude }) => Math.max(largest, amplitude), 0)
+    this.top = typeof lane === 'number' ? [0.01, 0.02, 0.05, 0.1, 0.2, 0.5].find((one) => one >= 1.1 * most) ?? 1 : 1
   }
 
   /** All of a clip. */
@@ -48,7 +58,7 @@ export class Lanes {
     if (y >= edited.y - near && y <= edited.y + edited.height + near) {
       let best, distance = near
       pointsOf(clip, lane).forEach((point, index) => {
-        const away = Math.hypot(this.xAt(point.time) - x, edited.y + (1 - Math.min(1, point.amplitude)) * edited.height - y)
+        const away = Math.hypot(this.xAt(point.time) - x, edited.y + this.#heightOf(point.amplitude) * edited.height - y)
         if (away <= distance) [best, distance] = [index, away]
       })
       return { part: 'edited', index: best }
@@ -80,17 +90,18 @@ export class Lanes {
     context.rect(left - 6, 0, this.#width + 12, height)
     context.clip()
     if (lane !== 'events') {
-      this.#curve(context, pointsOf(clip, lane), edited, this.#colours.accent)
+      this.#curve(context, pointsOf(clip, lane), edited, this.#colours.accent, this.top)
       this.#events(context, clip, edited, 0.35)
     } else {
-      this.#curve(context, clip.envelope, edited, this.#colours.line)
+      this.#curve(context, clip.envelope, edited, this.#colours.line, 1)
       this.#events(context, clip, edited, 1)
     }
     this.#handles(context, pointsOf(clip, lane), selected, edited, this.#colours[lane === 'events' ? 'event' : 'accent'])
+    const loudest = clip.bands.reduce((most, { amplitude }) => amplitude.reduce((m, point) => Math.max(m, point.amplitude), most), 1e-3)
     const each = bandBox.height / Math.max(1, clip.bands.length)
     clip.bands.forEach((band, i) => this.#curve(context, band.amplitude,
       { x: left, y: bandBox.y + bandBox.height - (i + 1) * each, width: this.#width, height: each * 0.92 },
-      this.#colours[i === lane ? 'text' : 'accent']))
+      this.#colours[i === lane ? 'text' : 'accent'], loudest))
     if (drive) this.#wave(context, drive, driveRate, driveBox, this.#colours.drive)
     if (time !== undefined) {
       context.fillStyle = this.#colours.text
@@ -98,6 +109,7 @@ export class Lanes {
     }
     context.restore()
     this.#label(context, picture ? 'sound, 20 Hz to 2 kHz' : sound ? 'sound' : 'no sound with this clip', soundBox)
+    if (this.top < 1) this.#label(context, `to ${this.top}`, edited)
     this.#label(context, clip.bands.length === 1 ? '1 band' : `${clip.bands.length} bands, high ones on top`, bandBox)
     this.#label(context, 'what the actuator plays', driveBox)
     this.#times(context, clip.duration)
@@ -152,10 +164,11 @@ export class Lanes {
     context.restore()
   }
 
-  #curve(context, points, box, fill) {
+  /** Filled, `top` being the amplitude at the top of the box. */
+  #curve(context, points, box, fill, top) {
     if (points.length === 0) return
     const { from, to } = this.range
-    const y = (value) => box.y + box.height * (1 - Math.min(1, value))
+    const y = (value) => box.y + box.height * (1 - Math.min(1, value / top))
     const begin = Math.max(from, points[0].time), end = Math.min(to, points.at(-1).time)
     if (end < begin) return
     context.beginPath()
@@ -190,7 +203,7 @@ export class Lanes {
     const many = visible > this.#width / 6
     points.forEach(({ time, amplitude }, index) => {
       if (time < this.range.from || time > this.range.to || (many && index !== selected)) return
-      const x = this.xAt(time), y = box.y + box.height * (1 - Math.min(1, amplitude))
+      const x = this.xAt(time), y = box.y + box.height * this.#heightOf(amplitude)
       context.beginPath()
       context.arc(x, y, index === selected ? 7 : 3.5, 0, 2 * Math.PI)
       context.fillStyle = index === selected ? this.#colours.text : fill

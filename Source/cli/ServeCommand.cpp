@@ -1,0 +1,162 @@
+// Subcommand that lets phones in the local network feel a clip.
+
+#include "cli/Command.h"
+#include "cli/Interruption.h"
+#include "cli/Options.h"
+#include "io/ClipFile.h"
+#include "phone/PhoneServer.h"
+#include "phone/QrText.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#if !defined(_WIN32)
+#include <poll.h>
+#include <unistd.h>
+#endif
+
+namespace pacini::cli
+{
+
+namespace
+{
+using Json = nlohmann::ordered_json;
+
+/// Lines of standard input, looked for now and then: the Enter key.
+class EnterKey
+{
+public:
+    /// Waits at most for `time`; how often it was pressed. [message]
+    [[nodiscard]] std::size_t pressed([[maybe_unused]] Seconds time)
+    {
+#if defined(_WIN32)
+        return 0; // phones begin by themselves
+#else
+        pollfd input{.fd = over ? -1 : STDIN_FILENO, .events = POLLIN, .revents = 0};
+        if (poll(&input, 1, static_cast<int>(1000.0 * time.value)) <= 0)
+            return 0;
+        char buffer[256];
+        const auto got = read(STDIN_FILENO, buffer, sizeof buffer);
+        over = got <= 0;
+        return got <= 0 ? 0 : static_cast<std::size_t>(std::count(buffer, buffer + got, '\n'));
+#endif
+    }
+
+private:
+    [[maybe_unused]] bool over = false;
+};
+
+/// ms since 1970, as browsers count.
+double wallClock()
+{
+    return std::chrono::duration<double, std::milli>(std::chrono::system_clock::now().time_since_epoch()).count();
+}
+
+/// `pacini serve`: a clip on phones.
+class ServeCommand : public Command
+{
+public:
+    CLI::App* declare(CLI::App& app) override;
+    Exit run(Console& console) override;
+
+private:
+    void showPicture(Console& console, const phone::PhoneServer& server) const;
+    void serve(Console& console, phone::PhoneServer& server, Interruption& interruption) const;
+
+    std::string input, address;
+    int port = 0;
+    bool inverted = false;
+};
+} // namespace
+
+CLI::App* ServeCommand::declare(CLI::App& app)
+{
+    auto* command = app.add_subcommand("serve", "Let phones in the local network feel a clip");
+    addOption(*command, "input", input, "A clip of any format", "CLIP");
+    addOption(*command, "--address", address, "Address of this machine to listen on [that of its network]", "IPV4");
+    addOption(*command, "--port", port, "Port to listen on [one that is free]", numberFrom(1.0, 65535.0), "N");
+    command->add_flag("--inverted", inverted, "For terminals that are dark on light");
+    command->footer("Scan the picture with the phone. Its code works once; then there is another for the next phone.\n"
+                    "Enter plays the clip on all phones that are connected, Ctrl-C ends. Browsers of Android vibrate,\n"
+                    "those of iPhones and Firefox do not. What goes over the network is not encrypted.\n"
+                    "Example:\n  pacini serve door.json");
+    return command;
+}
+
+void ServeCommand::showPicture(Console& console, const phone::PhoneServer& server) const
+{
+    const std::string url = server.url();
+    console.print(phone::qrText(phone::qrModules(url), inverted) + url);
+}
+
+void ServeCommand::serve(Console& console, phone::PhoneServer& server, Interruption& interruption) const
+{
+    constexpr Seconds glance(0.05);
+    std::string shown = server.url();
+    std::size_t phones = 0;
+    EnterKey enter;
+    Json plays = Json::array();
+    while (!interruption.wait(Seconds(0.0)))
+    {
+        for (std::size_t i = enter.pressed(glance); i > 0; --i)
+        {
+            plays.push_back(wallClock());
+            server.play(Seconds(0.0));
+            console.note(fmt::format("played on {} phone{}", phones, phones == 1 ? "" : "s"));
+        }
+        if (const std::size_t now = server.phones(); now != phones)
+        {
+            phones = now;
+            console.note(fmt::format("{} phone{} connected; Enter plays", phones, phones == 1 ? "" : "s"));
+        }
+        if (const std::string url = server.url(); url != shown)
+        {
+            shown = url;
+            if (!console.isJson())
+                showPicture(console, server);
+        }
+    }
+    console.addToReport({{"plays", plays}});
+    console.endReport(true); // the signal ends the program when it is let go of
+}
+
+Exit ServeCommand::run(Console& console)
+{
+    if (input.empty())
+        return console.fail(
+            "", {ErrorCode::invalidArgument, "serve", "a file to work on is missing; try 'pacini serve --help'"},
+            Exit::usage);
+    const auto read = readClip(input, console.isStrict());
+    if (!read)
+        return console.fail(input, read.error());
+    console.warnings(input, read->warnings);
+    Interruption interruption; // before the thread of the server
+    const auto server = phone::PhoneServer::start({address, static_cast<std::uint16_t>(port)});
+    if (!server)
+        return console.fail("", server.error());
+    (*server)->show(read->clip);
+    console.addToReport({{"input", input}, {"address", (*server)->url()}});
+    if (console.isJson())
+    {
+        console.keepStdoutFree(); // of all but the report: whoever reads that needs the address before
+        console.note((*server)->url());
+    }
+    else
+        showPicture(console, **server);
+    serve(console, **server, interruption);
+    return Exit::ok;
+}
+
+std::unique_ptr<Command> serveCommand()
+{
+    return std::make_unique<ServeCommand>();
+}
+
+} // namespace pacini::cli

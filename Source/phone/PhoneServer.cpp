@@ -1,0 +1,468 @@
+#include "phone/PhoneServer.h"
+
+#include "PhonePage.h"
+#include "io/JsonTree.h"
+#include "io/formats/json/ClipJson.h"
+#include "phone/PairingCode.h"
+
+#include <boost/asio/buffer.hpp>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/ip/udp.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/beast/core.hpp>
+#include <boost/beast/http.hpp>
+#include <boost/beast/websocket.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string_view>
+#include <thread>
+#include <utility>
+#include <vector>
+
+namespace pacini::phone
+{
+
+namespace
+{
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = beast::http;
+using Json = nlohmann::ordered_json;
+using boost::system::error_code;
+using Tcp = asio::ip::tcp;
+using Text = std::shared_ptr<const std::string>;
+
+constexpr std::size_t mostPhones = 16;
+constexpr std::size_t codeLength = 16; // 80 bits
+constexpr std::string_view cookieName = "pacini=";
+
+/// ms since the first call.
+double clockNow()
+{
+    static const auto start = std::chrono::steady_clock::now();
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// Of this machine in the local network: what it would be reached from elsewhere by. Sends nothing.
+Result<std::string> localAddress()
+{
+    asio::io_context context;
+    asio::ip::udp::socket socket(context);
+    error_code failed;
+    socket.open(asio::ip::udp::v4(), failed);
+    // An address for documentation (RFC 5737), which nobody has.
+    socket.connect({asio::ip::make_address_v4("192.0.2.1"), 9}, failed);
+    if (failed)
+        return Error{ErrorCode::io, "", "this machine is in no network; join the one that the phone is in"};
+    return socket.local_endpoint().address().to_string();
+}
+
+/// What sessions share: used by the thread of the server alone, but for what is said otherwise.
+class Host
+{
+public:
+    virtual ~Host() = default;
+    [[nodiscard]] virtual std::string place() const = 0; ///< host and port, as browsers name it
+    [[nodiscard]] virtual bool pairs(std::string_view code) = 0;
+    [[nodiscard]] virtual std::string newCookie() = 0;
+    [[nodiscard]] virtual bool knows(std::string_view cookies) const = 0;
+};
+
+/// One phone, from its upgrade on.
+class Phone : public std::enable_shared_from_this<Phone>
+{
+public:
+    explicit Phone(Tcp::socket&& socket) : stream(std::move(socket)) {}
+
+    template <typename Request, typename Ready>
+    void accept(const Request& request, Ready ready)
+    {
+        constexpr std::size_t longestMessage = 200;
+        stream.set_option(beast::websocket::stream_base::timeout::suggested(beast::role_type::server));
+        stream.read_message_max(longestMessage);
+        stream.async_accept(request,
+                            [self = shared_from_this(), ready](error_code failed)
+                            {
+                                if (failed)
+                                    return self->leave();
+                                self->open = true;
+                                ready();
+                                self->read();
+                            });
+    }
+
+    void send(Text text)
+    {
+        waiting.push_back(std::move(text));
+        if (waiting.size() == 1 && open)
+            write();
+    }
+
+    void close()
+    {
+        open = false;
+        error_code ignored;
+        beast::get_lowest_layer(stream).socket().shutdown(Tcp::socket::shutdown_both, ignored);
+        beast::get_lowest_layer(stream).close();
+    }
+
+    [[nodiscard]] bool isOpen() const noexcept { return open; }
+    std::function<void()> ended;
+
+private:
+    void read()
+    {
+        stream.async_read(buffer,
+                          [self = shared_from_this()](error_code failed, std::size_t)
+                          {
+                              if (failed || !self->answer())
+                                  return self->leave();
+                              self->read();
+                          });
+    }
+
+    /// A phone asks what time it is here, and nothing else.
+    [[nodiscard]] bool answer()
+    {
+        const std::string text = beast::buffers_to_string(buffer.data());
+        buffer.consume(buffer.size());
+        const auto asked = readJsonTree(text, text.size());
+        if (!asked || !asked->is_object() || asked->size() != 1 || !asked->contains("ping") ||
+            !(*asked)["ping"].is_number())
+            return false;
+        const Json reply{{"kind", "pong"}, {"ping", (*asked)["ping"].get<double>()}, {"now", clockNow()}};
+        send(std::make_shared<const std::string>(reply.dump()));
+        return true;
+    }
+
+    void write()
+    {
+        stream.text(true);
+        stream.async_write(asio::buffer(*waiting.front()),
+                           [self = shared_from_this()](error_code failed, std::size_t)
+                           {
+                               if (failed)
+                                   return self->leave();
+                               self->waiting.pop_front();
+                               if (!self->waiting.empty())
+                                   self->write();
+                           });
+    }
+
+    void leave()
+    {
+        open = false;
+        if (ended)
+            std::exchange(ended, {})();
+    }
+
+    beast::websocket::stream<beast::tcp_stream> stream;
+    beast::flat_buffer buffer;
+    std::deque<Text> waiting;
+    bool open = false;
+};
+
+/// One request.
+class Visit : public std::enable_shared_from_this<Visit>
+{
+public:
+    using Welcome = std::function<void(std::shared_ptr<Phone>, const http::request<http::empty_body>&)>;
+
+    Visit(Tcp::socket&& socket, Host& ofServer, Welcome welcomePhone)
+        : stream(std::move(socket)), host(ofServer), welcome(std::move(welcomePhone))
+    {
+        constexpr std::uint32_t longestHeader = 8192;
+        parser.header_limit(longestHeader);
+        parser.body_limit(0);
+    }
+
+    void run()
+    {
+        stream.expires_after(std::chrono::seconds(10));
+        http::async_read(stream, buffer, parser,
+                         [self = shared_from_this()](error_code failed, std::size_t)
+                         {
+                             if (failed == http::error::body_limit || failed == http::error::unexpected_body)
+                                 return self->refuse(http::status::payload_too_large, "Nothing is taken in here.");
+                             if (failed == http::error::header_limit)
+                                 return self->refuse(http::status::request_header_fields_too_large, "Too much.");
+                             if (!failed)
+                                 self->answer();
+                         });
+    }
+
+private:
+    using Response = http::response<http::string_body>;
+
+    void answer()
+    {
+        const auto& request = parser.get();
+        const std::string target(request.target());
+        if (request.method() != http::verb::get)
+            return refuse(http::status::method_not_allowed, "Nothing is taken in here.");
+        // Another name for this machine would be somebody else's page that speaks for it.
+        if (std::string(request[http::field::host]) != host.place())
+            return refuse(http::status::forbidden, "This is another place.");
+        constexpr std::string_view pairing = "/?code=";
+        if (target.starts_with(pairing))
+        {
+            if (!host.pairs(std::string_view(target).substr(pairing.size())))
+                return refuse(http::status::forbidden,
+                              "This code has been used or is wrong. Scan the picture that is shown now.");
+            Response response{http::status::see_other, request.version()};
+            response.set(http::field::location, "/");
+            response.set(http::field::set_cookie,
+                         fmt::format("{}{}; Path=/; HttpOnly; SameSite=Lax", cookieName, host.newCookie()));
+            return send(std::move(response));
+        }
+        if (!host.knows(std::string(request[http::field::cookie])))
+            return refuse(http::status::forbidden, "Scan the picture that the program shows.");
+        if (target == "/events" && beast::websocket::is_upgrade(request))
+        {
+            if (std::string(request[http::field::origin]) != "http://" + host.place())
+                return refuse(http::status::forbidden, "This is another place.");
+            stream.expires_never();
+            auto phone = std::make_shared<Phone>(stream.release_socket());
+            return welcome(std::move(phone), request);
+        }
+        for (const PageFile& file : pageFiles)
+            if (file.name == target || (target == "/" && file.name == "/index.html"))
+            {
+                Response response{http::status::ok, request.version()};
+                response.set(http::field::content_type, std::string(file.kind));
+                response.body() = std::string(file.text);
+                return send(std::move(response));
+            }
+        refuse(http::status::not_found, "There is nothing here.");
+    }
+
+    void refuse(http::status status, std::string_view why)
+    {
+        Response response{status, 11};
+        response.set(http::field::content_type, "text/plain; charset=utf-8");
+        response.body() = std::string(why) + "\n";
+        send(std::move(response));
+    }
+
+    void send(Response&& response)
+    {
+        response.set(http::field::cache_control, "no-store");
+        response.set("Content-Security-Policy",
+                     fmt::format("default-src 'none'; script-src 'self'; style-src 'self'; img-src data:; "
+                                 "connect-src ws://{}; frame-ancestors 'none'; base-uri 'none'; form-action 'none'",
+                                 host.place()));
+        response.set("X-Content-Type-Options", "nosniff");
+        response.set("Referrer-Policy", "no-referrer");
+        response.keep_alive(false);
+        response.prepare_payload();
+        auto kept = std::make_shared<Response>(std::move(response));
+        http::async_write(stream, *kept,
+                          [self = shared_from_this(), kept](error_code, std::size_t)
+                          {
+                              error_code ignored;
+                              self->stream.socket().shutdown(Tcp::socket::shutdown_send, ignored);
+                          });
+    }
+
+    beast::tcp_stream stream;
+    beast::flat_buffer buffer;
+    http::request_parser<http::empty_body> parser;
+    Host& host;
+    Welcome welcome;
+};
+
+class Server final : public PhoneServer, private Host
+{
+public:
+    explicit Server() : acceptor(context), code(randomWord(codeLength)) {}
+
+    ~Server() override
+    {
+        asio::post(context,
+                   [this]
+                   {
+                       error_code ignored;
+                       acceptor.close(ignored);
+                       for (const auto& phone : connected)
+                           phone->close();
+                       context.stop();
+                   });
+        if (thread.joinable())
+            thread.join();
+    }
+
+    Result<void> listen(const PhoneServerParams& params)
+    {
+        address = params.address;
+        if (address.empty())
+        {
+            auto found = localAddress();
+            if (!found)
+                return found.error();
+            address = *found;
+        }
+        error_code failed;
+        const auto ip = asio::ip::make_address_v4(address, failed);
+        if (failed)
+            return Error{ErrorCode::invalidArgument, address, "is no IPv4 address"};
+        const Tcp::endpoint where(ip, params.port);
+        acceptor.open(where.protocol(), failed);
+        acceptor.set_option(asio::socket_base::reuse_address(true), failed);
+        failed.clear();
+        acceptor.bind(where, failed);
+        if (!failed)
+            acceptor.listen(asio::socket_base::max_listen_connections, failed);
+        if (failed)
+            return Error{ErrorCode::io, fmt::format("{}:{}", address, params.port),
+                         fmt::format("cannot be listened on: {}", failed.message())};
+        port = acceptor.local_endpoint().port();
+        accept();
+        thread = std::thread([this] { context.run(); });
+        return {};
+    }
+
+    [[nodiscard]] std::string url() const override
+    {
+        const std::lock_guard lock(mutex);
+        return fmt::format("http://{}/?code={}", place(), code);
+    }
+
+    [[nodiscard]] std::size_t phones() const override { return phoneCount; }
+
+    void show(const Clip& clip) override
+    {
+        auto json = Json::parse(writeClipJson(clip), nullptr, false);
+        tell(std::make_shared<const std::string>(Json{{"kind", "clip"}, {"clip", std::move(json)}}.dump()),
+             [this](const Text& text)
+             {
+                 clipText = text;
+                 playText.reset();
+             });
+    }
+
+    void play(Seconds from, Seconds ago) override
+    {
+        const double now = clockNow();
+        tell(std::make_shared<const std::string>(
+                 Json{{"kind", "play"}, {"at", now - 1000.0 * ago.value}, {"from", from.value}, {"now", now}}.dump()),
+             [this](const Text& text) { playText = text; });
+    }
+
+    void stop() override
+    {
+        tell(std::make_shared<const std::string>(R"({"kind":"stop"})"), [this](const Text&) { playText.reset(); });
+    }
+
+private:
+    // Host
+    [[nodiscard]] std::string place() const override { return fmt::format("{}:{}", address, port); }
+
+    [[nodiscard]] bool pairs(std::string_view given) override
+    {
+        const std::lock_guard lock(mutex);
+        if (!isSameSecret(given, code) || cookies.size() >= mostPhones)
+            return false;
+        code = randomWord(codeLength);
+        return true;
+    }
+
+    [[nodiscard]] std::string newCookie() override { return cookies.emplace_back(randomWord(2 * codeLength)); }
+
+    [[nodiscard]] bool knows(std::string_view header) const override
+    {
+        for (auto at = header.find(cookieName); at != std::string_view::npos; at = header.find(cookieName, at + 1))
+        {
+            const auto value = header.substr(at + cookieName.size(), 2 * codeLength);
+            if (std::any_of(cookies.begin(), cookies.end(),
+                            [&](const std::string& cookie) { return isSameSecret(cookie, value); }))
+                return true;
+        }
+        return false;
+    }
+
+    void accept()
+    {
+        acceptor.async_accept(
+            [this](error_code failed, Tcp::socket socket)
+            {
+                if (!acceptor.is_open())
+                    return;
+                if (!failed)
+                    std::make_shared<Visit>(std::move(socket), static_cast<Host&>(*this),
+                                            [this](std::shared_ptr<Phone> phone, const auto& request)
+                                            { welcome(std::move(phone), request); })
+                        ->run();
+                accept();
+            });
+    }
+
+    void welcome(std::shared_ptr<Phone> phone, const http::request<http::empty_body>& request)
+    {
+        if (connected.size() >= mostPhones)
+            return;
+        Phone* raw = phone.get();
+        phone->ended = [this, raw]
+        {
+            connected.erase(
+                std::remove_if(connected.begin(), connected.end(), [raw](const auto& one) { return one.get() == raw; }),
+                connected.end());
+            phoneCount = connected.size();
+        };
+        connected.push_back(phone);
+        phone->accept(request,
+                      [this, raw]
+                      {
+                          phoneCount = connected.size();
+                          for (const Text& text : {clipText, playText})
+                              if (text)
+                                  raw->send(text);
+                      });
+    }
+
+    template <typename Keep>
+    void tell(Text text, Keep keep)
+    {
+        asio::post(context,
+                   [this, text = std::move(text), keep]
+                   {
+                       keep(text);
+                       for (const auto& phone : connected)
+                           if (phone->isOpen())
+                               phone->send(text);
+                   });
+    }
+
+    asio::io_context context{1};
+    Tcp::acceptor acceptor;
+    std::string address;
+    std::uint16_t port = 0;
+    mutable std::mutex mutex;
+    std::string code; ///< guarded by the mutex
+    std::atomic<std::size_t> phoneCount{0};
+    // Of the thread.
+    std::vector<std::string> cookies;
+    std::vector<std::shared_ptr<Phone>> connected;
+    Text clipText, playText; ///< for phones that come later
+    std::thread thread;
+};
+} // namespace
+
+Result<std::unique_ptr<PhoneServer>> PhoneServer::start(const PhoneServerParams& params)
+{
+    auto server = std::make_unique<Server>();
+    if (auto listening = server->listen(params); !listening)
+        return listening.error();
+    return std::unique_ptr<PhoneServer>(std::move(server));
+}
+
+} // namespace pacini::phone

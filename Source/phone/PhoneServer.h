@@ -1,0 +1,52 @@
+#pragma once
+
+// Server for phones in the local network: they feel the clip that is played here.
+
+#include <pacini/clip/Clip.h>
+#include <pacini/foundation/Result.h>
+#include <pacini/foundation/Units.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+namespace pacini::phone
+{
+
+struct PhoneServerParams
+{
+    std::string address;    ///< IPv4 of this machine that is listened on; empty: that which reaches the local network
+    std::uint16_t port = 0; ///< 0: any that is free
+};
+
+/// A page that vibrates, for browsers that have the pairing code: it is in the address, works once, and is then
+/// another. Nothing else is served, nothing is taken in but the time of the phone's clock; what is not paired is
+/// refused. All of it has a thread of its own and ends with the object. Protocol: HTTP and WebSocket (RFC 9110, RFC
+/// 6455), not encrypted, so for networks that are trusted.
+class PhoneServer
+{
+public:
+    /// Errors: `io`, with a message for people. [message]
+    [[nodiscard]] static Result<std::unique_ptr<PhoneServer>> start(const PhoneServerParams& params = {});
+
+    virtual ~PhoneServer() = default;
+
+    /// The address with the pairing code that the next phone needs. [any]
+    [[nodiscard]] virtual std::string url() const = 0;
+
+    /// How many phones are connected. [any]
+    [[nodiscard]] virtual std::size_t phones() const = 0;
+
+    /// What is felt from now on; stops what is played. [message]
+    virtual void show(const Clip& clip) = 0;
+
+    /// Says that the clip is played from here on, `from` s after its start, and that this began `ago`. [message]
+    virtual void play(Seconds from, Seconds ago = Seconds(0.0)) = 0;
+    virtual void stop() = 0;
+
+protected:
+    PhoneServer() = default;
+};
+
+} // namespace pacini::phone

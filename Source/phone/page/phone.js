@@ -1,0 +1,79 @@
+// The phone: plays what the program at the other end plays, as near to its time as the clocks are known.
+
+import { touchesOf, vibrateBy } from './vibration.js'
+
+const element = (id) => document.getElementById(id)
+const say = (text) => { element('status').textContent = text }
+const canVibrate = typeof navigator.vibrate === 'function'
+
+let touches = [], name = ''
+let playing // AbortController
+let ready = false
+let offset, bestDelay = Infinity // the other end's clock less this one's, ms, and how well it is known
+
+const stop = () => {
+  playing?.abort()
+  playing = undefined
+}
+const play = async (now) => {
+  stop()
+  const own = playing = new AbortController()
+  await vibrateBy(now, touches, own.signal)
+  if (playing === own) playing = undefined
+}
+
+const connect = () => {
+  const socket = new WebSocket(`ws://${location.host}/events`)
+  let timer
+  const ping = () => { if (socket.readyState === WebSocket.OPEN) socket.send(JSON.stringify({ ping: performance.now() })) }
+  socket.onopen = () => {
+    say(canVibrate ? 'Connected. Touch the button once; browsers vibrate only then.'
+      : 'Connected, but this browser cannot vibrate: those of iPhones and Firefox cannot. Chrome on Android can.')
+    for (let i = 0; i < 5; ++i) setTimeout(ping, 100 * i)
+    timer = setInterval(ping, 5000)
+  }
+  socket.onclose = () => {
+    clearInterval(timer)
+    stop()
+    say('The session has ended. Scan the picture again for another one.')
+  }
+  socket.onmessage = ({ data }) => {
+    const message = JSON.parse(data)
+    if (message.kind === 'pong') {
+      const now = performance.now(), delay = now - message.ping
+      // The quickest answer knows best; a little forgetful, since clocks drift.
+      if (delay <= bestDelay) {
+        bestDelay = delay
+        offset = message.now - (now + message.ping) / 2
+      }
+      bestDelay += 0.5
+    } else if (message.kind === 'clip') {
+      stop()
+      touches = touchesOf(message.clip)
+      name = message.clip.name || 'clip'
+      element('clip').textContent = `${name}, ${message.clip.duration.toFixed(2)} s`
+      element('alone').disabled = !canVibrate
+    } else if (message.kind === 'play' && ready && canVibrate) {
+      // At `at` of the other end's clock, `from` s of the clip were played there.
+      const began = message.at - (offset ?? message.now - performance.now()) - 1000 * message.from
+      play(() => (performance.now() - began) / 1000)
+    } else if (message.kind === 'stop') stop()
+  }
+}
+
+element('ready').addEventListener('click', () => {
+  ready = !ready
+  element('ready').setAttribute('aria-pressed', String(ready))
+  if (!ready) stop()
+  if (canVibrate) {
+    navigator.vibrate(30)
+    say(ready ? 'Feels what is played.' : 'Feels nothing until you touch the button again.')
+  }
+})
+element('ready').setAttribute('aria-pressed', 'false')
+element('ready').disabled = !canVibrate
+element('alone').addEventListener('click', () => {
+  const started = performance.now()
+  play(() => (performance.now() - started) / 1000)
+})
+connect()

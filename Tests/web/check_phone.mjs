@@ -1,0 +1,142 @@
+// `pacini serve` and a phone: it pairs once, feels what is played when it is played, and nobody else is let in.
+//
+// check_phone.mjs MODULES PACINI SOUND.wav    MODULES: the folder with puppeteer-core and axe-core. Exit 0, 1 on a failed check.
+import { execFileSync, spawn } from 'node:child_process'
+import { existsSync, mkdtempSync, readFileSync, rmSync } from 'node:fs'
+import { connect } from 'node:net'
+import { tmpdir } from 'node:os'
+import { join } from 'node:path'
+
+const [modules, program, sound] = process.argv.slice(2)
+const { default: puppeteer } = await import(join(modules, 'node_modules/puppeteer-core/lib/puppeteer/puppeteer-core.js')).catch(() =>
+  import(join(modules, 'node_modules/puppeteer-core/lib/esm/puppeteer/puppeteer-core.js')))
+const { touchesOf } = await import('../../Source/web/page/vibration.js')
+const folder = mkdtempSync(join(tmpdir(), 'pacini-phone-'))
+let failures = 0
+const check = (what, holds, detail = '') => {
+  console.log(`${holds ? 'ok  ' : 'FAIL'} ${what} ${detail ?? ''}`)
+  if (!holds) ++failures
+}
+const wait = (milliseconds) => new Promise((resolve) => setTimeout(resolve, milliseconds))
+const until = async (condition, seconds = 20) => {
+  for (const end = Date.now() + 1000 * seconds; Date.now() < end; await wait(30)) if (await condition()) return true
+  return false
+}
+
+execFileSync(program, ['encode', sound, '-o', 'knock.json', '-q', '-y'], { cwd: folder })
+const clip = JSON.parse(readFileSync(join(folder, 'knock.json'), 'utf8'))
+let said = '', report = ''
+const server = spawn(program, ['serve', 'knock.json', '--address', '127.0.0.1', '--json'], { cwd: folder })
+server.stderr.on('data', (data) => { said += data })
+server.stdout.on('data', (data) => { report += data })
+const ended = new Promise((resolve) => server.on('close', resolve))
+const browser = await puppeteer.launch({
+  executablePath: ['/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome'].find(existsSync),
+  args: ['--no-sandbox', '--headless=new', '--disable-gpu'], userDataDir: join(folder, 'profile')
+})
+try {
+  check('an address is said', await until(() => /http:\S+/.test(said)), said.trim())
+  const url = said.match(/http:\S+/)[0], place = new URL(url).origin, port = Number(new URL(url).port)
+
+  // What is not paired, asks for something else, or sends something.
+  const status = async (path, options = {}) => (await fetch(place + path, { redirect: 'manual', ...options })).status
+  check('without the code nobody is let in', await status('/') === 403 && await status('/phone.js') === 403 && await status('/events') === 403)
+  check('nor with a wrong one', await status('/?code=aaaaaaaaaaaaaaaa') === 403 && await status('/?code=') === 403)
+  check('uploads are refused', await status('/', { method: 'POST', body: 'x' }) === 413 && await status('/', { method: 'PUT' }) === 405)
+  const raw = (text) => new Promise((resolve) => {
+    const socket = connect(port, '127.0.0.1', () => socket.write(text))
+    let answer = ''
+    socket.on('data', (data) => { answer += data })
+    socket.on('error', () => resolve(answer))
+    socket.on('close', () => resolve(answer))
+  })
+  check('paths are refused', (await raw(`GET /../../etc/passwd HTTP/1.1\r\nHost: 127.0.0.1:${port}\r\n\r\n`)).includes(' 403 '))
+  check('another name of the machine is refused', (await raw(`GET ${new URL(url).pathname}${new URL(url).search} HTTP/1.1\r\nHost: evil.example\r\n\r\n`)).includes(' 403 '))
+  check('what is no request ends', !(await raw('\x16\x03\x01nonsense\r\n\r\n')).includes(' 200 '))
+  check('and an endless one', !(await raw(`GET / HTTP/1.1\r\nX: ${'y'.repeat(20000)}\r\n\r\n`)).includes(' 200 '))
+
+  const phone = await browser.newPage()
+  await phone.emulate({ viewport: { width: 390, height: 844, hasTouch: true, isMobile: true }, userAgent: await browser.userAgent() })
+  const elsewhere = []
+  phone.on('request', (request) => { if (!request.url().startsWith(place) && !/^(data|ws):/.test(request.url())) elsewhere.push(request.url()) })
+  await phone.evaluateOnNewDocument(() => {
+    globalThis.vibrations = []
+    navigator.vibrate = (pattern) => {
+      globalThis.vibrations.push({ at: performance.timeOrigin + performance.now(), pattern: [pattern].flat() })
+      return true
+    }
+  })
+  await phone.goto(url)
+  const text = (id) => phone.$eval(`#${id}`, (element) => element.textContent)
+  check('a phone with the code is let in', await until(async () => (await text('status')).startsWith('Connected')), await text('status'))
+  check('and has the clip', await until(async () => (await text('clip')).includes('knock')), await text('clip'))
+  check('its code is out of the address', !phone.url().includes('code'))
+  check('the code worked once', await status(new URL(url).pathname + new URL(url).search) === 403)
+  check('the program knows', await until(() => said.includes('1 phone connected')))
+  await phone.click('#ready')
+  await wait(800) // the clocks are compared
+
+  // What is played here is felt there, when it is.
+  const touches = touchesOf(clip)
+  const delays = []
+  for (let run = 0; run < 5; ++run) {
+    await phone.evaluate(() => { globalThis.vibrations = [] })
+    const before = said.length
+    server.stdin.write('\n')
+    await until(() => said.slice(before).includes('played on 1 phone'))
+    await wait(1000 * clip.duration + 300)
+    delays.push(await phone.evaluate(() => globalThis.vibrations))
+  }
+
+  // Another browser on this machine has no cookie of the phone, and another page may not speak for it.
+  const stranger = await browser.createBrowserContext()
+  const page = await stranger.newPage()
+  const answer = await page.goto(place)
+  check('another browser is not let in', answer.status() === 403)
+  await stranger.close()
+  const cookie = (await phone.cookies()).map(({ name, value }) => `${name}=${value}`).join('; ')
+  const upgrade = (origin) => raw(`GET /events HTTP/1.1\r\nHost: 127.0.0.1:${port}\r\nCookie: ${cookie}\r\nOrigin: ${origin}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\nSec-WebSocket-Version: 13\r\n\r\n`)
+  check('another page cannot speak for it', (await upgrade('http://evil.example')).includes(' 403 '))
+  const messages = await phone.evaluate(async (place) => {
+    const tell = (text) => new Promise((resolve) => {
+      const socket = new WebSocket(place.replace('http', 'ws') + '/events')
+      socket.onopen = () => socket.send(text)
+      socket.onclose = () => resolve('closed')
+      setTimeout(() => resolve('open'), 1500)
+    })
+    return Promise.all([tell('{"play": 1}'), tell('x'.repeat(5000)), tell('[[[[[['), tell('{"ping": 1}')])
+  }, place)
+  check('what is no question ends the connection', messages.join(' ') === 'closed closed closed open', messages.join(' '))
+
+  await phone.addScriptTag({ content: readFileSync(join(modules, 'node_modules/axe-core/axe.min.js'), 'utf8') }).catch(() => {})
+  const axe = await phone.evaluate(readFileSync(join(modules, 'node_modules/axe-core/axe.min.js'), 'utf8') + '; axe.run().then(({ violations }) => violations.map(({ id }) => id))')
+  check('axe finds nothing', axe.length === 0, axe.join(' '))
+  check('no request leaves the place', elsewhere.length === 0, elsewhere.join(' '))
+  if (process.env.PACINI_WEB_PICTURES) await phone.screenshot({ path: join(process.env.PACINI_WEB_PICTURES, 'phone-page.png') })
+
+  // A browser that cannot.
+  const nextUrl = said.match(/http:\S+/g).at(-1)
+  server.kill('SIGINT')
+  await ended
+  check('the page says when the session is over', await until(async () => (await text('status')).includes('ended')), await text('status'))
+  const { plays } = JSON.parse(report)
+  check('every play was felt', plays.length === 5 && delays.every((vibrations) => vibrations.filter(({ pattern }) => pattern[0] > 0).length > 0))
+  const off = delays.flatMap((vibrations, run) => vibrations.filter(({ pattern }) => pattern[0] > 0).map(({ at, pattern }) => {
+    const time = at - plays[run]
+    // The touch that it belongs to; a first one may be joined in its midst.
+    const touch = touches.find(({ start, end }) => Math.abs(1000 * end - (time + pattern[0])) < 60 || Math.abs(1000 * start - time) < 60)
+    return touch ? Math.min(Math.abs(1000 * touch.start - time), Math.abs(1000 * touch.end - time - pattern[0])) : 999
+  })).sort((a, b) => a - b)
+  const patterns = delays.every((vibrations) => vibrations.filter(({ pattern }) => pattern[0] > 0)
+    .every(({ pattern }) => pattern.length % 2 === 1 && pattern.length <= 99 && pattern.every((part) => part > 0)))
+  check('patterns are what browsers take', patterns)
+  check('each belongs to a touch of the clip', off.at(-1) < 999)
+  // A figure, not a bar: how fast a machine is, is no test.
+  console.log(`     off by ${off[Math.floor(off.length / 2)].toFixed(1)} ms in the middle, ${off.at(-1).toFixed(1)} at most, of ${off.length}`)
+  check('the program says where it was', nextUrl.startsWith(place) && JSON.parse(report).address.startsWith(place))
+} finally {
+  server.kill()
+  await browser.close()
+  rmSync(folder, { recursive: true, force: true })
+}
+process.exit(failures ? 1 : 0)
