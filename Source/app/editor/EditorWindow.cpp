@@ -3,6 +3,7 @@
 
 #include "app/editor/DevicesSheet.h"
 #include "app/editor/MeasureDevice.h"
+#include "app/editor/PhoneSheet.h"
 #include "editor/Text.h"
 #include "editor/Translation.h"
 
@@ -36,6 +37,7 @@ EditorWindow::EditorWindow(editor::Session& session, PreviewDevices& wanted, edi
     : DocumentWindow("Pacini Editor", juce::Colours::black, DocumentWindow::allButtons),
       rig(wanted),
       controllers(session.model, session.clipSelection, session.transport),
+      phones(session.model, session.transport),
       taps(session.tapping, session.transport),
       content(session, completed(std::move(around)))
 {
@@ -59,6 +61,10 @@ editor::HostServices EditorWindow::completed(editor::HostServices around)
     around.showDevices = [this]
     {
         showDevices();
+    };
+    around.feelOnPhone = [this]
+    {
+        feelOnPhone();
     };
     around.outputNames = [this]
     {
@@ -109,6 +115,17 @@ void EditorWindow::showDevices()
         content.doCommand(editor::hapticOutputs);
     };
     content.showSheet(std::move(sheet));
+}
+
+void EditorWindow::feelOnPhone()
+{
+    const auto started = phones.start();
+    if (!started)
+    {
+        content.session().model.onError(editor::tr("Phones cannot be let in"), editor::toText(started.error().text()));
+        return;
+    }
+    content.showSheet(std::make_unique<PhoneSheet>(phones));
 }
 
 } // namespace pacini::app

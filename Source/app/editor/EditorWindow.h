@@ -4,6 +4,7 @@
 // Main window of the editor.
 
 #include "app/editor/ControllerOutput.h"
+#include "app/editor/PhoneOutput.h"
 #include "app/editor/PreviewDevices.h"
 #include "app/editor/TapInput.h"
 #include "editor/clip/EditorView.h"
@@ -31,9 +32,11 @@ private:
     [[nodiscard]] editor::HostServices completed(editor::HostServices around);
     [[nodiscard]] std::vector<editor::FoundDevice> found();
     void showDevices();
+    void feelOnPhone();
 
     PreviewDevices& rig;
     ControllerOutput controllers;
+    PhoneOutput phones;
     TapInput taps;
     editor::EditorView content;
 };

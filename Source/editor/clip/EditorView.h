@@ -44,6 +44,7 @@ struct HostServices
     juce::String language = {};                                   ///< code of the chosen one; empty: that of the system
     std::function<void(const juce::String&)> chooseLanguage = {}; ///< from the next start on; null: not here
     std::function<void(const std::filesystem::path&)> runStudy = {}; ///< of that file; null: not here
+    std::function<void()> feelOnPhone = {};                          ///< lets a phone in; null: not here
     juce::String version = {};                                       ///< of the program; empty: not told
 };
 

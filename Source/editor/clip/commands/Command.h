@@ -110,6 +110,7 @@ enum Command : int
     measureActuator,
     loadProfile,
     runStudy,
+    feelOnPhone,
 
     nextPanel,
     previousPanel,

@@ -46,6 +46,9 @@ Menu toolsMenu(EditorView& view)
     menu.add(
         runStudy, "Run a study...", "Opens a study with people (study.json) in a window for the participant",
         [&view] { view.files().askForStudy(); }, [&view] { return view.hostServices().runStudy != nullptr; });
+    menu.add(
+        feelOnPhone, "Feel on a phone...", "Lets a phone in the same network vibrate with what is played here",
+        [&view] { view.hostServices().feelOnPhone(); }, [&view] { return view.hostServices().feelOnPhone != nullptr; });
     return menu;
 }
 

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/editor/PhoneSheet.h"
+
+#include "editor/Controls.h"
+#include "editor/Text.h"
+#include "editor/Theme.h"
+#include "editor/Translation.h"
+
+namespace pacini::app
+{
+
+namespace
+{
+constexpr int gap = 8;
+constexpr int glanceInterval = 250; // ms
+constexpr int quietZone = 4;        // modules that are light around the picture
+} // namespace
+
+PhoneSheet::PhoneSheet(PhoneOutput& wanted) : Sheet("Feel on a phone", 640, 420), output(wanted)
+{
+    help.setText(editor::tr("Scan the picture with a phone in the same network: it plays what the editor plays. The "
+                            "code works once; then there is another. Browsers of Android vibrate, those of iPhones "
+                            "and Firefox do not. What goes over the network is not encrypted."),
+                 juce::dontSendNotification);
+    help.setFont(editor::usualFont());
+    help.setJustificationType(juce::Justification::topLeft);
+    status.setFont(editor::usualFont());
+    address.setReadOnly(true);
+    address.setMultiLine(true);
+    address.setTitle("Address for the phone");
+    address.setFont(editor::usualFont());
+    for (juce::Component* part : std::initializer_list<juce::Component*>{&help, &address, &status})
+        addAndMakeVisible(part);
+    endButton.setButtonText("End the session");
+    editor::prepareButton(endButton, "No phone feels anything any more, and their pages end",
+                          [this]
+                          {
+                              output.end();
+                              close();
+                          });
+    addAndMakeVisible(endButton);
+    setAnswers({{"Close", {}}});
+    refresh();
+    startTimer(glanceInterval);
+}
+
+void PhoneSheet::timerCallback()
+{
+    refresh();
+}
+
+void PhoneSheet::refresh()
+{
+    const auto* server = output.server();
+    if (server == nullptr)
+        return;
+    if (const std::string url = server->url(); url != shown)
+    {
+        shown = url;
+        modules = phone::qrModules(url);
+        address.setText(editor::toText(url), juce::dontSendNotification);
+        repaint();
+    }
+    const auto phones = static_cast<int>(server->phones());
+    const juce::String text = phones == 0   ? editor::tr("No phone is connected.")
+                              : phones == 1 ? editor::tr("One phone is connected.")
+                                            : editor::tr("{0} phones are connected.", {juce::String(phones)});
+    if (status.getText() != text)
+    {
+        status.setText(text, juce::dontSendNotification);
+        juce::AccessibilityHandler::postAnnouncement(text, juce::AccessibilityHandler::AnnouncementPriority::medium);
+    }
+}
+
+void PhoneSheet::layOut(juce::Rectangle<int> area)
+{
+    picture = area.removeFromLeft(juce::jmin(area.getHeight(), area.getWidth() / 2))
+                  .withSizeKeepingCentre(juce::jmin(area.getHeight(), area.getWidth()),
+                                         juce::jmin(area.getHeight(), area.getWidth()));
+    area.removeFromLeft(2 * gap);
+    auto row = area.removeFromBottom(4 * gap);
+    endButton.setBounds(row.removeFromRight(18 * gap));
+    status.setBounds(row);
+    area.removeFromBottom(gap);
+    address.setBounds(area.removeFromBottom(6 * gap));
+    help.setBounds(area);
+}
+
+void PhoneSheet::paintOverChildren(juce::Graphics& g)
+{
+    // Black on white whatever the look: cameras want it so.
+    const auto size = static_cast<int>(modules.size());
+    if (size == 0)
+        return;
+    const int pixels = juce::jmax(1, picture.getWidth() / (size + 2 * quietZone));
+    const auto square = picture.withSizeKeepingCentre(pixels * (size + 2 * quietZone), pixels * (size + 2 * quietZone));
+    g.setColour(juce::Colours::white);
+    g.fillRect(square);
+    g.setColour(juce::Colours::black);
+    for (int y = 0; y < size; ++y)
+        for (int x = 0; x < size; ++x)
+            if (modules[static_cast<std::size_t>(y)][static_cast<std::size_t>(x)])
+                g.fillRect(square.getX() + pixels * (x + quietZone), square.getY() + pixels * (y + quietZone), pixels,
+                           pixels);
+}
+
+} // namespace pacini::app
