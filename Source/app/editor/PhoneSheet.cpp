@@ -18,12 +18,20 @@ constexpr int quietZone = 4;        // modules that are light around the picture
 
 PhoneSheet::PhoneSheet(PhoneOutput& wanted) : Sheet("Feel on a phone", 640, 420), output(wanted)
 {
-    help.setText(editor::tr("Scan the picture with a phone in the same network: it plays what the editor plays. The "
-                            "code works once; then there is another. Browsers of Android vibrate, those of iPhones "
-                            "and Firefox do not. What goes over the network is not encrypted."),
-                 juce::dontSendNotification);
+    const auto explanation =
+        editor::tr("Scan the picture with a phone in the same network: it plays what the editor plays. The "
+                   "code works once; then there is another. Browsers of Android vibrate, those of iPhones "
+                   "and Firefox do not. What goes over the network is not encrypted.");
+    help.setMultiLine(true);
+    help.setReadOnly(true);
+    help.setCaretVisible(false);
+    help.setWantsKeyboardFocus(false);
+    for (const int colour : {juce::TextEditor::backgroundColourId, juce::TextEditor::outlineColourId,
+                             juce::TextEditor::focusedOutlineColourId})
+        help.setColour(colour, juce::Colours::transparentBlack);
     help.setFont(editor::usualFont());
-    help.setJustificationType(juce::Justification::topLeft);
+    help.setText(explanation, juce::dontSendNotification);
+    setDescription(explanation);
     status.setFont(editor::usualFont());
     address.setReadOnly(true);
     address.setMultiLine(true);
@@ -78,12 +86,12 @@ void PhoneSheet::layOut(juce::Rectangle<int> area)
                   .withSizeKeepingCentre(juce::jmin(area.getHeight(), area.getWidth()),
                                          juce::jmin(area.getHeight(), area.getWidth()));
     area.removeFromLeft(2 * gap);
-    auto row = area.removeFromBottom(4 * gap);
-    endButton.setBounds(row.removeFromRight(18 * gap));
-    status.setBounds(row);
+    endButton.setBounds(area.removeFromBottom(4 * gap).removeFromRight(20 * gap));
     area.removeFromBottom(gap);
+    status.setBounds(area.removeFromBottom(3 * gap));
     address.setBounds(area.removeFromBottom(6 * gap));
     help.setBounds(area);
+    help.applyColourToAllText(editor::paletteFor(*this).text);
 }
 
 void PhoneSheet::paintOverChildren(juce::Graphics& g)

@@ -27,8 +27,8 @@ private:
     phone::QrModules modules;
     std::string shown;
     juce::Rectangle<int> picture;
-    juce::TextEditor address;
-    juce::Label help, status;
+    juce::TextEditor help, address;
+    juce::Label status;
     juce::TextButton endButton;
 };
 
