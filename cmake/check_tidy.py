@@ -15,20 +15,9 @@ import time
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-from check_warnings import LONE_HEADER, ROOT
+from check_warnings import LONE_HEADER, ROOT, newest_first
 
 NEWEST = 16
-
-
-def newest_first():
-    """Paths below the checkout, by the last commit that changed them; those that no commit has yet come first."""
-    def lines(*command):
-        done = subprocess.run(["git", "-c", f"safe.directory={ROOT}", *command], cwd=ROOT, capture_output=True, text=True)
-        return done.stdout.splitlines() if done.returncode == 0 else []
-    if lines("rev-list", "--count", "-n", "2", "HEAD") != ["2"]:
-        return None  # a copy, or a clone without its history
-    return dict.fromkeys([*lines("diff", "--name-only", "HEAD"), *lines("ls-files", "-o", "--exclude-standard"),
-                          *(line for line in lines("log", "--no-merges", "--format=", "--name-only") if line)])
 
 
 def main():
