@@ -29,7 +29,7 @@ node_modules=(koffi@3.3.4 pyright@1.1.405)
 # Schedulers that the scripts of Resources/cluster are for, likewise.
 cluster_packages=(parallel slurmctld slurmd slurm-client munge)
 # WebAssembly, the browser that the page is tried in, and the compiler that reads the types of the package.
-web_packages=(clang-22 lld-22 libc++-22-dev-wasm32 libc++abi-22-dev-wasm32 libclang-rt-22-dev-wasm32 wasi-libc)
+web_packages=(clang-22 lld-22 libc++-22-dev-wasm32 libc++abi-22-dev-wasm32 libclang-rt-22-dev-wasm32 wasi-libc cmark)
 web_test_packages=(nodejs npm chromium zbar-tools)
 web_modules=(puppeteer-core@24.31.0 axe-core@4.14.1 typescript@5.9.3)
 # For CI alone: other machines, which must make the same clips, another compiler with its library, and its reader of sources.

@@ -16,6 +16,8 @@ DOCS = ROOT / "Resources" / "docs"
 # Where the pages stand, in the order in which somebody needs them.
 GUIDES = {
     "Start": ["index.md", "getting-started.md", "glossary.md"],
+    "How it works": ["guide-bands.md", "guide-breakpoints.md", "guide-actuators.md", "guide-scenes.md",
+                     "guide-protection.md", "guide-time.md"],
     "Make and feel": ["editor.md", "plugin.md", "scenes.md", "profiles.md", "measuring.md", "devices.md", "formats.md"],
     "In games and programs": ["runtime.md", "engines.md", "csharp.md", "lua.md", "godot.md", "rust.md", "node.md", "web.md",
                               "sdl.md"],
@@ -129,6 +131,11 @@ def write_pages(pages):
     pages.mkdir(parents=True)
     for page in DOCS.glob("*.md"):
         (pages / page.name).write_text(linked(page.read_text()))
+    # The guide of the web page, where its figures are computed.
+    for page in (DOCS / "guide").glob("*.md"):
+        text = re.sub(r'<div class="figure".*?</div>', "*The figure is computed on the [web page](web.md), in its guide.*",
+                      page.read_text())
+        (pages / f"guide-{page.name}").write_text(text.replace("](../", "]("))
     for picture in DOCS.glob("*.png"):
         shutil.copy(picture, pages)
     for name, page in OUTSIDE.items():

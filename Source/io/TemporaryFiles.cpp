@@ -172,6 +172,21 @@ bool keepTemporary(std::FILE* temporary) noexcept
 #endif
 }
 
+TemporaryMark::TemporaryMark([[maybe_unused]] std::FILE* temporary) noexcept
+{
+#if !defined(_WIN32)
+    file = ::fcntl(::fileno(temporary), F_DUPFD_CLOEXEC, 0);
+#endif
+}
+
+TemporaryMark::~TemporaryMark()
+{
+#if !defined(_WIN32)
+    if (file >= 0)
+        ::close(file);
+#endif
+}
+
 void removeStaleTemporaries(const fs::path& folder)
 {
     static std::mutex mutex;

@@ -38,6 +38,20 @@ private:
 /// been removed already.
 [[nodiscard]] bool keepTemporary(std::FILE* temporary) noexcept;
 
+/// Keeps the mark of a temporary for its life, also while the stream is closed: between that and the renaming, who looks
+/// for stale ones would take it for one. Nothing on Windows, where open files cannot be renamed.
+class TemporaryMark
+{
+public:
+    explicit TemporaryMark(std::FILE* temporary) noexcept;
+    TemporaryMark(const TemporaryMark&) = delete;
+    TemporaryMark& operator=(const TemporaryMark&) = delete;
+    ~TemporaryMark();
+
+private:
+    int file = -1; ///< of the same open file
+};
+
 /// Removes the temporaries in `folder` (empty: the current one) that no process keeps. One that another computer made,
 /// whose marks may not be seen here, must also be a day old. Each folder is looked at once in the life of a process.
 void removeStaleTemporaries(const std::filesystem::path& folder);

@@ -31,6 +31,7 @@ ELSEWHERE = {
     "bash cmake/bootstrap.sh plugin": ("cmake/bootstrap.sh", "plugin)"),
     "cmake --workflow --preset test": ("CMakePresets.json", '"name": "test"'),
     "bash cmake/bootstrap.sh deps": ("cmake/bootstrap.sh", "deps)"),
+    "pacini serve door.json": ("Tests/web/check_phone.mjs", "['serve', "),
     "bash cmake/bootstrap.sh web": ("Tests/web/check_web.py", "build/web"),
     "cmake --preset debug": ("CMakePresets.json", '"name": "debug"'),
     "cmake --preset debug -DPACINI_TEST_ROOMS=io": ("Tests/CMakeLists.txt", "set(PACINI_TEST_ROOMS"),

@@ -5,6 +5,7 @@
 #include "io/AudioFile.h"
 #include "io/ClipFile.h"
 #include "io/InputFile.h"
+#include "io/TemporaryFiles.h"
 #include "support/Catch.h"
 #include "support/Skip.h"
 #include "support/TempFolder.h"
@@ -14,6 +15,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <csignal>
 #include <functional>
 #include <iterator>
@@ -188,6 +190,31 @@ TEST_CASE("A folder without the right to write is reported", "[io]")
                              ? failedCleanly
                              : wrongError;
               }) == failedCleanly);
+}
+
+TEST_CASE("Files are written whole while other programs clear up beside them", "[io]")
+{
+    const TempFolder folder;
+    std::atomic<bool> over = false;
+    std::atomic<int> written = 0, failed = 0;
+    std::thread writer(
+        [&]
+        {
+            while (!over)
+                ++(writeFileAtomically(folder / "clip.json", std::string_view("whole")).ok() ? written : failed);
+        });
+    for (int i = 0; i < 200; ++i)
+        CHECK(inChild(
+                  [&]
+                  {
+                      removeStaleTemporaries(folder.path());
+                      return 0;
+                  }) == 0);
+    over = true;
+    writer.join();
+    CHECK(written > 100);
+    CHECK(failed == 0);
+    CHECK(bytesOf(folder / "clip.json") == "whole");
 }
 
 TEST_CASE("A program killed while it writes leaves the old file whole", "[io]")

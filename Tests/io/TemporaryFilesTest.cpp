@@ -86,3 +86,18 @@ TEST_CASE("A temporary that is kept stays until it is closed", "[io]")
     CHECK(fs::exists(path));
     std::fclose(file);
 }
+
+TEST_CASE("A temporary that is marked stays although its stream is closed", "[io]")
+{
+    const TempFolder folder;
+    const fs::path path = folder / (".clip.json" + temporaryEnding(1));
+    std::FILE* file = std::fopen(path.string().c_str(), "wb");
+    REQUIRE(file != nullptr);
+    CHECK(keepTemporary(file));
+    const TemporaryMark mark(file);
+    std::fclose(file);
+    removeStaleTemporaries(folder.path());
+#if !defined(_WIN32)
+    CHECK(fs::exists(path));
+#endif
+}

@@ -286,7 +286,7 @@ try {
   await tab.click('#record')
   await wait(1500)
   await tab.click('#record')
-  check('a recording is analysed', await analysed() && (await tab.$eval('#lanes', (canvas) => canvas.getAttribute('aria-label'))).startsWith('recording'), await text('figures'))
+  check('a recording is analysed', await until(() => tab.$eval('#lanes', (canvas) => canvas.getAttribute('aria-label').startsWith('recording'))) && await analysed(), await text('figures'))
 
   // Scrolling a minute: every picture within 1/60 s of work.
   const minute = Buffer.concat([bytes.subarray(0, 44), ...Array.from({ length: Math.ceil(60 / ((bytes.length - 44) / 88200)) }, () => bytes.subarray(44))])
@@ -320,6 +320,25 @@ try {
   const at = (share) => pictureTimes[Math.floor(share * (pictureTimes.length - 1))]
   // A figure, not a bar: how fast a machine is, is no test.
   check('a minute is scrolled', pictureTimes.length >= 100, `${pictureTimes.length} pictures, median ${at(0.5)?.toFixed(1)}, 95 % ${at(0.95)?.toFixed(1)}, worst ${at(1)?.toFixed(1)} ms of 16.7`)
+
+  // The guide: every figure is computed.
+  const guide = await browser.newPage()
+  guide.on('pageerror', (error) => problems.push(error.message))
+  guide.on('request', (request) => { if (!request.url().startsWith(place) && !/^(data|blob):/.test(request.url())) elsewhere.push(request.url()) })
+  await guide.setViewport({ width: 1000, height: 900 })
+  await guide.goto(`${place}guide.html`)
+  await until(() => guide.evaluate(() => document.querySelectorAll('#pages a').length === 6))
+  for (const name of ['bands', 'breakpoints', 'actuators', 'scenes', 'protection', 'time']) {
+    await guide.goto(`${place}guide.html#${name}`)
+    const figureSays = () => guide.evaluate((name) => document.querySelector(`.figure[data-figure=${name}] [role=status]`)?.textContent ?? '', name)
+    const enough = { breakpoints: /60: /, time: /32 bands/ }[name] ?? /\d/
+    check(`the figure of ${name}`, await until(async () => enough.test(await figureSays()), 60), await figureSays())
+    if (pictures) await guide.screenshot({ path: join(pictures, `guide-${name}.png`), fullPage: true })
+  }
+  await guide.addScriptTag({ path: join(modules, 'node_modules/axe-core/axe.min.js') })
+  const found = await guide.evaluate(async () => (await globalThis.axe.run()).violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ html }) => html.slice(0, 80)).join(' ')}`))
+  check('axe finds nothing in the guide', found.length === 0, found.join('\n'))
+  await guide.close()
 
   // Keyboard, and what screen readers are told.
   await tab.goto(place)

@@ -1,0 +1,38 @@
+// The guide: pages of text with figures that the core computes while they are read.
+
+import { figures } from './figures.js'
+import pages from './guide/list.js'
+
+const element = (id) => document.getElementById(id)
+let leave = new AbortController()
+
+const show = async () => {
+  leave.abort()
+  leave = new AbortController()
+  const name = location.hash.slice(1) || pages[0].name
+  const page = pages.find((one) => one.name === name) ?? pages[0]
+  const answer = await fetch(`guide/${page.name}.html`)
+  element('page').innerHTML = answer.ok ? await answer.text() : '<p role="alert">This page is not there.</p>'
+  document.title = `Pacini: ${page.title}`
+  for (const link of document.querySelectorAll('#pages a'))
+    if (link.hash === `#${page.name}`) link.setAttribute('aria-current', 'page')
+    else link.removeAttribute('aria-current')
+  for (const place of document.querySelectorAll('.figure'))
+    figures[place.dataset.figure](place, leave.signal).catch((error) => {
+      if (leave.signal.aborted || error?.superseded) return
+      const told = document.createElement('p')
+      told.role = 'alert'
+      told.textContent = error.message
+      place.append(told)
+    })
+}
+
+element('pages').append(...pages.map(({ name, title }) => {
+  const item = document.createElement('li'), link = document.createElement('a')
+  link.href = `#${name}`
+  link.textContent = title
+  item.append(link)
+  return item
+}))
+addEventListener('hashchange', () => show().then(() => element('page').focus()))
+show().then(() => { document.documentElement.dataset.ready = 'true' })
