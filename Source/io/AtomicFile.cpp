@@ -214,7 +214,7 @@ Result<void> AtomicFile::commit()
         firstErrno = errno;
     if (firstErrno == 0 && temporary.empty())
         copyToTarget();
-    // const TemporaryMark mark(file.get());
+    const TemporaryMark mark(file.get());
     if (std::fclose(file.release()) != 0 && firstErrno == 0)
         firstErrno = errno;
     if (firstErrno == 0 && !temporary.empty())
