@@ -321,6 +321,17 @@ try {
   // A figure, not a bar: how fast a machine is, is no test.
   check('a minute is scrolled', pictureTimes.length >= 100, `${pictureTimes.length} pictures, median ${at(0.5)?.toFixed(1)}, 95 % ${at(0.95)?.toFixed(1)}, worst ${at(1)?.toFixed(1)} ms of 16.7`)
 
+  // A browser without room.
+  const full = await browser.newPage()
+  await full.evaluateOnNewDocument(() => {
+    IDBObjectStore.prototype.put = () => { throw new DOMException('no room', 'QuotaExceededError') }
+  })
+  await full.goto(place)
+  await full.select('#gallery', await full.evaluate(async () => (await import('./gallery/list.js')).default[0]))
+  check('a full storage is told', await until(() => full.$eval('#storage', (element) => element.textContent.includes('no room'))))
+  check('and the clip is there', await until(() => full.$eval('#figures', (element) => element.textContent.includes('bytes packed'))))
+  await full.close()
+
   // The guide: every figure is computed.
   const guide = await browser.newPage()
   guide.on('pageerror', (error) => problems.push(error.message))

@@ -10,7 +10,7 @@ import { History } from './history.js'
 import { Lanes } from './lanes.js'
 import { Live } from './live.js'
 import { Peaks } from './peaks.js'
-import { playPair } from './sound-player.js'
+import { channelCount, playPair } from './sound-player.js'
 import { keep, kept } from './store.js'
 import { zip } from './zip.js'
 
@@ -198,9 +198,10 @@ const drawPicture = guarded(async () => {
 const remember = async () => {
   try {
     await keep(history.now)
+    element('storage').textContent = ''
   } catch (error) {
     const full = error?.name === 'QuotaExceededError'
-    say(full ? 'This browser has no room to keep the sound and the clip over a reload. Save the clip.'
+    element('storage').textContent = (full ? 'This browser has no room to keep the sound and the clip over a reload. Save the clip.'
       : `This browser does not keep the clip over a reload (${error?.message ?? 'storage is refused'}). Save it.`)
   }
 }
@@ -389,6 +390,7 @@ for (const input of document.querySelectorAll('input[type=range]')) {
 for (const [key, profile] of Object.entries(profiles)) element('profile').add(new Option(profile.name ?? key, key))
 element('profile').add(new Option('none: plain drive', ''))
 element('profile').value = 'l5-wristband'
+for (let channel = 1; channel < channelCount(); ++channel) element('channel').add(new Option(channel === 1 ? '2, right' : String(channel + 1), String(channel)))
 let turns = 0 // of knobs: what one turn changes is one step
 const again = later(() => analyse('Analyse', history.now, `turn ${turns}`), 150)
 for (const id of ['bands', 'breakpoints', 'sensitivity']) {
@@ -410,7 +412,7 @@ on('undo', 'click', () => travel('undo'))
 on('redo', 'click', () => travel('redo'))
 on('play-sound', 'click', () => playThat((how) => playPair(soundPart(), soundPart(), how)))
 on('play-drive', 'click', () => playThat((how) => playPair(drivePart(), drivePart(), how)))
-on('play-both', 'click', () => playThat((how) => playPair(soundPart(), drivePart(), how)))
+on('play-both', 'click', () => playThat((how) => playPair(soundPart(), drivePart(), { ...how, channel: Number(element('channel').value) })))
 on('comparison', 'toggle', () => element('comparison').open ? compare() : undefined)
 on('spectrogram', 'click', () => {
   pictureWanted = !pictureWanted
