@@ -38,8 +38,8 @@ private:
 /// been removed already.
 [[nodiscard]] bool keepTemporary(std::FILE* temporary) noexcept;
 
-/// Keeps the mark of a temporary for its life, also while the stream is closed: between that and the renaming, who looks
-/// for stale ones would take it for one. Nothing on Windows, where open files cannot be renamed.
+/// Keeps the mark of a temporary for its life, also while the stream is closed: between that and the renaming, who
+/// looks for stale ones would take it for one. Nothing on Windows, where open files cannot be renamed.
 class TemporaryMark
 {
 public:

@@ -1,5 +1,6 @@
-#include "devices/InstantClock.h"
 #include "devices/RumblePlayer.h"
+
+#include "devices/InstantClock.h"
 #include "devices/SonyReports.h"
 #include "devices/SteadyClock.h"
 #include "devices/WaveformDevice.h"
