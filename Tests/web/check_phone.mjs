@@ -120,6 +120,7 @@ try {
   await ended
   check('the page says when the session is over', await until(async () => (await text('status')).includes('ended')), await text('status'))
   const { plays } = JSON.parse(report)
+  check('nothing was wrong in the program', !/Sanitizer|terminate called/.test(said), /Sanitizer|terminate called/.test(said) ? said : '')
   check('every play was felt', plays.length === 5 && delays.every((vibrations) => vibrations.filter(({ pattern }) => pattern[0] > 0).length > 0))
   const off = delays.flatMap((vibrations, run) => vibrations.filter(({ pattern }) => pattern[0] > 0).map(({ at, pattern }) => {
     const time = at - plays[run]
