@@ -321,6 +321,14 @@ try {
   // A figure, not a bar: how fast a machine is, is no test.
   check('a minute is scrolled', pictureTimes.length >= 100, `${pictureTimes.length} pictures, median ${at(0.5)?.toFixed(1)}, 95 % ${at(0.95)?.toFixed(1)}, worst ${at(1)?.toFixed(1)} ms of 16.7`)
 
+  // What the page needs without a network is what it has.
+  const keptFiles = await tab.evaluate(async () => (await (await fetch('service-worker.js')).text()).match(/'[^']+\.(js|html|css|wasm)'/g).map((name) => name.slice(1, -1)))
+  const missing = readdirSync(page).filter((name) => /\.(js|html|css)$/.test(name) && name !== 'service-worker.js' && !keptFiles.includes(name))
+  check('the worker of the page keeps all of its files', missing.length === 0, missing.join(' '))
+  const grouped = await tab.$$eval('#gallery optgroup option', (options) => options.map(({ value }) => value).sort())
+  const gallery = await tab.evaluate(async () => [...(await import('./gallery/list.js')).default].sort())
+  check('the gallery has all clips by kind', gallery.length > 10 && grouped.join() === gallery.join() && !(await tab.$$eval('#gallery optgroup', (groups) => groups.map(({ label }) => label))).includes('Others'))
+
   // A browser without room.
   const full = await browser.newPage()
   await full.evaluateOnNewDocument(() => {

@@ -7,6 +7,7 @@ import { startEditing } from './editing.js'
 import { connectController, describeFeel, feel, feelsNow } from './feel.js'
 import { canAsk, remembered } from './hid.js'
 import { History } from './history.js'
+import { byKind } from './kinds.js'
 import { Lanes } from './lanes.js'
 import { Live } from './live.js'
 import { Peaks } from './peaks.js'
@@ -477,7 +478,12 @@ guarded(async () => {
 
 guarded(async () => {
   const { default: gallery } = await import('./gallery/list.js')
-  for (const file of gallery) element('gallery').add(new Option(file.replace(/\.pacb$/, '').replaceAll('_', ' '), file))
+  for (const [kind, files] of byKind(gallery)) {
+    const group = document.createElement('optgroup')
+    group.label = kind
+    group.append(...files.map((file) => new Option(file.replace(/\.pacb$/, '').replaceAll('_', ' '), file)))
+    element('gallery').append(group)
+  }
 })()
 guarded(async () => {
   formatList = (await side.call('formats')).filter((format) => format.writes)
