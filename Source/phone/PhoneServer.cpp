@@ -176,7 +176,7 @@ private:
 class Visit : public std::enable_shared_from_this<Visit>
 {
 public:
-    using Welcome = std::function<void(std::shared_ptr<Phone>, const http::request<http::empty_body>&)>;
+    using Welcome = std::function<void(const std::shared_ptr<Phone>&, const http::request<http::empty_body>&)>;
 
     Visit(Tcp::socket&& socket, Host& ofServer, Welcome welcomePhone)
         : stream(std::move(socket)), host(ofServer), welcome(std::move(welcomePhone))
@@ -232,8 +232,7 @@ private:
             if (std::string(request[http::field::origin]) != "http://" + host.place())
                 return refuse(http::status::forbidden, "This is another place.");
             stream.expires_never();
-            auto phone = std::make_shared<Phone>(stream.release_socket());
-            return welcome(std::move(phone), request);
+            return welcome(std::make_shared<Phone>(stream.release_socket()), request);
         }
         for (const PageFile& file : pageFiles)
             if (file.name == target || (target == "/" && file.name == "/index.html"))
@@ -399,14 +398,14 @@ private:
                     return;
                 if (!failed)
                     std::make_shared<Visit>(std::move(socket), static_cast<Host&>(*this),
-                                            [this](std::shared_ptr<Phone> phone, const auto& request)
-                                            { welcome(std::move(phone), request); })
+                                            [this](const std::shared_ptr<Phone>& phone, const auto& request)
+                                            { welcome(phone, request); })
                         ->run();
                 accept();
             });
     }
 
-    void welcome(std::shared_ptr<Phone> phone, const http::request<http::empty_body>& request)
+    void welcome(const std::shared_ptr<Phone>& phone, const http::request<http::empty_body>& request)
     {
         if (connected.size() >= mostPhones)
             return;
