@@ -6,37 +6,21 @@
 // failed check.
 import { execFileSync, spawn } from 'node:child_process'
 import { existsSync, mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs'
-import { createRequire } from 'node:module'
 import { tmpdir } from 'node:os'
 import { dirname, join } from 'node:path'
 import { fileURLToPath } from 'node:url'
 
+import { check, failures, launch, until, wait } from './browser.mjs'
+
 const [page, modules, program, live, sound, pictures] = process.argv.slice(2)
-const require = createRequire(join(modules, 'package.json'))
-const { default: puppeteer } = await import(join(modules, 'node_modules/puppeteer-core/lib/puppeteer/puppeteer-core.js')).catch(() =>
-  import(require.resolve('puppeteer-core')))
 const folder = mkdtempSync(join(tmpdir(), 'pacini-page-'))
 const port = 20000 + process.pid % 20000
 const place = `http://127.0.0.1:${port}/`
 const serve = () => spawn('python3', ['-B', join(dirname(fileURLToPath(import.meta.url)), '../../Source/web/serve.py'), page, String(port)])
 let server = serve()
-let failures = 0
-const check = (what, holds, detail = '') => {
-  console.log(`${holds ? 'ok  ' : 'FAIL'} ${what} ${detail ?? ''}`)
-  if (!holds) ++failures
-}
-const wait = (milliseconds) => new Promise((resolve) => setTimeout(resolve, milliseconds))
-const until = async (condition, seconds = 20) => {
-  for (const end = Date.now() + 1000 * seconds; Date.now() < end; await wait(50)) if (await condition()) return true
-  return false
-}
 
-const browser = await puppeteer.launch({
-  executablePath: ['/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome'].find(existsSync),
-  args: ['--no-sandbox', '--headless=new', '--disable-gpu', '--autoplay-policy=no-user-gesture-required',
-    '--use-fake-device-for-media-stream', '--use-fake-ui-for-media-stream'],
-  userDataDir: join(folder, 'profile')
-})
+const browser = await launch(modules, ['--autoplay-policy=no-user-gesture-required', '--use-fake-device-for-media-stream',
+  '--use-fake-ui-for-media-stream'], { userDataDir: join(folder, 'profile') })
 try {
   await until(async () => (await fetch(place).catch(() => undefined))?.ok)
   const tab = await browser.newPage()
@@ -92,7 +76,7 @@ try {
   const bytes = readFileSync(sound)
   await drop(bytes, 'knock.wav')
   check('a dropped sound is analysed', await analysed(), await text('figures'))
-  if (failures) console.log(problems, await text('error'), await text('status'))
+  if (failures()) console.log(problems, await text('error'), await text('status'))
 
   // Export: the bytes of the program.
   const save = async (format, extension) => {
@@ -391,4 +375,4 @@ try {
   server.kill()
   rmSync(folder, { recursive: true, force: true })
 }
-process.exit(failures ? 1 : 0)
+process.exit(failures() ? 1 : 0)

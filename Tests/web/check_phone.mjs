@@ -2,26 +2,16 @@
 //
 // check_phone.mjs MODULES PACINI SOUND.wav    MODULES: the folder with puppeteer-core and axe-core. Exit 0, 1 on a failed check.
 import { execFileSync, spawn } from 'node:child_process'
-import { existsSync, mkdtempSync, readFileSync, rmSync } from 'node:fs'
+import { mkdtempSync, readFileSync, rmSync } from 'node:fs'
 import { connect } from 'node:net'
 import { tmpdir } from 'node:os'
 import { join } from 'node:path'
 
+import { check, failures, launch, noteVibrations, until, wait } from './browser.mjs'
+
 const [modules, program, sound] = process.argv.slice(2)
-const { default: puppeteer } = await import(join(modules, 'node_modules/puppeteer-core/lib/puppeteer/puppeteer-core.js')).catch(() =>
-  import(join(modules, 'node_modules/puppeteer-core/lib/esm/puppeteer/puppeteer-core.js')))
 const { touchesOf } = await import('../../Source/web/page/vibration.js')
 const folder = mkdtempSync(join(tmpdir(), 'pacini-phone-'))
-let failures = 0
-const check = (what, holds, detail = '') => {
-  console.log(`${holds ? 'ok  ' : 'FAIL'} ${what} ${detail ?? ''}`)
-  if (!holds) ++failures
-}
-const wait = (milliseconds) => new Promise((resolve) => setTimeout(resolve, milliseconds))
-const until = async (condition, seconds = 20) => {
-  for (const end = Date.now() + 1000 * seconds; Date.now() < end; await wait(30)) if (await condition()) return true
-  return false
-}
 
 execFileSync(program, ['encode', sound, '-o', 'knock.json', '-q', '-y'], { cwd: folder })
 const clip = JSON.parse(readFileSync(join(folder, 'knock.json'), 'utf8'))
@@ -30,10 +20,7 @@ const server = spawn(program, ['serve', 'knock.json', '--address', '127.0.0.1', 
 server.stderr.on('data', (data) => { said += data })
 server.stdout.on('data', (data) => { report += data })
 const ended = new Promise((resolve) => server.on('close', resolve))
-const browser = await puppeteer.launch({
-  executablePath: ['/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome'].find(existsSync),
-  args: ['--no-sandbox', '--headless=new', '--disable-gpu'], userDataDir: join(folder, 'profile')
-})
+const browser = await launch(modules, [], { userDataDir: join(folder, 'profile') })
 try {
   check('an address is said', await until(() => /http:\S+/.test(said)), said.trim())
   const url = said.match(/http:\S+/)[0], place = new URL(url).origin, port = Number(new URL(url).port)
@@ -59,13 +46,7 @@ try {
   await phone.emulate({ viewport: { width: 390, height: 844, hasTouch: true, isMobile: true }, userAgent: await browser.userAgent() })
   const elsewhere = []
   phone.on('request', (request) => { if (!request.url().startsWith(place) && !/^(data|ws):/.test(request.url())) elsewhere.push(request.url()) })
-  await phone.evaluateOnNewDocument(() => {
-    globalThis.vibrations = []
-    navigator.vibrate = (pattern) => {
-      globalThis.vibrations.push({ at: performance.timeOrigin + performance.now(), pattern: [pattern].flat() })
-      return true
-    }
-  })
+  await noteVibrations(phone)
   await phone.goto(url)
   const text = (id) => phone.$eval(`#${id}`, (element) => element.textContent)
   check('a phone with the code is let in', await until(async () => (await text('status')).startsWith('Connected')), await text('status'))
@@ -140,4 +121,4 @@ try {
   await browser.close()
   rmSync(folder, { recursive: true, force: true })
 }
-process.exit(failures ? 1 : 0)
+process.exit(failures() ? 1 : 0)

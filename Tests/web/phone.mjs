@@ -1,25 +1,14 @@
 // A phone that is not there: opens an address, notes what it is told to vibrate, and says that after a line of input.
 //
 // phone.mjs MODULES URL    prints what the page says, line by line, and at the end [{"at": ms since 1970, "pattern": [...]}]
-import { existsSync } from 'node:fs'
 import { createInterface } from 'node:readline'
-import { join } from 'node:path'
+
+import { launch, noteVibrations } from './browser.mjs'
 
 const [modules, url] = process.argv.slice(2)
-const { default: puppeteer } = await import(join(modules, 'node_modules/puppeteer-core/lib/puppeteer/puppeteer-core.js')).catch(() =>
-  import(join(modules, 'node_modules/puppeteer-core/lib/esm/puppeteer/puppeteer-core.js')))
-const browser = await puppeteer.launch({
-  executablePath: ['/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome'].find(existsSync),
-  args: ['--no-sandbox', '--headless=new', '--disable-gpu']
-})
+const browser = await launch(modules)
 const phone = await browser.newPage()
-await phone.evaluateOnNewDocument(() => {
-  globalThis.vibrations = []
-  navigator.vibrate = (pattern) => {
-    globalThis.vibrations.push({ at: performance.timeOrigin + performance.now(), pattern: [pattern].flat() })
-    return true
-  }
-})
+await noteVibrations(phone)
 await phone.goto(url)
 const said = (words) => phone.waitForFunction((words) => document.body.textContent.includes(words), { timeout: 20000 }, words)
 await said('Connected')
