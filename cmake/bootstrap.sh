@@ -195,6 +195,12 @@ build_web() {
     cmake --build build/web --parallel "$(jobs)"
 }
 
+# Whether everything that builds and tests the web is there already.
+has_web() {
+    dpkg-query -W -f='${db:Status-Status}\n' "${web_packages[@]}" chromium 2>/dev/null | grep -cx installed |
+        grep -qx $((${#web_packages[@]} + 1)) && command -v npm >/dev/null
+}
+
 # All that people run, and further targets; what else this folder was configured for before stays so.
 build_programs() {
     need_room 1500
@@ -282,8 +288,13 @@ test)
     say "Building"
     build release all -DPACINI_BUILD_TESTS=ON -DPACINI_BUILD_PLUGIN=ON \
         "-DPACINI_BUILD_PYTHON=$([ -e build/python-venv/modules ] && echo ON || echo OFF)"
+    if has_web; then
+        install_web_modules
+        build_web
+    fi
     say "Testing"
     run_tests release --label-exclude slow
+    ! has_web || run_tests release --tests-regex '^web-'
     ;;
 # What only CI runs, after `test`.
 slow-tests)
