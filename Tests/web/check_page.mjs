@@ -316,6 +316,23 @@ try {
   const gallery = await tab.evaluate(async () => [...(await import('./gallery/list.js')).default].sort())
   check('the gallery has all clips by kind', gallery.length > 10 && grouped.join() === gallery.join() && !(await tab.$$eval('#gallery optgroup', (groups) => groups.map(({ label }) => label))).includes('Others'))
 
+  // What a visit needs: without a worker that keeps all for later.
+  const visit = await browser.newPage()
+  const loaded = new Set()
+  visit.on('request', (request) => { if (request.url().endsWith('.wasm')) loaded.add(request.url().split('/').at(-1)) })
+  const visited = await visit.createCDPSession()
+  await visited.send('Network.setCacheDisabled', { cacheDisabled: true })
+  await visited.send('Network.setBypassServiceWorker', { bypass: true })
+  await visit.goto(`${place}?fresh`)
+  await until(() => visit.evaluate(() => document.querySelectorAll('#format option').length > 10 && !document.getElementById('clip').hidden))
+  const resources = () => visit.evaluate(() => document.getElementById('figures').textContent)
+  await until(async () => (await resources()).includes('bytes packed'))
+  for (const worker of visit.workers())
+    for (const name of await worker.evaluate(() => performance.getEntriesByType('resource').map(({ name }) => name)))
+      if (name.endsWith('.wasm')) loaded.add(name.split('/').at(-1))
+  check('a visit loads what it needs', [...loaded].join() === 'render.wasm', [...loaded].join(' '))
+  await visit.close()
+
   // A browser without room.
   const full = await browser.newPage()
   await full.evaluateOnNewDocument(() => {

@@ -203,6 +203,18 @@ constexpr std::array allFormats{
     samples("raw16", "Drive signal, signed 16-bit samples", ".s16", nullptr, samplesOf<writeRaw, 16>),
     samples("c", "Drive signal, C array for firmware", ".h", isCArray, writeCArray),
 };
+/// Computed by the compiler, so that a program that has only these does not have the formats.
+constexpr auto descriptions = []
+{
+    std::array<FormatDescription, allFormats.size()> all;
+    for (std::size_t i = 0; i < all.size(); ++i)
+    {
+        const ClipFormat& one = allFormats[i];
+        all[i] = {one.name, one.title, one.extension, one.keeps, one.isRead(), one.isWritten(), one.isSamples};
+    }
+    return all;
+}();
+
 #ifdef PACINI_READERS_ONLY
 /// What only plays clips takes no writers along.
 constexpr auto formats = []
@@ -227,6 +239,11 @@ constexpr const auto& formats = allFormats;
 std::span<const ClipFormat> clipFormats()
 {
     return formats;
+}
+
+std::span<const FormatDescription> formatDescriptions()
+{
+    return descriptions;
 }
 
 const ClipFormat* clipFormatNamed(std::string_view name)

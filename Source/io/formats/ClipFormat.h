@@ -140,8 +140,8 @@ struct ClipFormat
     void (*stream)(Clip clip, const PieceSink& sink) = nullptr;
 
     [[nodiscard]] bool isOwn() const noexcept { return stream != nullptr; }
-    [[nodiscard]] bool isRead() const noexcept { return reader != nullptr; }
-    [[nodiscard]] bool isWritten() const noexcept { return writer != nullptr; }
+    [[nodiscard]] constexpr bool isRead() const noexcept { return reader != nullptr; }
+    [[nodiscard]] constexpr bool isWritten() const noexcept { return writer != nullptr; }
 
     /// The clip in a file's content. Keys of Pacini's formats that are not known are warnings, or errors if it is
     /// `strict`. Errors: those of the format's reader.
@@ -160,6 +160,18 @@ struct ClipFormat
 
 /// All formats in the order in which they are listed, Pacini's own first.
 [[nodiscard]] std::span<const ClipFormat> clipFormats();
+
+/// What is told of a format, without its reader and writer.
+struct FormatDescription
+{
+    std::string_view name, title, extension, keeps; ///< as in ClipFormat
+    bool isRead = false;
+    bool isWritten = false;
+    bool isSamples = false;
+};
+
+/// Of all formats that there are, also where clipFormats() leaves some out, in the same order.
+[[nodiscard]] std::span<const FormatDescription> formatDescriptions();
 
 /// The format of this name; null when there is none.
 [[nodiscard]] const ClipFormat* clipFormatNamed(std::string_view name);

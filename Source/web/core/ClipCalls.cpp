@@ -92,13 +92,13 @@ Result<void> writeClipBytes(Call& call)
 Result<void> listFormats(Call& call)
 {
     Json list = Json::array();
-    for (const ClipFormat& format : clipFormats())
+    for (const FormatDescription& format : formatDescriptions())
         list.push_back({{"name", format.name},
                         {"title", format.title},
                         {"extension", format.extension},
                         {"keeps", format.keeps},
-                        {"reads", format.isRead()},
-                        {"writes", format.isWritten()},
+                        {"reads", format.isRead},
+                        {"writes", format.isWritten},
                         {"samples", format.isSamples}});
     call.value["formats"] = std::move(list);
     return {};

@@ -1,9 +1,8 @@
-// The calls `encode`, a sound to a clip by Pacini's own method, and `defaults`, what that does by itself.
+// The call `encode`: a sound to a clip by Pacini's own method.
 
 #include "web/core/Call.h"
 #include "web/core/SoundInput.h"
 
-#include <pacini/actuator/ActuatorFit.h>
 #include <pacini/analysis/Encoder.h>
 
 #include <string>
@@ -32,16 +31,6 @@ EncoderParams paramsOf(Call& call)
     return params;
 }
 } // namespace
-
-Result<void> tellDefaults(Call& call)
-{
-    const EncoderParams usual;
-    call.value = {{"bands", usual.bands},
-                  {"breakpoints", usual.breakpoints},
-                  {"sensitivity", usual.onsets.sensitivity},
-                  {"strength", standardStrength}};
-    return {};
-}
 
 Result<void> encodeSound(Call& call)
 {

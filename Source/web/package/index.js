@@ -95,7 +95,7 @@ export const encode = async (sound, options = {}) => {
 }
 
 /** What encode() and render() do unless they are told otherwise: bands, breakpoints, sensitivity, strength. */
-export const defaults = async ({ signal } = {}) => (await ready('encode', signal)).call('defaults').value
+export const defaults = async ({ signal } = {}) => (await ready('render', signal)).call('defaults').value
 
 /** A clip of any format as the object of a `.json` clip, with what was let pass. */
 export const read = async (bytes, { extension = '', strict = false, signal } = {}) => {
@@ -123,7 +123,7 @@ export const write = async (clip, options = {}) => {
 export const lint = async (clip, options = {}) => (await exported('lint', clip, options)).value.losses
 
 /** All formats, Pacini's own first. */
-export const formats = async ({ signal } = {}) => (await ready('formats', signal)).call('formats').value.formats
+export const formats = async ({ signal } = {}) => (await ready('render', signal)).call('formats').value.formats
 
 const rendering = ['sampleRate', 'leaveOut', 'adapt', 'strength', 'gain', 'transpose', 'stretch', 'wearer', 'fullScale',
   'protect']

@@ -491,7 +491,7 @@ guarded(async () => {
   if (view.clip) await showLosses()
 })()
 guarded(async () => {
-  for (const [id, value] of Object.entries(await core.call('defaults'))) {
+  for (const [id, value] of Object.entries(await side.call('defaults'))) {
     const input = element(id)
     if (moved.has(id)) continue
     input.value = value

@@ -10,7 +10,6 @@ namespace pacini::web
 std::span<const NamedHandler> handlers()
 {
     static constexpr std::array all{
-        NamedHandler{"defaults", tellDefaults},
         NamedHandler{"encode", encodeSound},
     };
     return all;

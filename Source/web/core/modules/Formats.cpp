@@ -10,7 +10,6 @@ namespace pacini::web
 std::span<const NamedHandler> handlers()
 {
     static constexpr std::array all{
-        NamedHandler{"formats", listFormats},
         NamedHandler{"read", readClipBytes},
         NamedHandler{"write", writeClipBytes},
         NamedHandler{"lint", lintClip},

@@ -10,6 +10,7 @@ namespace pacini::web
 std::span<const NamedHandler> handlers()
 {
     static constexpr std::array all{
+        NamedHandler{"defaults", tellDefaults},   NamedHandler{"formats", listFormats},
         NamedHandler{"read", readClipBytes},      NamedHandler{"write", writeClipBytes},
         NamedHandler{"lint", lintClip},           NamedHandler{"render", renderClipOrScene},
         NamedHandler{"profile", describeProfile},

@@ -1,0 +1,21 @@
+// The call `defaults`: what encoding and rendering do by themselves. Knobs show it before anything is encoded.
+
+#include "web/core/Call.h"
+
+#include <pacini/actuator/ActuatorFit.h>
+#include <pacini/analysis/Encoder.h>
+
+namespace pacini::web
+{
+
+Result<void> tellDefaults(Call& call)
+{
+    const EncoderParams usual;
+    call.value = {{"bands", usual.bands},
+                  {"breakpoints", usual.breakpoints},
+                  {"sensitivity", usual.onsets.sensitivity},
+                  {"strength", standardStrength}};
+    return {};
+}
+
+} // namespace pacini::web
