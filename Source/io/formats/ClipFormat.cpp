@@ -216,6 +216,11 @@ constexpr auto descriptions = []
 }();
 
 #ifdef PACINI_READERS_ONLY
+/// Its parameters are those of ClipFormat::stream.
+void noStream(Clip, const ClipFormat::PieceSink&) // NOLINT(performance-unnecessary-value-param)
+{
+}
+
 /// What only plays clips takes no writers along.
 constexpr auto formats = []
 {
@@ -224,8 +229,7 @@ constexpr auto formats = []
     {
         format.writer = nullptr;
         if (format.stream != nullptr)
-            format.stream = [](Clip, const ClipFormat::PieceSink&) {
-            };
+            format.stream = noStream;
     }
     return readers;
 }();
