@@ -16,6 +16,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <thread>
 
 #if !defined(_WIN32)
 #include <poll.h>
@@ -34,10 +35,11 @@ class EnterKey
 {
 public:
     /// Waits at most for `time`; how often it was pressed. [message]
-    [[nodiscard]] std::size_t pressed([[maybe_unused]] Seconds time)
+    [[nodiscard]] std::size_t pressed(Seconds time)
     {
 #if defined(_WIN32)
-        return 0; // phones begin by themselves
+        std::this_thread::sleep_for(std::chrono::duration<double>(time.value)); // phones begin by themselves
+        return 0;
 #else
         pollfd input{.fd = over ? -1 : STDIN_FILENO, .events = POLLIN, .revents = 0};
         if (poll(&input, 1, static_cast<int>(1000.0 * time.value)) <= 0)

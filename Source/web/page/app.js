@@ -155,7 +155,24 @@ const show = async () => {
   await remember()
 }
 
+// While a point is dragged, what is not yet rendered is passed over for what is newer.
+let rendering, staleDrive = false
 const renderDrive = async () => {
+  staleDrive = true
+  rendering ??= (async () => {
+    try {
+      while (staleDrive) {
+        staleDrive = false
+        await renderNow()
+      }
+    } finally {
+      rendering = undefined
+    }
+  })()
+  return rendering
+}
+
+const renderNow = async () => {
   const { clip } = view
   if (!clip) return
   const rendered = await side.call('render', clip, { ...profileOption(), sampleRate: view.driveRate, ...strength() })

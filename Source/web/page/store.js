@@ -21,5 +21,17 @@ const run = async (mode, work) => {
   }
 }
 
-export const keep = (value) => run('readwrite', (documents) => documents.put(value, 'current'))
-export const kept = () => run('readonly', (documents) => documents.get('current'))
+let soundKept // that of the document, which is large and stays while the clip changes
+
+/** The document, and its sound beside it where that is another one: both or neither. */
+export const keep = async ({ sound, ...rest }) => {
+  await run('readwrite', (documents) => {
+    if (sound !== soundKept || sound === undefined) documents.put(sound ?? null, 'sound')
+    return documents.put(rest, 'current')
+  })
+  soundKept = sound
+}
+export const kept = async () => {
+  const document = await run('readonly', (documents) => documents.get('current'))
+  return document && { ...document, sound: (await run('readonly', (documents) => documents.get('sound'))) ?? undefined }
+}
