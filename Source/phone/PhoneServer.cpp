@@ -10,6 +10,7 @@
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/ip/udp.hpp>
 #include <boost/asio/post.hpp>
+#include <boost/asio/steady_timer.hpp>
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket.hpp>
@@ -283,7 +284,7 @@ private:
 class Server final : public PhoneServer, private Host
 {
 public:
-    explicit Server() : acceptor(context), code(randomWord(codeLength)) {}
+    explicit Server() : acceptor(context), pause(context), code(randomWord(codeLength)) {}
 
     ~Server() override
     {
@@ -396,11 +397,21 @@ private:
             {
                 if (!acceptor.is_open())
                     return;
-                if (!failed)
-                    std::make_shared<Visit>(std::move(socket), static_cast<Host&>(*this),
-                                            [this](const std::shared_ptr<Phone>& phone, const auto& request)
-                                            { welcome(phone, request); })
-                        ->run();
+                if (failed) // too many files are open, for one: not again at once
+                {
+                    pause.expires_after(std::chrono::milliseconds(100));
+                    pause.async_wait(
+                        [this](error_code stopped)
+                        {
+                            if (!stopped && acceptor.is_open())
+                                accept();
+                        });
+                    return;
+                }
+                std::make_shared<Visit>(std::move(socket), static_cast<Host&>(*this),
+                                        [this](const std::shared_ptr<Phone>& phone, const auto& request)
+                                        { welcome(phone, request); })
+                    ->run();
                 accept();
             });
     }
@@ -443,6 +454,7 @@ private:
 
     asio::io_context context{1};
     Tcp::acceptor acceptor;
+    asio::steady_timer pause; ///< before the next try to let somebody in
     std::string address;
     std::uint16_t port = 0;
     mutable std::mutex mutex;
