@@ -18,28 +18,54 @@ endif()
 find_program(PACINI_CCACHE ccache)
 if(PACINI_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
     # Without the sloppiness it would not store what includes a precompiled header; by the base a second checkout finds
-    # what the first one compiled.
+    # what the first one compiled, also with lines for a debugger.
     set(CMAKE_CXX_COMPILER_LAUNCHER "${CMAKE_COMMAND}" -E env CCACHE_SLOPPINESS=pch_defines,time_macros
-        "CCACHE_BASEDIR=${PROJECT_SOURCE_DIR}" "${PACINI_CCACHE}")
+        "CCACHE_BASEDIR=${PROJECT_SOURCE_DIR}" CCACHE_NOHASHDIR=1 "${PACINI_CCACHE}")
 endif()
 
-# Which sources are compiled as one where the preset asks for it: at most `most` of one folder, in alphabetical order. Files
-# of different folders share names of helpers.
-set(PACINI_UNITY_BUILD ${CMAKE_UNITY_BUILD})
-function(pacini_compile_as_one target most)
-    set_target_properties(${target} PROPERTIES UNITY_BUILD "${PACINI_UNITY_BUILD}" UNITY_BUILD_MODE GROUP)
+# Compiles the sources of a target together, twelve of one folder at most, where the preset asks for it. Files of different
+# folders share names of helpers. CMake's own unity builds name sources by absolute paths, so that ccache would find nothing
+# of what another checkout has compiled.
+option(PACINI_UNITY_BUILD "Compile up to twelve sources of a folder as one" OFF)
+function(pacini_compile_as_one target)
+    if(PACINI_UNITY_BUILD)
+        # At the end of the folder, when the properties of its sources are known.
+        cmake_language(EVAL CODE "cmake_language(DEFER CALL pacini_write_unity_sources [[${target}]])")
+    endif()
+endfunction()
+
+function(pacini_write_unity_sources target)
+    set(folder "${CMAKE_CURRENT_BINARY_DIR}/unity/${target}")
     get_target_property(sources ${target} SOURCES)
+    set(kept "")
+    set(names "")
     foreach(source IN LISTS sources)
-        if(NOT source MATCHES "\\.cpp$")
+        get_source_file_property(alone "${source}" SKIP_UNITY_BUILD_INCLUSION)
+        cmake_path(ABSOLUTE_PATH source NORMALIZE OUTPUT_VARIABLE path)
+        cmake_path(IS_PREFIX PROJECT_SOURCE_DIR "${path}" ours)
+        cmake_path(IS_PREFIX PROJECT_BINARY_DIR "${path}" made)
+        if(alone OR made OR NOT ours OR NOT source MATCHES "\\.cpp$")
+            list(APPEND kept "${source}")
             continue()
         endif()
-        cmake_path(RELATIVE_PATH source BASE_DIRECTORY "${CMAKE_CURRENT_SOURCE_DIR}" OUTPUT_VARIABLE path)
-        cmake_path(GET path PARENT_PATH group)
+        cmake_path(RELATIVE_PATH path BASE_DIRECTORY "${PROJECT_SOURCE_DIR}" OUTPUT_VARIABLE group)
+        cmake_path(GET group PARENT_PATH group)
         string(MAKE_C_IDENTIFIER "${group}" group)
-        math(EXPR batch "0${count_${group}} / ${most}")
+        math(EXPR batch "0${count_${group}} / 12")
         math(EXPR count_${group} "0${count_${group}} + 1")
-        set_source_files_properties("${source}" PROPERTIES UNITY_GROUP "${group}_${batch}")
+        set(name "${group}_${batch}.cpp")
+        if(NOT name IN_LIST names)
+            list(APPEND names "${name}")
+            set(text_${name} "")
+        endif()
+        file(RELATIVE_PATH path "${folder}" "${path}")
+        string(APPEND text_${name} "#include \"${path}\"\n")
     endforeach()
+    foreach(name IN LISTS names)
+        file(CONFIGURE OUTPUT "${folder}/${name}" CONTENT "${text_${name}}" @ONLY)
+        list(APPEND kept "${folder}/${name}")
+    endforeach()
+    set_target_properties(${target} PROPERTIES SOURCES "${kept}")
 endfunction()
 
 # Linked PRIVATE by every own target: warnings never reach people who include our headers. Files that are compiled as one
@@ -49,7 +75,7 @@ if(MSVC)
     target_compile_options(pacini_warnings INTERFACE /W4 $<$<BOOL:${PACINI_WARNINGS_AS_ERRORS}>:/WX>)
 else()
     target_compile_options(pacini_warnings INTERFACE
-        -Wall -Wextra -Wpedantic $<$<NOT:$<BOOL:${CMAKE_UNITY_BUILD}>>:-Wshadow> -Wconversion -Wsign-conversion
+        -Wall -Wextra -Wpedantic $<$<NOT:$<BOOL:${PACINI_UNITY_BUILD}>>:-Wshadow> -Wconversion -Wsign-conversion
         # Clang says it of double to long double, too.
         $<$<CXX_COMPILER_ID:GNU>:-Wdouble-promotion>
         # GCC 12 sees overlaps in additions of std::string that are none (its bug 105651), and bounds likewise.
