@@ -306,15 +306,24 @@ slow-tests)
     build_web
     run_tests release --label-regex slow --no-tests=ignore
     ;;
-# The slow ones among them take as long as all others together: `sanitized-tests slow` runs these, by hand.
+# `sanitized-tests thread` looks at what threads share. `sanitized-tests slow` runs the slow ones, by hand: they take as long
+# as all others together.
 sanitized-tests)
     install_packages "${portability_packages[@]}"
-    build asan all
-    if [ "${2:-}" = slow ]; then
+    case "${2:-}" in
+    thread)
+        build tsan "pacini_tests pacini_library_tests pacini_random_calls"
+        run_tests tsan --tests-regex '^(tests-|library)' --label-exclude slow
+        ;;
+    slow)
+        build asan all
         run_tests asan --label-regex slow
-    else
+        ;;
+    *)
+        build asan all
         run_tests asan --label-exclude slow
-    fi
+        ;;
+    esac
     ;;
 -h | --help | help)
     usage
