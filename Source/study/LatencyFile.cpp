@@ -50,9 +50,12 @@ Result<std::vector<MeasuredLatency>> readLatencies(const std::filesystem::path& 
     if (!std::filesystem::exists(folder / latencyFileName, unknown))
         return std::vector<MeasuredLatency>{};
     const auto text = readWholeFile(folder / latencyFileName, largestLatencyFile);
-    if (!text)
-        return text.error();
-    const auto document = readJsonTree(*text, largestLatencyFile);
+    return text ? latenciesOfText(*text) : text.error();
+}
+
+Result<std::vector<MeasuredLatency>> latenciesOfText(std::string_view text)
+{
+    const auto document = readJsonTree(text, largestLatencyFile);
     if (!document)
         return document.error();
     if (!document->is_object())

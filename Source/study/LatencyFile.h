@@ -25,6 +25,9 @@ struct MeasuredLatency
     Latency latency;
 };
 
+/// The measurements in a text. Errors: invalidData with the place, unsupportedVersion, tooLarge.
+[[nodiscard]] Result<std::vector<MeasuredLatency>> latenciesOfText(std::string_view text);
+
 /// All measurements of the study in `folder`, the newest last; none where there is no file. Errors: those of reading;
 /// invalidData with the place, unsupportedVersion.
 [[nodiscard]] Result<std::vector<MeasuredLatency>> readLatencies(const std::filesystem::path& folder);

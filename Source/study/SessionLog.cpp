@@ -147,17 +147,20 @@ std::string utcNow()
 Result<LoggedSession> readSession(const fs::path& path)
 {
     const auto text = readWholeFile(path, largestLog);
-    if (!text)
-        return text.error();
+    return text ? sessionOfText(*text) : text.error();
+}
+
+Result<LoggedSession> sessionOfText(std::string_view text)
+{
     LoggedSession session;
     std::size_t start = 0, number = 0;
-    while (start < text->size())
+    while (start < text.size())
     {
-        const std::size_t end = text->find('\n', start);
-        if (end == std::string::npos)
+        const std::size_t end = text.find('\n', start);
+        if (end == std::string_view::npos)
             break; // was being written when the program ended
         const std::string where = fmt::format("line {}", ++number);
-        const auto line = readJsonTree(std::string_view(*text).substr(start, end - start), largestLine);
+        const auto line = readJsonTree(text.substr(start, end - start), largestLine);
         if (!line || !line->is_object())
             return Error{ErrorCode::invalidData, where, line ? "is no JSON object" : line.error().text()};
         const std::string type = valueOr(*line, "type", std::string());

@@ -75,8 +75,11 @@ struct LoggedSession
     std::uint64_t goodBytes = 0;     ///< of whole lines; what follows was being written when the program ended
 };
 
-/// Reads a log. A last line that is not whole is left out. Errors: as in readWholeFile; invalidData at `line 3` for
-/// what is no log, unsupportedVersion.
+/// Reads the text of a log. A last line that is not whole is left out. Errors: invalidData at `line 3` for what is no
+/// log, unsupportedVersion.
+[[nodiscard]] Result<LoggedSession> sessionOfText(std::string_view text);
+
+/// Reads the log in a file. Errors also as in readWholeFile.
 [[nodiscard]] Result<LoggedSession> readSession(const std::filesystem::path& path);
 
 /// Appends to a log. Every line is on the disk (fsync) before the call returns; after an error nothing of the line

@@ -1,0 +1,17 @@
+// Any text is refused with a proper error or is a table of categories of words.
+
+#include "FuzzText.h"
+#include "study/Words.h"
+
+using namespace pacini;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
+{
+    const std::string_view text = fuzzedText(data, size);
+    if (!isReadOrRefused(text, [](std::string_view given) { return study::WordCategories::ofCsv(given); }))
+        return 0;
+    const auto categories = study::WordCategories::ofCsv(text);
+    for (const std::string& word : study::wordsOf(text))
+        (void)categories->categoryOf(word);
+    return 0;
+}

@@ -1,0 +1,28 @@
+// Any text is refused with a proper error or lists onsets, which ascend from 0.
+
+#include "FuzzText.h"
+#include "io/OnsetFile.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+using namespace pacini;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
+{
+    const std::string_view text = fuzzedText(data, size);
+    if (!isReadOrRefused(text, [](std::string_view given) { return readOnsetText(given); }))
+        return 0;
+    const auto onsets = readOnsetText(text);
+    const auto check = [](const std::vector<double>& times)
+    {
+        FUZZ_CHECK(std::is_sorted(times.begin(), times.end()));
+        for (const double time : times)
+            FUZZ_CHECK(std::isfinite(time) && time >= 0.0);
+    };
+    check(onsets->ofAny);
+    for (const auto& [name, times] : onsets->byFile)
+        check(times);
+    return 0;
+}
