@@ -53,12 +53,14 @@ class Processes:
         return process
 
     def start_screen(self):
-        """Xvfb of 1280 x 960 on the first free number, which it tells itself."""
+        """Xvfb of 1280 x 960, on a number that no other test takes. It says when it is there."""
         read, write = os.pipe()
-        self.start("Xvfb", "-displayfd", write, "-screen", "0", "1280x960x24", pass_fds=[write])
+        display = f":{1000 + os.getpid()}"
+        self.start("Xvfb", display, "-displayfd", write, "-screen", "0", "1280x960x24", pass_fds=[write])
         os.close(write)
         with os.fdopen(read) as numbers:
-            return ":" + numbers.readline().strip()
+            numbers.readline()
+        return display
 
     def __exit__(self, *_):
         for process in reversed(self.running):
