@@ -5,8 +5,10 @@
 #include <pacini/analysis/OnsetFeatures.h>
 #include <pacini/analysis/OnsetFrame.h>
 #include <pacini/analysis/OnsetMeasure.h>
+#include <pacini/analysis/OnsetParams.h>
 #include <pacini/analysis/OnsetSalience.h>
 #include <pacini/analysis/SlidingBuffer.h>
+#include <pacini/foundation/Units.h>
 
 #include <algorithm>
 #include <cmath>

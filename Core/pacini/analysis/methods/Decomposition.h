@@ -11,6 +11,7 @@
 #include <pacini/analysis/OnsetDetector.h>
 #include <pacini/analysis/OnsetFeatures.h>
 #include <pacini/analysis/OnsetMeasure.h>
+#include <pacini/analysis/OnsetParams.h>
 #include <pacini/analysis/PartialBands.h>
 #include <pacini/analysis/PartialTracking.h>
 #include <pacini/analysis/ResidualNoise.h>
