@@ -8,7 +8,7 @@
 #include "app/TestSignal.h"
 #include "plugin/engine/PluginProcessor.h"
 
-#include <pacini/realtime/HandOver.h>
+#include <pacini/foundation/HandOver.h>
 
 #include <juce_audio_devices/juce_audio_devices.h>
 

@@ -9,8 +9,8 @@
 #include "io/StoredAudio.h"
 
 #include <pacini/actuator/Protection.h>
+#include <pacini/foundation/HandOver.h>
 #include <pacini/foundation/Result.h>
-#include <pacini/realtime/HandOver.h>
 #include <pacini/runtime/Engine.h>
 
 #include <array>

@@ -5,8 +5,8 @@
 #include <pacini/actuator/Protection.h>
 #include <pacini/filters/PolyphaseInterpolator.h>
 #include <pacini/foundation/DspBlock.h>
+#include <pacini/foundation/HandOver.h>
 #include <pacini/foundation/LargestMagnitude.h>
-#include <pacini/realtime/HandOver.h>
 #include <pacini/realtime/TranslatorDesign.h>
 #include <pacini/realtime/TranslatorEngine.h>
 #include <pacini/realtime/TranslatorMeters.h>

@@ -1,6 +1,6 @@
 #include "support/Catch.h"
 
-#include <pacini/realtime/HandOver.h>
+#include <pacini/foundation/HandOver.h>
 
 #include <atomic>
 #include <memory>
