@@ -91,4 +91,6 @@ constexpr Decibels operator""_dB(unsigned long long v)
 }
 } // namespace literals
 
+inline constexpr double standardGravity = 9.80665; ///< m/s^2
+
 } // namespace pacini

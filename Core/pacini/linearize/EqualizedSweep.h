@@ -26,14 +26,6 @@ struct EqualizedSweep
     double peak = 0.0;    ///< the largest magnitude, at most 1
 };
 
-/// Start frequency of a proving sweep: where a sweep from `low` to `high` Hz begins that is to prove an equalizer meant
-/// for `lowest` Hz and more: a little below. What lies lower is left as loud as it was and would set the peak, so that
-/// the rest drowned in the noise of the sensor.
-[[nodiscard]] inline double provingLowFrequency(double low, double high, double lowest) noexcept
-{
-    return std::max(low, std::min(0.8 * lowest, 0.25 * high));
-}
-
 /// makeSweepSignal(params) through `sections`; as it is without any. What these raise beyond full scale would be cut
 /// off and measured as distortion, so all levels are lowered together by as few whole dB as make it fit. `raised`: a
 /// signal that stays below the loudest level is scaled to it, since an equalizer that lowers nearly everything would

@@ -18,8 +18,6 @@
 namespace pacini
 {
 
-inline constexpr double standardGravity = 9.80665; ///< m/s^2
-
 /// Parameters of the simulated rig. Like the thesis' L5 wristband with an ADXL325 on its case.
 struct RigParams
 {

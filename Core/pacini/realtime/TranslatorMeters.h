@@ -2,7 +2,7 @@
 
 // Meters of the translator.
 
-#include <pacini/realtime/TranslatorDesign.h>
+#include <pacini/realtime/TranslatorSetup.h>
 
 #include <array>
 #include <atomic>

@@ -5,6 +5,7 @@
 #include <pacini/foundation/Clamp.h>
 #include <pacini/foundation/DspBlock.h>
 #include <pacini/foundation/Glide.h>
+#include <pacini/runtime/PlayControls.h>
 #include <pacini/runtime/PlayCost.h>
 #include <pacini/synthesis/PlayVoice.h>
 #include <pacini/synthesis/RenderPlan.h>
@@ -22,13 +23,6 @@
 
 namespace pacini
 {
-
-/// The live controls of a play as they were set last.
-struct PlayControls
-{
-    double gain = 1.0, intensity = 1.0, pan = 0.5, delay = 0.0, transposition = 0.0, speed = 1.0;
-    PerRole<double> roles{1.0};
-};
 
 /// The faders of a group, which all of its plays are under.
 struct GroupFaders

@@ -4,8 +4,8 @@
 #include "io/ProfileFile.h"
 #include "io/ShippedProfiles.h"
 
-#include <pacini/actuator/ActuatorFit.h>
 #include <pacini/actuator/FeltModel.h>
+#include <pacini/actuator/Profile.h>
 #include <pacini/analysis/EncodeSound.h>
 #include <pacini/evaluate/Hts.h>
 #include <pacini/evaluate/HtsAnalyzer.h>

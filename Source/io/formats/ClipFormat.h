@@ -2,7 +2,6 @@
 
 // Table of the clip file formats, Pacini's own and those of other programs: what each reads, writes and loses.
 
-#include <pacini/actuator/ActuatorFit.h>
 #include <pacini/actuator/Profile.h>
 #include <pacini/clip/Clip.h>
 #include <pacini/foundation/Result.h>

@@ -3,7 +3,7 @@
 
 // Table of the plugin's parameters: ids, names, units, ranges, defaults of everything that can be automated.
 
-#include <pacini/actuator/ActuatorFit.h>
+#include <pacini/actuator/Profile.h>
 
 #include <array>
 #include <cstddef>

@@ -2,7 +2,7 @@
 
 #include "web/core/Call.h"
 
-#include <pacini/actuator/ActuatorFit.h>
+#include <pacini/actuator/Profile.h>
 #include <pacini/analysis/Encoder.h>
 
 namespace pacini::web

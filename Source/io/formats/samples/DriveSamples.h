@@ -4,7 +4,6 @@
 
 #include "io/formats/LossList.h"
 
-#include <pacini/actuator/ActuatorFit.h>
 #include <pacini/actuator/Profile.h>
 #include <pacini/clip/Clip.h>
 #include <pacini/foundation/Result.h>
