@@ -329,4 +329,11 @@ Result<std::shared_ptr<const ActuatorTrace>> traceActuator(const Clip& clip, con
     return std::shared_ptr<const ActuatorTrace>(std::move(trace));
 }
 
+Clip fittedClip(const Clip& clip, const Profile& profile, double strength)
+{
+    AdaptationParams params;
+    params.strength = strength;
+    return adaptClip(clip, profile, params).clip;
+}
+
 } // namespace pacini

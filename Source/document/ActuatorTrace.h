@@ -99,4 +99,7 @@ public:
 [[nodiscard]] Result<std::shared_ptr<const ActuatorTrace>>
 traceActuator(const Clip& clip, const Profile& profile, double strength, const std::atomic<bool>& cancelled);
 
+/// The clip with levels and frequencies that the actuator can play, see adaptClip().
+[[nodiscard]] Clip fittedClip(const Clip& clip, const Profile& profile, double strength);
+
 } // namespace pacini

@@ -5,7 +5,7 @@
 #include "document/AudioReference.h"
 #include "io/StoredAudio.h"
 
-#include <pacini/analysis/Encoder.h>
+#include <pacini/analysis/EncoderParams.h>
 
 #include <functional>
 

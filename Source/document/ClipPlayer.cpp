@@ -1,9 +1,19 @@
 #include "document/ClipPlayer.h"
 
+#include "document/PreviewEngine.h"
+#include "document/PreviewWorker.h"
+
 #include <utility>
 
 namespace pacini
 {
+
+ClipPlayer::ClipPlayer()
+{
+    prepare(48000.0);
+}
+
+ClipPlayer::~ClipPlayer() = default;
 
 void ClipPlayer::prepare(double sampleRate)
 {
@@ -17,6 +27,11 @@ void ClipPlayer::prepare(double sampleRate)
     engine->setRow(row);
     engine->setControls(controls);
     engine->setSource(sound);
+}
+
+void ClipPlayer::process(std::span<const std::span<float>> haptic, std::span<const std::span<float>> soundOut) noexcept
+{
+    engine->process(haptic, soundOut);
 }
 
 void ClipPlayer::set(Playback wanted)
@@ -59,6 +74,26 @@ void ClipPlayer::play(double time)
 {
     engine->play(time);
     worker->wake();
+}
+
+bool ClipPlayer::isPlaying() const noexcept
+{
+    return engine->isPlaying();
+}
+
+double ClipPlayer::position() const noexcept
+{
+    return engine->position();
+}
+
+PreviewMeters ClipPlayer::takeMeters(std::size_t output)
+{
+    return engine->takeMeters(output);
+}
+
+std::optional<Error> ClipPlayer::lastError() const
+{
+    return worker->lastError();
 }
 
 } // namespace pacini

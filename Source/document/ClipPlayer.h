@@ -2,9 +2,14 @@
 
 // Player of the clip that is edited, at any rate of the device.
 
-#include "document/PreviewEngine.h"
-#include "document/PreviewWorker.h"
+#include "document/Playback.h"
+#include "document/PreviewRow.h"
+#include "io/StoredAudio.h"
 
+#include <pacini/foundation/Result.h>
+#include <pacini/runtime/PlayControls.h>
+
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <span>
@@ -12,20 +17,21 @@
 namespace pacini
 {
 
+class PreviewEngine;
+class PreviewWorker;
+
 /// A preview engine with its worker, made anew when the device changes its rate.
 class ClipPlayer
 {
 public:
-    ClipPlayer() { prepare(48000.0); }
+    ClipPlayer();
+    ~ClipPlayer();
 
     /// To be called while process() is not, and on the thread that calls everything else here. Stops playing.
     void prepare(double sampleRate);
 
     /// See PreviewEngine::process(). [audio]
-    void process(std::span<const std::span<float>> haptic, std::span<const std::span<float>> soundOut) noexcept
-    {
-        engine->process(haptic, soundOut);
-    }
+    void process(std::span<const std::span<float>> haptic, std::span<const std::span<float>> soundOut) noexcept;
 
     void set(Playback playback);
     /// See PreviewEngine::setRow() and setControls().
@@ -36,11 +42,11 @@ public:
 
     void play(double time);
     void stop();
-    [[nodiscard]] bool isPlaying() const noexcept { return engine->isPlaying(); }
-    [[nodiscard]] double position() const noexcept { return engine->position(); } ///< s of the clip
+    [[nodiscard]] bool isPlaying() const noexcept;
+    [[nodiscard]] double position() const noexcept; ///< s of the clip
     /// Of an output, since the last call.
-    [[nodiscard]] PreviewEngine::Meters takeMeters(std::size_t output = 0) { return engine->takeMeters(output); }
-    [[nodiscard]] std::optional<Error> lastError() const { return worker->lastError(); }
+    [[nodiscard]] PreviewMeters takeMeters(std::size_t output = 0);
+    [[nodiscard]] std::optional<Error> lastError() const;
 
 private:
     double rate = 0.0;

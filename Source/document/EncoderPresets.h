@@ -2,7 +2,7 @@
 
 // Presets of the encoder parameters.
 
-#include <pacini/analysis/Encoder.h>
+#include <pacini/analysis/EncoderParams.h>
 
 #include <span>
 #include <string_view>

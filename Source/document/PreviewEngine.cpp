@@ -123,9 +123,9 @@ void PreviewEngine::play(double time)
     playing.store(wanted.start, std::memory_order_release);
 }
 
-PreviewEngine::Meters PreviewEngine::takeMeters(std::size_t output) noexcept
+PreviewMeters PreviewEngine::takeMeters(std::size_t output) noexcept
 {
-    Meters read;
+    PreviewMeters read;
     if (output < peaks.size())
         read.peak = static_cast<double>(peaks[output].exchange(0.0f, std::memory_order_relaxed));
     read.gainReduction = static_cast<double>(reductionHeard.exchange(0.0f, std::memory_order_relaxed));

@@ -36,13 +36,6 @@ namespace pacini
 class PreviewEngine
 {
 public:
-    /// Meter readings of an output.
-    struct Meters
-    {
-        double peak = 0.0;          ///< of the drive signal, 1 = full drive
-        double gainReduction = 0.0; ///< dB that the protection of any output takes at most
-    };
-
     /// `sampleRate` 2000 to 768000 Hz; at any other service() says so and nothing plays.
     explicit PreviewEngine(double sampleRate);
 
@@ -70,7 +63,7 @@ public:
     [[nodiscard]] double position() const noexcept { return playhead.load(std::memory_order_relaxed); }
 
     /// The most since the last call for an output; one reader. [any]
-    [[nodiscard]] Meters takeMeters(std::size_t output = 0) noexcept;
+    [[nodiscard]] PreviewMeters takeMeters(std::size_t output = 0) noexcept;
 
     /// Whether service() has something to do. [any]
     [[nodiscard]] bool wantsService() const noexcept;

@@ -4,7 +4,6 @@
 
 #include "document/RowPlaces.h"
 
-#include <pacini/actuator/ActuatorFit.h>
 #include <pacini/actuator/Profile.h>
 #include <pacini/synthesis/Scene.h>
 
@@ -31,6 +30,13 @@ struct PreviewRow
     {
         return places.size() == profiles.size() ? RowPlaces(places) : RowPlaces::even(profiles.size());
     }
+};
+
+/// Meter readings of an output.
+struct PreviewMeters
+{
+    double peak = 0.0;          ///< of the drive signal, 1 = full drive
+    double gainReduction = 0.0; ///< dB that the protection of any output takes at most
 };
 
 } // namespace pacini

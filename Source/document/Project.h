@@ -6,9 +6,8 @@
 #include "document/AudioReference.h"
 #include "document/Reapply.h"
 
-#include <pacini/actuator/ActuatorFit.h>
 #include <pacini/actuator/Profile.h>
-#include <pacini/analysis/Encoder.h>
+#include <pacini/analysis/EncoderParams.h>
 #include <pacini/clip/Curve.h>
 #include <pacini/synthesis/Scene.h>
 

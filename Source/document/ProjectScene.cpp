@@ -1,13 +1,18 @@
 #include "document/ProjectScene.h"
 
+#include <pacini/synthesis/CompilePlan.h>
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace pacini
@@ -362,6 +367,43 @@ ProjectScene projectSceneOf(const Scene& scene, const std::vector<int>& clipIds)
         made.parts.push_back(std::move(part));
     }
     return made;
+}
+
+namespace
+{
+/// The part that "plays[3]" or "plays[3].bands[1]" is of.
+std::optional<std::size_t> partOf(const std::string& where, const BuiltScene& built)
+{
+    constexpr std::string_view plays = "plays[";
+    std::size_t index = 0;
+    if (!where.starts_with(plays) ||
+        std::from_chars(where.data() + plays.size(), where.data() + where.size(), index).ec != std::errc() ||
+        index >= built.parts.size())
+        return {};
+    return built.parts[index];
+}
+} // namespace
+
+Result<SceneForecast> forecast(const BuiltScene& built, const Profile* profile, double strength)
+{
+    CompileParams params;
+    params.sampleRate = 48000.0;
+    params.adaptation.strength = strength;
+    const auto planned = compilePlan(built.scene, profile, params);
+    if (!planned)
+        return planned.error();
+    SceneForecast result;
+    result.error = planned->predictedError;
+    result.duration = planned->duration;
+    for (const LeftOut& one : planned->leftOut)
+        if (const auto part = partOf(one.where, built))
+        {
+            if (one.where.find('.') == std::string::npos)
+                result.leftOut[*part] = one.reason;
+            else
+                ++result.bands;
+        }
+    return result;
 }
 
 } // namespace pacini

@@ -4,10 +4,13 @@
 
 #include "document/Project.h"
 
+#include <pacini/actuator/Profile.h>
 #include <pacini/foundation/Result.h>
 #include <pacini/synthesis/Scene.h>
 
 #include <cstddef>
+#include <map>
+#include <string>
 #include <vector>
 
 namespace pacini
@@ -40,6 +43,19 @@ struct BuiltScene
 /// clips are gone. Curves are points in seconds of a part, from where its delay lets it begin; each becomes a change
 /// that glides from the point before it, so that levels, pan and delay go in straight lines; pitches step.
 [[nodiscard]] BuiltScene sceneOf(const Project& project);
+
+/// What is played of a scene, as it is planned.
+struct SceneForecast
+{
+    std::map<std::size_t, std::string> leftOut; ///< why a part is not played, by its index
+    std::size_t bands = 0;                      ///< left out of parts that play
+    double error = 0.0;                         ///< dB below the scene, of all that is left out
+    double duration = 0.0;                      ///< s of the whole scene
+};
+
+/// On an actuator (null: the plain drive signal) that is played with `strength`, see fitActuator(). Errors: those of
+/// compilePlan(). [any]
+[[nodiscard]] Result<SceneForecast> forecast(const BuiltScene& built, const Profile* profile, double strength);
 
 /// The other way round: a project's scene that sceneOf() makes a valid scene of again, whose clips are `clipIds` of the
 /// project. Parts that overlap are on tracks of their own.

@@ -1,6 +1,7 @@
 // What a designer does with mouse and keys, without a screen.
 
 #include "document/ClipExport.h"
+#include "document/KeepShare.h"
 #include "editor/Bench.h"
 #include "io/ClipFile.h"
 #include "support/TempFolder.h"

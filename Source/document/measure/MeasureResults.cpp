@@ -3,6 +3,7 @@
 #include "document/measure/MeasureWords.h"
 
 #include <pacini/linearize/EqualizedSweep.h>
+#include <pacini/linearize/EqualizerFit.h>
 #include <pacini/linearize/MeasuredProfile.h>
 #include <pacini/linearize/SweepAnalysis.h>
 

@@ -7,7 +7,7 @@
 
 #include <pacini/actuator/Profile.h>
 #include <pacini/linearize/EqualizerCost.h>
-#include <pacini/linearize/EqualizerFit.h>
+#include <pacini/linearize/EqualizerFitParams.h>
 #include <pacini/linearize/MeasurementFindings.h>
 #include <pacini/linearize/PlacementAverage.h>
 #include <pacini/linearize/SweepMeasurement.h>

@@ -2,9 +2,8 @@
 
 // Settings of a measurement: level, range and length of the sweep, calibration of the sensor.
 
-#include <pacini/linearize/EqualizedSweep.h>
+#include <pacini/foundation/Units.h>
 #include <pacini/linearize/MeasurementParams.h>
-#include <pacini/linearize/SimulatedRig.h>
 #include <pacini/linearize/Sweep.h>
 
 #include <algorithm>

@@ -2,6 +2,7 @@
 #include "plugin/engine/LiveEngine.h"
 
 #include <pacini/foundation/LargestMagnitude.h>
+#include <pacini/realtime/Translator.h>
 
 #include <algorithm>
 #include <cmath>
@@ -29,6 +30,8 @@ LiveEngine::LiveEngine()
     voices[0].translator = std::make_unique<Translator>();
     latency = voices[0].translator->latencyFrames();
 }
+
+LiveEngine::~LiveEngine() = default;
 
 void LiveEngine::prepare(double sampleRate, std::size_t mainChannels, std::size_t hapticChannels)
 {
@@ -77,6 +80,11 @@ void LiveEngine::reset() noexcept
     row.reset();
     routing.reset();
     delay.reset();
+}
+
+TranslatorMeterReading LiveEngine::readMeters(std::size_t channel) const noexcept
+{
+    return voices[sources[channel].load(std::memory_order_acquire)].translator->meters().read();
 }
 
 void LiveEngine::setSetup(std::size_t channel, const TranslatorSetup& setup)

@@ -11,7 +11,9 @@
 #include "plugin/engine/SourceMix.h"
 
 #include <pacini/realtime/CaptureRing.h>
-#include <pacini/realtime/Translator.h>
+#include <pacini/realtime/TranslatorMeters.h>
+#include <pacini/realtime/TranslatorParams.h>
+#include <pacini/realtime/TranslatorSetup.h>
 
 #include <array>
 #include <atomic>
@@ -19,6 +21,11 @@
 #include <memory>
 #include <span>
 #include <vector>
+
+namespace pacini
+{
+class Translator;
+}
 
 namespace pacini::plugin
 {
@@ -43,6 +50,7 @@ class LiveEngine
 {
 public:
     LiveEngine();
+    ~LiveEngine();
 
     /// Allocates. [message], while no block is processed
     void prepare(double sampleRate, std::size_t mainChannels, std::size_t hapticChannels);
@@ -71,10 +79,7 @@ public:
     }
 
     /// Of the translation that a channel plays.
-    [[nodiscard]] TranslatorMeterReading readMeters(std::size_t channel = 0) const noexcept
-    {
-        return voices[sources[channel].load(std::memory_order_acquire)].translator->meters().read();
-    }
+    [[nodiscard]] TranslatorMeterReading readMeters(std::size_t channel = 0) const noexcept;
     /// The largest sample of a channel since the last call, 0 where there is no such channel. [message]
     [[nodiscard]] float takePeak(std::size_t channel) noexcept
     {

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "document/ActuatorTrace.h"
 #include "editor/clip/EditorView.h"
 #include "editor/clip/commands/Action.h"
 #include "editor/clip/commands/Operations.h"
 #include "editor/clip/sheets/ComparisonSheet.h"
-
-#include <pacini/synthesis/ClipAdaptation.h>
 
 namespace pacini::editor
 {
@@ -60,10 +59,8 @@ Menu clipMenu(EditorView& view)
         "Moves levels and frequencies into what the chosen actuator can play, as one step",
         [&session]
         {
-            AdaptationParams params;
-            params.strength = session.actuators.strength();
-            session.model.setClip("Fit to actuator",
-                                  adaptClip(*session.model.clip(), *session.actuators.profile(), params).clip);
+            session.model.setClip("Fit to actuator", fittedClip(*session.model.clip(), *session.actuators.profile(),
+                                                                session.actuators.strength()));
         },
         [&session] { return session.model.clip() && session.actuators.profile(); });
     menu.add(

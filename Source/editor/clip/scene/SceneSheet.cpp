@@ -8,13 +8,9 @@
 #include "editor/clip/session/Sound.h"
 #include "io/SceneFile.h"
 
-#include <pacini/synthesis/CompilePlan.h>
-
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
-#include <map>
 #include <utility>
 
 namespace pacini::editor
@@ -24,63 +20,10 @@ namespace
 {
 constexpr int wholeWindow = 4000; // more than any has
 constexpr int controlHeight = 30;
-constexpr double sceneRate = 48000.0;
 constexpr std::array<SceneParameter, 8> offered{
     SceneParameter::pan,   SceneParameter::gain,  SceneParameter::transposition, SceneParameter::stretch,
     SceneParameter::delay, SceneParameter::tones, SceneParameter::events,        SceneParameter::noise};
 constexpr int mostRepeats = 100;
-
-/// What the worker finds out about a scene.
-struct SceneNews
-{
-    std::map<std::size_t, juce::String> leftOut; ///< by part
-    std::size_t bands = 0;                       ///< left out of parts that play
-    double error = 0.0;                          ///< dB below the scene
-    double duration = 0.0;                       ///< s of the whole scene
-    juce::String failure;
-};
-
-/// The part that "plays[3]" or "plays[3].bands[1]" is of.
-std::optional<std::size_t> partOf(const std::string& where, const BuiltScene& built)
-{
-    constexpr std::string_view plays = "plays[";
-    std::size_t index = 0;
-    if (!where.starts_with(plays) ||
-        std::from_chars(where.data() + plays.size(), where.data() + where.size(), index).ec != std::errc() ||
-        index >= built.parts.size())
-        return {};
-    return built.parts[index];
-}
-
-Result<RenderPlan> planOf(const BuiltScene& built, const std::optional<Profile>& profile, double strength)
-{
-    CompileParams params;
-    params.sampleRate = sceneRate;
-    params.adaptation.strength = strength;
-    return compilePlan(built.scene, profile ? &*profile : nullptr, params);
-}
-
-SceneNews newsOf(const BuiltScene& built, const std::optional<Profile>& profile, double strength)
-{
-    SceneNews news;
-    const auto planned = planOf(built, profile, strength);
-    if (!planned)
-    {
-        news.failure = toText(planned.error().text());
-        return news;
-    }
-    news.error = planned->predictedError;
-    news.duration = planned->duration;
-    for (const LeftOut& one : planned->leftOut)
-        if (const auto part = partOf(one.where, built))
-        {
-            if (one.where.find('.') == std::string::npos)
-                news.leftOut[*part] = toText(one.reason);
-            else
-                ++news.bands;
-        }
-    return news;
-}
 } // namespace
 
 SceneSheet::SceneSheet(Session& shared)
@@ -266,29 +209,30 @@ void SceneSheet::plan()
     const auto profile = session.actuators.profile();
     jobs.run([built = sceneOf(session.model.document().project()),
               profile = profile ? std::optional(*profile) : std::nullopt, strength = session.actuators.strength()]
-             { return newsOf(built, profile, strength); },
-             [this, number = ++planned, parts = selection.scene().parts.size()](SceneNews news)
+             { return forecast(built, profile ? &*profile : nullptr, strength); },
+             [this, number = ++planned, parts = selection.scene().parts.size()](Result<SceneForecast> found)
              {
                  if (number != planned)
                      return;
-                 duration = news.duration;
+                 const SceneForecast scene = found ? std::move(*found) : SceneForecast{};
+                 duration = scene.duration;
                  if (duration <= 0.0)
                      stop();
                  else if (plays)
                      isTimerRunning() ? session.player.set(playback()) : begin();
                  juce::String text = counted(parts, "{0} clip", "{0} clips");
-                 if (news.failure.isNotEmpty())
-                     text = translateMessage(news.failure);
-                 else if (news.leftOut.empty() && news.bands == 0)
+                 if (!found)
+                     text = translateMessage(toText(found.error().text()));
+                 else if (scene.leftOut.empty() && scene.bands == 0)
                      text << ", " << tr("all of them are felt");
                  else
                      text << ", "
                           << tr("{0} left out and {1} bands of others; the error is {2} dB",
-                                {juce::String(static_cast<int>(news.leftOut.size())),
-                                 juce::String(static_cast<int>(news.bands)),
-                                 std::isfinite(news.error) ? juce::String(news.error, 1) : toText("−∞")});
+                                {juce::String(static_cast<int>(scene.leftOut.size())),
+                                 juce::String(static_cast<int>(scene.bands)),
+                                 std::isfinite(scene.error) ? juce::String(scene.error, 1) : toText("−∞")});
                  note.setText(text, juce::dontSendNotification);
-                 line.showLeftOut(std::move(news.leftOut));
+                 line.showLeftOut(scene.leftOut);
              });
 }
 

@@ -38,7 +38,7 @@ SceneTimeline::SceneTimeline(EditorModel& project, SceneSelection& selected) : m
                      });
 }
 
-void SceneTimeline::showLeftOut(std::map<std::size_t, juce::String> reasons)
+void SceneTimeline::showLeftOut(std::map<std::size_t, std::string> reasons)
 {
     leftOut = std::move(reasons);
     repaint();
@@ -253,7 +253,7 @@ void SceneTimeline::mouseMove(const juce::MouseEvent& event)
 {
     const auto part = partAt(event.getPosition());
     const auto reason = part ? leftOut.find(*part) : leftOut.end();
-    setTooltip(reason != leftOut.end() ? reason->second
+    setTooltip(reason != leftOut.end() ? toText(reason->second)
                : part                  ? tr("Drag: moves it; Delete: removes it")
                                        : tr("Click: places the cursor, where clips are added"));
 }

@@ -7,8 +7,6 @@
 #include "document/view/TimeAxis.h"
 #include "editor/clip/scene/SceneSelection.h"
 
-#include <pacini/synthesis/RenderPlan.h>
-
 #include <juce_gui_basics/juce_gui_basics.h>
 
 #include <cstddef>
@@ -16,6 +14,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace pacini::editor
@@ -28,7 +27,7 @@ public:
     SceneTimeline(EditorModel& project, SceneSelection& selected);
 
     /// Why parts are left out, by index; and the time that plays, negative for none.
-    void showLeftOut(std::map<std::size_t, juce::String> reasons);
+    void showLeftOut(std::map<std::size_t, std::string> reasons);
     void showPlayhead(double time);
     /// s: where a part goes that is added.
     [[nodiscard]] double cursor() const noexcept { return cursorTime; }
@@ -59,7 +58,7 @@ private:
     TimeAxis axis{0.0, 0.01};
     int firstTrack = 0;
     double cursorTime = 0.0, playhead = -1.0;
-    std::map<std::size_t, juce::String> leftOut;
+    std::map<std::size_t, std::string> leftOut;
     Gesture gesture = 0;
     ScenePart grabbed; ///< as it was
     mutable LevelCurves levels;
