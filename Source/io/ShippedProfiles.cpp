@@ -1,14 +1,56 @@
 #include "io/ShippedProfiles.h"
 
+#include "ShippedProfileTexts.h"
 #include "io/NearestName.h"
+#include "io/ProfileJson.h"
 
 #include <algorithm>
+#include <array>
+#include <cassert>
 #include <system_error>
+#include <utility>
 
 namespace pacini
 {
 
 namespace fs = std::filesystem;
+
+namespace
+{
+/// In the order of the plugin's parameter `profile`; never reordered, new ones at the end.
+constexpr std::array<std::string_view, 12> slotNames{
+    "flat-pcm",         "l5-wristband",    "l5-test-jig",  "lra-175",          "lra-235-narrow",
+    "erm-coin",         "piezo",           "phone-taptic", "quest-controller", "dualsense-voice-coil",
+    "joycon-hd-rumble", "wideband-exciter"};
+} // namespace
+
+std::string_view profileNameOf(std::size_t slot) noexcept
+{
+    return slot < slotNames.size() ? slotNames[slot] : std::string_view();
+}
+
+std::optional<Profile> builtInProfile(std::size_t slot)
+{
+    for (const auto& [name, text] : shippedProfileTexts)
+    {
+        if (name != profileNameOf(slot))
+            continue;
+        auto profile = readProfileJson(text);
+        assert(profile.ok());
+        return profile ? std::optional(std::move(profile).value()) : std::nullopt;
+    }
+    return std::nullopt;
+}
+
+std::vector<NamedProfile> builtInProfiles()
+{
+    std::vector<NamedProfile> profiles;
+    for (std::size_t slot = 0; slot < slotNames.size(); ++slot)
+        if (auto profile = builtInProfile(slot))
+            profiles.push_back(
+                {std::string(slotNames[slot]), std::make_shared<const Profile>(std::move(profile).value())});
+    return profiles;
+}
 
 std::vector<ShippedProfile> shippedProfiles(const fs::path& beside)
 {

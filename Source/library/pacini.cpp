@@ -4,11 +4,11 @@
 
 #include "pacini.h"
 
-#include "document/BuiltInProfiles.h"
 #include "io/ClipFile.h"
 #include "io/InputFile.h"
 #include "io/ProfileJson.h"
 #include "io/SceneFile.h"
+#include "io/ShippedProfiles.h"
 #include "io/formats/ClipFormat.h"
 #include "library/ControllerLink.h"
 #include "library/Handles.h"

@@ -27,7 +27,7 @@ PRESETS = Path("Core/pacini/realtime/TranslatorPresets.h")
 FILES = {
     "names in files": [
         "Source/app/editor/EditorSettings.cpp", "Source/app/editor/EditorSettings.h", "Source/document/Autosave.cpp",
-        "Source/document/AudioReference.h", "Source/document/Base64.h", "Source/document/BuiltInProfiles.cpp",
+        "Source/document/AudioReference.h", "Source/document/Base64.h",
         "Source/document/FolderFiles.cpp", "Source/document/RecentFiles.cpp", "Source/plugin/engine/PluginState.h"],
     "errors of project files, which name places in JSON; English, as the command prints errors of files": [
         "Source/document/ProjectFields.h", "Source/document/ProjectJson.cpp", "Source/document/ProjectJson.h",

@@ -10,10 +10,10 @@
 #include "app/editor/EditorWindow.h"
 #include "app/editor/PreviewDevices.h"
 #include "app/editor/StudyWindow.h"
-#include "document/BuiltInProfiles.h"
 #include "editor/Text.h"
 #include "editor/Translation.h"
 #include "io/ProfileFile.h"
+#include "io/ShippedProfiles.h"
 #include "study/StudyFile.h"
 #include "study/StudyResults.h"
 

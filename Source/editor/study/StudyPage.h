@@ -3,11 +3,11 @@
 
 // The pages that a participant goes through, and the experimenter's before them.
 
-#include "document/BuiltInProfiles.h"
 #include "document/measure/MeasureRig.h"
 #include "editor/Theme.h"
 #include "editor/study/AnswerPane.h"
 #include "editor/study/DelayMeasurement.h"
+#include "io/ShippedProfiles.h"
 #include "study/StudyRun.h"
 
 #include <juce_gui_basics/juce_gui_basics.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "plugin/engine/PluginProcessor.h"
 
-#include "document/BuiltInProfiles.h"
 #include "io/ProfileFile.h"
+#include "io/ShippedProfiles.h"
 #include "plugin/engine/ParameterText.h"
 
 #include <pacini/realtime/TranslatorPresets.h>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "plugin/window/ActuatorsPage.h"
 
-#include "document/BuiltInProfiles.h"
 #include "editor/Controls.h"
 #include "editor/Theme.h"
 #include "editor/Translation.h"
+#include "io/ShippedProfiles.h"
 
 #include <cmath>
 

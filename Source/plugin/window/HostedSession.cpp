@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "plugin/window/HostedSession.h"
 
-#include "document/BuiltInProfiles.h"
+#include "io/ShippedProfiles.h"
 
 #include <utility>
 

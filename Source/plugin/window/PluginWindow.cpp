@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "plugin/window/PluginWindow.h"
 
-#include "document/BuiltInProfiles.h"
 #include "editor/Controls.h"
 #include "editor/Translation.h"
+#include "io/ShippedProfiles.h"
 
 #include <cmath>
 

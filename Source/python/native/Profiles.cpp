@@ -1,9 +1,9 @@
 // Actuator profiles: shipped ones and files.
 
-#include "document/BuiltInProfiles.h"
 #include "io/AcfFile.h"
 #include "io/ProfileFile.h"
 #include "io/ProfileJson.h"
+#include "io/ShippedProfiles.h"
 #include "python/native/ProfileHandle.h"
 #include "python/native/Support.h"
 

@@ -1,7 +1,7 @@
 // The table of parameters, and values as text.
 
-#include "document/BuiltInProfiles.h"
 #include "io/ProfileFile.h"
+#include "io/ShippedProfiles.h"
 #include "plugin/engine/ParameterText.h"
 #include "plugin/engine/Rig.h"
 #include "support/Paths.h"

@@ -1,7 +1,7 @@
 // What sessions keep.
 
-#include "document/BuiltInProfiles.h"
 #include "io/ProfileFile.h"
+#include "io/ShippedProfiles.h"
 #include "plugin/engine/Rig.h"
 #include "support/Paths.h"
 #include "support/RandomProfile.h"

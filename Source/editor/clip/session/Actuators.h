@@ -3,8 +3,8 @@
 
 // List of actuators that can be chosen, and the choice of the project.
 
-#include "document/BuiltInProfiles.h"
 #include "editor/clip/session/EditorModel.h"
+#include "io/ShippedProfiles.h"
 
 #include <memory>
 #include <string>
