@@ -12,8 +12,8 @@ if(TARGET pacini_plugin_Standalone)
 endif()
 
 # Manual pages and completions are what the programs say of themselves.
-set(pages "${texts}/pacini.1.gz")
-add_custom_command(OUTPUT "${texts}/pacini.1.gz" "${texts}/pacini.bash" "${texts}/_pacini" "${texts}/pacini.fish"
+set(pages "${texts}/pacini.1.gz" "${texts}/pacini-bench.1.gz")
+add_custom_command(OUTPUT ${pages} "${texts}/pacini.bash" "${texts}/_pacini" "${texts}/pacini.fish"
     COMMAND ${CMAKE_COMMAND} "-DPACINI=$<TARGET_FILE:pacini>" "-DFOLDER=${texts}" -P "${CMAKE_CURRENT_LIST_DIR}/WriteTexts.cmake"
     DEPENDS pacini "${CMAKE_CURRENT_LIST_DIR}/WriteTexts.cmake" VERBATIM)
 function(pacini_manual_of target name)
@@ -30,7 +30,7 @@ endif()
 add_custom_target(pacini_texts ALL DEPENDS ${pages})
 
 set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME programs)
-install(TARGETS pacini)
+install(TARGETS pacini pacini-bench)
 install(FILES ${pages} DESTINATION "${CMAKE_INSTALL_MANDIR}/man1")
 install(FILES "${PROJECT_SOURCE_DIR}/CHANGELOG.md" DESTINATION "${share}/doc/pacini")
 install(FILES "${texts}/pacini.bash" DESTINATION "${share}/bash-completion/completions" RENAME pacini)

@@ -267,7 +267,7 @@ plugin)
     ;;
 package)
     install_packages "${build_packages[@]}" "${plugin_packages[@]}" "${package_packages[@]}"
-    build_programs pacini_library pacini_library_static pacini_texts
+    build_programs pacini-bench pacini_library pacini_library_static pacini_texts
     say "Packing"
     cpack -G DEB --config build/release/CPackConfig.cmake -B "$PWD/build/package" || fail "cannot make the package"
     rm -rf build/package/_CPack_Packages

@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <functional>
 #include <memory>
 
 namespace pacini::cli
@@ -24,6 +25,10 @@ public:
     virtual Exit run(Console& console) = 0;
 };
 
+struct BenchOptions;
+/// Measures. The program `pacini` starts `pacini-bench` for it, which alone has the code.
+using BenchRun = std::function<Exit(const BenchOptions&, Console&)>;
+
 /// The subcommands, each in the source of its name.
 [[nodiscard]] std::unique_ptr<Command> encodeCommand();
 [[nodiscard]] std::unique_ptr<Command> renderCommand();
@@ -39,7 +44,7 @@ public:
 [[nodiscard]] std::unique_ptr<Command> measureCommand();
 [[nodiscard]] std::unique_ptr<Command> studyCommand();
 [[nodiscard]] std::unique_ptr<Command> plotCommand();
-[[nodiscard]] std::unique_ptr<Command> benchCommand();
+[[nodiscard]] std::unique_ptr<Command> benchCommand(BenchRun run);
 [[nodiscard]] std::unique_ptr<Command> helpCommand();
 [[nodiscard]] std::unique_ptr<Command> completionsCommand();
 [[nodiscard]] std::unique_ptr<Command> manCommand();
@@ -61,7 +66,8 @@ public:
 [[nodiscard]] std::unique_ptr<Command> forgetStudySubcommand();
 [[nodiscard]] std::unique_ptr<Command> latencyStudySubcommand();
 
-/// The whole program: parses, runs, returns the exit code. Exceptions of the parser end here.
-[[nodiscard]] int runCommandLine(int argc, const char* const* argv);
+/// The whole program: parses, runs, returns the exit code. Exceptions of the parser end here. Without `bench`, the
+/// program pacini-bench measures.
+[[nodiscard]] int runCommandLine(int argc, const char* const* argv, const BenchRun& bench = {});
 
 } // namespace pacini::cli

@@ -1,3 +1,4 @@
+#include "cli/BenchProgram.h"
 #include "cli/Command.h"
 #include "cli/CommandTree.h"
 #include "cli/HelpText.h"
@@ -54,7 +55,7 @@ Exit runCommand(Command& command, Console& console)
 }
 
 /// Parses and runs; what is to be printed at the end is not yet.
-Exit parseAndRun(Console& console, int argc, const char* const* argv)
+Exit parseAndRun(Console& console, int argc, const char* const* argv, const BenchRun& bench)
 {
     CLI::App app(
         "Pacini turns sound into touch: it encodes recordings as haptic clips and renders clips as drive signals.",
@@ -64,9 +65,12 @@ Exit parseAndRun(Console& console, int argc, const char* const* argv)
     app.require_subcommand(1);
     app.fallthrough(false);
     std::vector<std::unique_ptr<Command>> commands; // in the order of the help text
-    for (const auto make : {encodeCommand, renderCommand, infoCommand, convertCommand, lintCommand, profilesCommand,
-                            devicesCommand, playCommand, serveCommand, compareCommand, manifestCommand, measureCommand,
-                            studyCommand, plotCommand, benchCommand, helpCommand, completionsCommand, manCommand})
+    for (const auto make :
+         {encodeCommand, renderCommand, infoCommand, convertCommand, lintCommand, profilesCommand, devicesCommand,
+          playCommand, serveCommand, compareCommand, manifestCommand, measureCommand, studyCommand, plotCommand})
+        commands.push_back(make());
+    commands.push_back(benchCommand(bench));
+    for (const auto make : {helpCommand, completionsCommand, manCommand})
         commands.push_back(make());
     std::vector<CLI::App*> declared;
     bool quiet = false, json = false, strict = false;
@@ -125,7 +129,7 @@ Exit parseAndRun(Console& console, int argc, const char* const* argv)
 }
 } // namespace
 
-int runCommandLine(int argc, const char* const* argv)
+int runCommandLine(int argc, const char* const* argv, const BenchRun& bench)
 {
     Console console;
     std::vector<const char*> words(argv, argv + argc);
@@ -136,7 +140,11 @@ int runCommandLine(int argc, const char* const* argv)
         for (const std::string& word : *retried)
             words.push_back(word.c_str());
     }
-    Exit exit = parseAndRun(console, static_cast<int>(words.size()), words.data());
+    const auto start = [&words](const BenchOptions&, Console& where)
+    {
+        return runBenchProgram({words.begin(), words.end()}, where);
+    };
+    Exit exit = parseAndRun(console, static_cast<int>(words.size()), words.data(), bench ? bench : BenchRun(start));
     console.endReport(exit == Exit::ok);
     if (const auto failure = console.printFailure())
     {

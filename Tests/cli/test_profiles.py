@@ -42,6 +42,10 @@ class Profiles(CommandTest):
         self.assertEqual(done.returncode, 1)
         self.assertRegex(done.stderr.decode(), r"^pacini: .*profiles.*\n$")
         (self.folder / "a.wav").write_bytes(wav(sine(100, 0.2)))
+        done = subprocess.run([self.folder / "alone", "bench", "decimate", "a.wav"], cwd=self.folder, capture_output=True, timeout=60)
+        self.assertEqual((done.returncode, done.stdout), (1, b""))
+        self.assertRegex(done.stderr.decode(), r"^pacini: .*/pacini-bench: cannot be started: .*\n$")
+        shutil.copy(Path(COMMAND).with_name("pacini-bench"), self.folder)
         for what in ("actuators", "all"):
             done = subprocess.run([self.folder / "alone", "bench", what, self.folder / "a.wav", "-o", self.folder / "out"],
                                   capture_output=True, timeout=60)

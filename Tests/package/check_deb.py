@@ -20,7 +20,7 @@ sys.path += [str(SOURCE / "Tests/hosts"), str(SOURCE / "Tests/library")]
 import installed  # noqa: E402
 from host_test import Processes, check, failures, needs, until  # noqa: E402
 
-PROGRAMS = ("pacini", "PaciniEditor", "PaciniStandalone")
+PROGRAMS = ("pacini", "pacini-bench", "PaciniEditor", "PaciniStandalone")
 SOUND = "demo/knock_wood_bridge.flac"
 
 
@@ -125,6 +125,8 @@ def check_texts(tree):
                     check(f"{path.relative_to(tree)} names no folder of the machine it was built on", False, folder)
     for program in PROGRAMS:
         page = gzip.decompress((tree / f"usr/share/man/man1/{program}.1.gz").read_bytes())
+        if page == b".so man1/pacini.1\n":
+            page = gzip.decompress((tree / "usr/share/man/man1/pacini.1.gz").read_bytes())
         done = subprocess.run(["groff", "-man", "-Tutf8", "-ww"], input=page, capture_output=True, check=False)
         check(f"the manual page of {program} has no mistakes",
               done.returncode == 0 and not done.stderr and len(done.stdout) > 500, done.stderr.decode())
@@ -288,7 +290,7 @@ def check_libraries(root):
         later = set(re.findall(rb"\blibX\w+\.so\.\d", (root.folder / binary[1:]).read_bytes()))
         missing = [name.decode() for name in later if name.decode() not in known]
         check(f"{binary} will find what it opens later", not missing, missing)
-        check(f"{binary} has windows or is the command", bool(later) == (binary != "/usr/bin/pacini"))
+        check(f"{binary} has windows or is a command", bool(later) != binary.startswith("/usr/bin/pacini"))
     # There is no compiler: what was built on this machine runs there.
     example = installed.built(root.folder / "usr", root.folder / "tmp/example")["pkg-config"]
     shutil.copy(installed.CLIP, root.folder / "tmp/clip.json")

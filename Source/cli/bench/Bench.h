@@ -2,6 +2,7 @@
 
 // The benchmarks of `pacini bench`: what each measures on a sound, and the columns of its table.
 
+#include "cli/BenchOptions.h"
 #include "cli/bench/BenchSound.h"
 #include "cli/bench/BenchTable.h"
 
@@ -13,12 +14,6 @@
 
 namespace pacini::cli
 {
-
-struct BenchSettings
-{
-    int repeats = 5;    ///< see timed()
-    bool sweep = false; ///< also Pacini's own method at many settings
-};
 
 /// A chart of a bench's table over all sounds: one line for every text in the column `series`.
 struct BenchFigure
@@ -84,7 +79,7 @@ struct Bench
 [[nodiscard]] Bench matchBench();
 [[nodiscard]] Bench runtimeBench();
 
-/// All of them.
+/// All of them, see benchNames.
 [[nodiscard]] inline std::vector<Bench> allBenches()
 {
     return {simplifyBench(),    decimateBench(), filtersBench(),   analysisBench(),   synthesisBench(),

@@ -1,0 +1,38 @@
+#pragma once
+
+// Options of `pacini bench`, and the names of what it measures.
+
+#include "cli/Overwrite.h"
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace pacini::cli
+{
+
+/// The names of allBenches(), in their order.
+inline constexpr std::array<std::string_view, 15> benchNames{
+    "simplify",   "decimate", "filters", "analysis", "synthesis", "oscillators", "scenes", "actuators",
+    "equalizers", "live",     "body",    "stages",   "methods",   "match",       "runtime"};
+
+struct BenchSettings
+{
+    int repeats = 5;    ///< see timed()
+    bool sweep = false; ///< also Pacini's own method at many settings
+};
+
+/// What the user asked for.
+struct BenchOptions
+{
+    std::string what = "all";
+    std::vector<std::string> inputs;
+    std::string output = "pacini-bench";
+    std::string markdown;
+    std::string format = "svg";
+    BenchSettings settings;
+    OverwriteOptions overwriting;
+};
+
+} // namespace pacini::cli

@@ -1,0 +1,15 @@
+// The program pacini-bench, which measures what `pacini bench` is asked for.
+
+#include "cli/Command.h"
+#include "cli/Process.h"
+#include "cli/bench/BenchRun.h"
+
+#include <vector>
+
+int main(int argc, char** argv)
+{
+    pacini::cli::prepareProcess();
+    std::vector<const char*> words{"pacini", "bench"};
+    words.insert(words.end(), argv + 1, argv + argc);
+    return pacini::cli::runCommandLine(static_cast<int>(words.size()), words.data(), pacini::cli::runBenches);
+}
