@@ -29,6 +29,8 @@ namespace pacini
         return "io";
     case ErrorCode::diskFull:
         return "diskFull";
+    case ErrorCode::cancelled:
+        return "cancelled";
     }
     return "invalidData";
 }

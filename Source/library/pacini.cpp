@@ -104,6 +104,8 @@ pacini_result codeOf(ErrorCode code)
     case ErrorCode::truncated:
     case ErrorCode::notFinite:
         return PACINI_BAD_DATA;
+    case ErrorCode::cancelled: // nothing here can be
+        break;
     }
     return PACINI_INTERNAL;
 }

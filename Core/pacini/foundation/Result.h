@@ -21,6 +21,7 @@ enum class ErrorCode
     tooLarge,           ///< a size or a count is beyond what is accepted
     io,                 ///< the file system refused
     diskFull,           ///< no more can be written there
+    cancelled,          ///< the user stopped the work
 };
 
 /// A failure: `where` is a path into the input such as `bands[2].amplitude[7].time`, empty for the whole input.
@@ -33,6 +34,12 @@ struct Error
     /// "where: message", or only the message when there is no place to name.
     [[nodiscard]] std::string text() const { return where.empty() ? message : where + ": " + message; }
 };
+
+/// The Error of work that the user stopped.
+[[nodiscard]] inline Error wasCancelled()
+{
+    return {ErrorCode::cancelled, "", "was cancelled"};
+}
 
 /// Either a value or an Error. Asking for the one that is not there is a programming error (asserted).
 template <typename T>

@@ -97,22 +97,19 @@ void Importer::read(const std::filesystem::path& file)
 {
     ++begun;
     doing = tr("Reading {0}", {pathText(file.filename())});
-    jobs.run(
-        [file, mine = task] {
-            return mine->stopped ? Result<Imported>(Error{ErrorCode::io, "", "was cancelled"}) : readFile(file);
-        },
-        [this, file, mine = task](Result<Imported> imported)
-        {
-            if (mine->stopped)
-                return;
-            if (!imported)
-                return fail(file, imported.error());
-            if (imported->sound)
-                return analyseSound(std::move(imported).value());
-            if (imported->scene)
-                return putScene(file, *imported);
-            put(std::move(imported).value());
-        });
+    jobs.run([file, mine = task] { return mine->stopped ? Result<Imported>(wasCancelled()) : readFile(file); },
+             [this, file, mine = task](Result<Imported> imported)
+             {
+                 if (mine->stopped)
+                     return;
+                 if (!imported)
+                     return fail(file, imported.error());
+                 if (imported->sound)
+                     return analyseSound(std::move(imported).value());
+                 if (imported->scene)
+                     return putScene(file, *imported);
+                 put(std::move(imported).value());
+             });
 }
 
 void Importer::analyseSound(Imported imported)
