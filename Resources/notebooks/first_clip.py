@@ -39,7 +39,7 @@ plt.show()
 # %%
 for name in ("l5-wristband", "lra-175"):
     drive = pacini.render(clip, rate, profile=name)
-    skin = pacini.felt(clip, rate, profile=name)
+    skin = pacini.felt(clip, rate, profile=name, full_scale=1)
     print(f"{name}: drive up to {np.abs(drive).max():.2f}, felt up to {np.abs(skin).max():.1f} m/s²")
     for where, what in pacini.explain(clip, profile=name).adaptations:
         print(f"  {where} {what}")

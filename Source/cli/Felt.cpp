@@ -8,11 +8,10 @@
 namespace pacini::cli
 {
 
-Result<FeltSettings> feltSettings(const Profile& profile, unsigned wearer, double fullScale,
-                                  const std::filesystem::path& programFolder)
+Result<void> checkFelt(const Profile& profile, const std::filesystem::path& programFolder)
 {
-    if (auto settings = feltSettingsOf(profile, wearer, fullScale))
-        return *settings;
+    if (profile.body)
+        return {};
     std::string message = "is missing in this profile, so nothing is known of what is felt";
     bool first = true;
     for (const ShippedProfile& shipped : shippedProfiles(programFolder))

@@ -1,17 +1,17 @@
 #pragma once
 
-// Settings for rendering the felt acceleration instead of the drive signal.
+// Check that a profile tells what is felt of an actuator.
 
-#include <pacini/synthesis/SignalPlayer.h>
+#include <pacini/actuator/Profile.h>
+#include <pacini/foundation/Result.h>
 
 #include <filesystem>
 
 namespace pacini::cli
 {
 
-/// What `profile` makes `wearer` (see bodyOn) feel. Errors: invalidData at `body` when the profile has none; the
-/// message names profiles beside the program `programFolder` that have one.
-[[nodiscard]] Result<FeltSettings> feltSettings(const Profile& profile, unsigned wearer, double fullScale,
-                                                const std::filesystem::path& programFolder);
+/// Errors: invalidData at `body` when the profile has none; the message names profiles beside the program
+/// `programFolder` that have one.
+[[nodiscard]] Result<void> checkFelt(const Profile& profile, const std::filesystem::path& programFolder);
 
 } // namespace pacini::cli

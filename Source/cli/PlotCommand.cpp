@@ -6,7 +6,6 @@
 #include "cli/Options.h"
 #include "cli/Overwrite.h"
 #include "cli/ProfileInput.h"
-#include "cli/RenderJob.h"
 #include "cli/plot/ClipFigure.h"
 #include "cli/plot/Figure.h"
 #include "cli/plot/ProfileFigure.h"
@@ -15,8 +14,8 @@
 #include "io/AudioReader.h"
 #include "io/ClipFile.h"
 
+#include <pacini/synthesis/RenderScene.h>
 #include <pacini/synthesis/Scene.h>
-#include <pacini/synthesis/ScenePlayer.h>
 #include <pacini/synthesis/SceneTimeline.h>
 
 #include <fmt/format.h>
@@ -24,6 +23,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -77,34 +77,42 @@ Result<plot::NamedWaveform> soundWaveform(const std::filesystem::path& file, plo
                                waveform.points()};
 }
 
+/// Draws a drive signal.
+class WaveformSink : public RenderSink
+{
+public:
+    WaveformSink(plot::Waveform& toFill, const Progress& toTell) : waveform(toFill), told(toTell) {}
+
+    Result<void> take(const RenderBlock& block) override
+    {
+        waveform.push(block.channels.front());
+        return {};
+    }
+    Result<void> progress(double share) override
+    {
+        told(share);
+        return {};
+    }
+
+private:
+    plot::Waveform& waveform;
+    const Progress& told;
+};
+
 /// The drive signal as `pacini render` makes it, for long clips at a lower rate: a pixel is much longer than a sample.
 Result<plot::NamedWaveform> driveWaveform(const Clip& clip, const std::optional<Profile>& profile,
                                           plot::TimeRange range, std::size_t columns, const Progress& progress)
 {
     constexpr double longClip = 300.0; // s
-    constexpr std::size_t blockFrames = 4096;
-    CompileParams params;
+    RenderParams params;
     if (clip.duration > longClip)
-        params.sampleRate = 8000.0;
-    const double fs = params.sampleRate;
-    auto plan = compilePlan(sceneOf(clip), profile ? &*profile : nullptr, params);
-    if (!plan)
-        return plan.error();
-    ScenePlayerParams playing;
-    playing.sampleRate = fs;
-    ScenePlayer player(std::move(*plan), playing);
+        params.compile.sampleRate = 8000.0;
+    const double fs = params.compile.sampleRate;
+    params.to = (std::floor(range.to * fs) + 2.0) / fs;
     plot::Waveform waveform(range, columns, fs, 1);
-    std::vector<float> block(blockFrames);
-    const auto last = std::min(player.totalFrames(), static_cast<std::int64_t>(range.to * fs) + 2);
-    for (std::int64_t done = 0; done < last;)
-    {
-        const auto part = std::span(block).first(
-            static_cast<std::size_t>(std::min(last - done, static_cast<std::int64_t>(blockFrames))));
-        player.process(std::span(&part, 1));
-        waveform.push(part);
-        done += static_cast<std::int64_t>(part.size());
-        progress(static_cast<double>(done) / static_cast<double>(last));
-    }
+    WaveformSink sink(waveform, progress);
+    if (auto rendered = renderScene(sceneOf(clip), profile ? &*profile : nullptr, params, sink); !rendered)
+        return rendered.error();
     return plot::NamedWaveform{profile ? fmt::format("Drive signal for {} (1 = full drive)", profile->name)
                                        : "Drive signal rendered from the clip (1 = full drive)",
                                waveform.points()};

@@ -3,6 +3,7 @@
 #include "cli/Batch.h"
 #include "cli/Command.h"
 #include "cli/Counted.h"
+#include "cli/Felt.h"
 #include "cli/InputFiles.h"
 #include "cli/Options.h"
 #include "cli/Overwrite.h"
@@ -75,7 +76,7 @@ nlohmann::ordered_json toJson(const RenderTask& task, const RenderSettings& sett
     return report;
 }
 
-std::string summary(const std::vector<RenderTask>& tasks, const std::optional<FeltSettings>& felt)
+std::string summary(const std::vector<RenderTask>& tasks, const std::optional<FeltParams>& felt)
 {
     std::size_t done = 0, fresh = 0;
     const std::size_t skipped = countSkipped(tasks);
@@ -100,7 +101,7 @@ std::string summary(const std::vector<RenderTask>& tasks, const std::optional<Fe
 }
 
 /// How to avoid the clipping of samples of which the largest is `peak`.
-std::string clippingAdvice(double peak, double gain, const std::optional<FeltSettings>& felt)
+std::string clippingAdvice(double peak, double gain, const std::optional<FeltParams>& felt)
 {
     if (felt)
         return fmt::format("--felt-full-scale {:.0f} avoids it", std::ceil(peak * felt->fullScale));
@@ -153,7 +154,7 @@ private:
     bool dryRun = false;
     double tolerance = -60.0;
     std::string clipFolder;
-    double feltFullScale = 100.0;
+    double feltFullScale = FeltParams{}.fullScale;
     unsigned wearer = 0;
     unsigned jobs = 0;
     bool felt = false;
@@ -359,10 +360,9 @@ Exit RenderCommand::run(Console& console)
     }
     if (felt)
     {
-        const auto chosenFelt = feltSettings(*settings.profile, wearer, feltFullScale, programFolder());
-        if (!chosenFelt)
-            return console.fail(profile, chosenFelt.error());
-        settings.felt = *chosenFelt;
+        if (const auto known = checkFelt(*settings.profile, programFolder()); !known)
+            return console.fail(profile, known.error());
+        settings.felt = FeltParams{wearer, feltFullScale};
     }
 
     settings.record = record();

@@ -46,7 +46,7 @@ Json decoderJson(const DecoderReport& report)
 DecoderReport sumOf(const RenderResult& result)
 {
     DecoderReport sum;
-    for (const PlayReport& play : result.plays)
+    for (const DecodedPlay& play : result.decoded)
     {
         sum.innerRate = std::max(sum.innerRate, play.decoder.innerRate);
         sum.carriers += play.decoder.carriers;
@@ -62,12 +62,12 @@ DecoderReport sumOf(const RenderResult& result)
     return sum;
 }
 
-std::string playText(const PlayReport& play)
+std::string playText(const DecodedPlay& play, const std::string& name)
 {
     const DecoderReport& d = play.decoder;
     std::string text = fmt::format("plays[{}]{}: {:.3f} s from {:.3f} s on; {}", play.play,
-                                   play.name.empty() ? "" : " \"" + printable(play.name) + "\"", play.duration,
-                                   play.start, counted(d.carriers, "sinusoid", "sinusoids"));
+                                   name.empty() ? "" : " \"" + printable(name) + "\"", play.duration, play.start,
+                                   counted(d.carriers, "sinusoid", "sinusoids"));
     if (d.noiseBands > 0)
         text += " and " + counted(d.noiseBands, "band of noise", "bands of noise");
     text += fmt::format(" at an inner rate of {:.0f} Hz{}, {}", d.innerRate,
@@ -112,8 +112,8 @@ nlohmann::ordered_json planJson(const RenderResult& result, const CompileParams&
     plan["mostSounding"] = result.maxSounding;
     plan["tolerance"] = params.leaveOut ? Json(params.tolerance) : Json(nullptr);
     plan["predictedError"] = decibels(result.predictedError);
-    if (result.measured)
-        plan["measuredError"] = decibels(*result.measured);
+    if (result.measuredError)
+        plan["measuredError"] = decibels(*result.measuredError);
     plan["leftOutCount"] = result.leftOut.size();
     if (!result.protection.empty())
         plan["protection"] = result.protection;
@@ -123,9 +123,12 @@ nlohmann::ordered_json planJson(const RenderResult& result, const CompileParams&
 nlohmann::ordered_json planLists(const RenderResult& result)
 {
     Json plays = Json::array(), adaptations = Json::array(), leftOut = Json::array();
-    for (const PlayReport& play : result.plays)
+    for (const DecodedPlay& play : result.decoded)
     {
-        plays.push_back({{"play", play.play}, {"name", play.name}, {"start", play.start}, {"duration", play.duration}});
+        plays.push_back({{"play", play.play},
+                         {"name", result.playNames[play.play]},
+                         {"start", play.start},
+                         {"duration", play.duration}});
         plays.back().update(decoderJson(play.decoder));
     }
     for (const Adaptation& item : result.adaptations)
@@ -140,10 +143,10 @@ std::string planText(const RenderResult& result, const CompileParams& params)
     std::string text = fmt::format(
         "  {} of {} on {}, at most {} at a time", result.keptPlays, counted(result.givenPlays, "play", "plays"),
         counted(result.actuators, "actuator", "actuators"), counted(result.maxSounding, "decoder", "decoders"));
-    for (std::size_t i = 0; i < std::min(result.plays.size(), maxShown); ++i)
-        text += "\n  " + playText(result.plays[i]);
-    if (result.plays.size() > maxShown)
-        text += fmt::format("\n  and {} more plays; --json lists them", result.plays.size() - maxShown);
+    for (std::size_t i = 0; i < std::min(result.decoded.size(), maxShown); ++i)
+        text += "\n  " + playText(result.decoded[i], result.playNames[result.decoded[i].play]);
+    if (result.decoded.size() > maxShown)
+        text += fmt::format("\n  and {} more plays; --json lists them", result.decoded.size() - maxShown);
 
     if (!result.adaptations.empty())
         text += "\n  fitted to the actuator:";
@@ -164,8 +167,8 @@ std::string planText(const RenderResult& result, const CompileParams& params)
     text += "\n  predicted error: " + decibelText(result.predictedError);
     if (params.leaveOut)
         text += fmt::format(" (tolerance {:.1f} dB)", params.tolerance);
-    if (result.measured)
-        text += "; measured: " + decibelText(*result.measured);
+    if (result.measuredError)
+        text += "; measured: " + decibelText(*result.measuredError);
     return text;
 }
 

@@ -4,8 +4,7 @@
 #include <pacini/actuator/OutputFilter.h>
 #include <pacini/clip/BandPriority.h>
 #include <pacini/synthesis/ClipAdaptation.h>
-#include <pacini/synthesis/CompilePlan.h>
-#include <pacini/synthesis/ScenePlayer.h>
+#include <pacini/synthesis/RenderScene.h>
 
 #include <fmt/format.h>
 
@@ -20,11 +19,10 @@ namespace pacini
 
 namespace
 {
-constexpr double traceRate = 16000.0;          // Hz: peaks of 1 kHz are within 0.2 dB
-constexpr double leastWanted = 1e-4;           // of a band: what is softer is as good as silent
-constexpr float leastReduction = 0.1f;         // dB
-constexpr std::size_t stepFrames = 80;         // of ActuatorTrace::step
-constexpr std::size_t stepsBetweenChecks = 64; // of `cancelled`
+constexpr double traceRate = 16000.0;  // Hz: peaks of 1 kHz are within 0.2 dB
+constexpr double leastWanted = 1e-4;   // of a band: what is softer is as good as silent
+constexpr float leastReduction = 0.1f; // dB
+constexpr std::size_t stepFrames = 80; // of ActuatorTrace::step
 
 static_assert(static_cast<double>(stepFrames) == ActuatorTrace::step * traceRate);
 
@@ -43,7 +41,7 @@ std::string hertz(double frequency)
 class OutputGain
 {
 public:
-    OutputGain(const RenderPlan& plan)
+    explicit OutputGain(const RenderPlan& plan)
     {
         const OutputFilterParams params{plan.profile->equalizer, plan.flattening};
         const auto filter = designOutputFilter(params, traceRate);
@@ -64,6 +62,61 @@ public:
 private:
     static constexpr double lowest = 4.0, perOctave = 24.0;
     std::array<double, static_cast<std::size_t>(10.0 * perOctave)> gains{}; // to 4 kHz
+};
+
+/// What the actuator does in each step of time.
+class Steps : public RenderSink
+{
+public:
+    Steps(std::size_t count, const std::atomic<bool>& toWatch)
+        : peaks(count), reductions(count), limits(count), cancelled(toWatch)
+    {
+    }
+
+    Result<void> begin(const RenderPlan& plan, std::uint64_t) override
+    {
+        isMotor = plan.motor;
+        gain.emplace(plan);
+        return {};
+    }
+    Result<void> take(const RenderBlock& block) override
+    {
+        if (done == peaks.size())
+            return {};
+        for (const float sample : block.channels.front())
+            peaks[done] = std::max(peaks[done], std::abs(sample));
+        if (block.meter != nullptr)
+        {
+            reductions[done] = static_cast<float>(std::max(0.0, block.meter->gainReduction));
+            limits[done] = static_cast<std::uint8_t>((block.meter->level ? ActuatorTrace::fullDrive : 0) |
+                                                     (block.meter->excursion ? ActuatorTrace::travel : 0) |
+                                                     (block.meter->heat ? ActuatorTrace::heat : 0));
+        }
+        ++done;
+        return {};
+    }
+    Result<void> progress(double) override
+    {
+        return cancelled.load(std::memory_order_relaxed) ? wasCancelled() : Result<void>();
+    }
+
+    std::vector<float> peaks, reductions;
+    std::vector<std::uint8_t> limits;
+    bool isMotor = false;
+    std::optional<OutputGain> gain;
+
+private:
+    const std::atomic<bool>& cancelled;
+    std::size_t done = 0;
+};
+
+/// What was made of a clip for the actuator.
+struct FittedClip
+{
+    const AdaptationParams& adaptation;
+    bool isMotor = false;
+    const std::vector<LeftOut>& leftOut;
+    const OutputGain& gain;
 };
 
 /// The range of frequencies that an adapted clip may have.
@@ -141,13 +194,15 @@ std::vector<std::size_t> voicesOf(const std::vector<Band>& bands, const std::vec
     return owners;
 }
 
-void addBands(ActuatorTrace& trace, const Clip& clip, const RenderPlan& plan, const AdaptationParams& adaptation,
-              bool adapts, TimeRange reach, const OutputGain& gain)
+void addBands(ActuatorTrace& trace, const Clip& clip, const FittedClip& made)
 {
-    AdaptationParams separate = adaptation;
+    const bool adapts = trace.actuator.technology != Technology::pcm;
+    const TimeRange reach = adapts && trace.actuator.polyphony > 0 ? reachOf(trace.actuator, made.adaptation.strength)
+                                                                   : TimeRange{0.0, 1e9};
+    AdaptationParams separate = made.adaptation;
     separate.voices = false;
     const Clip moved = adapts ? adaptClip(clip, trace.actuator, separate).clip : clip;
-    const Clip fitted = adapts ? adaptClip(clip, trace.actuator, adaptation).clip : clip;
+    const Clip fitted = adapts ? adaptClip(clip, trace.actuator, made.adaptation).clip : clip;
     const bool shared = fitted.bands.size() < moved.bands.size();
     const auto owners = shared ? voicesOf(moved.bands, fitted.bands, clip.duration) : std::vector<std::size_t>{};
     for (std::size_t k = 0; k < clip.bands.size(); ++k)
@@ -159,10 +214,10 @@ void addBands(ActuatorTrace& trace, const Clip& clip, const RenderPlan& plan, co
         if (shared && std::find(owners.begin(), owners.end(), k) == owners.end())
         {
             source.whole = Loss::noVoice;
-            source.why = plan.motor ? "ERM motors have one strength and no pitch; this band only adds to the strength"
-                                    : "is merged into a neighbouring band";
+            source.why = made.isMotor ? "ERM motors have one strength and no pitch; this band only adds to the strength"
+                                      : "is merged into a neighbouring band";
         }
-        for (const LeftOut& left : plan.leftOut)
+        for (const LeftOut& left : made.leftOut)
         {
             // Bands are counted as in the adapted clip; a play that is left out takes all its bands along.
             const std::size_t index =
@@ -175,7 +230,7 @@ void addBands(ActuatorTrace& trace, const Clip& clip, const RenderPlan& plan, co
         }
         const SourceCurves curves{band.amplitude, &band.pitch, band.centreFrequency,
                                   &to.amplitude,  &to.pitch,   to.centreFrequency};
-        follow(source, curves, trace, reach, gain);
+        follow(source, curves, trace, reach, made.gain);
         trace.sources.push_back(std::move(source));
     }
     for (std::size_t k = 0; k < clip.noise.size(); ++k)
@@ -188,18 +243,18 @@ void addBands(ActuatorTrace& trace, const Clip& clip, const RenderPlan& plan, co
                                             return other.lowFrequency == band.lowFrequency &&
                                                    other.highFrequency == band.highFrequency;
                                         });
-        const bool played = found != moved.noise.end() && !plan.motor;
+        const bool played = found != moved.noise.end() && !made.isMotor;
         ActuatorTrace::Source source;
         source.lane = {LaneKind::noise, k};
         if (!played)
         {
             source.whole = Loss::dropped;
-            source.why =
-                plan.motor ? "ERM motors cannot play noise; the envelope covers it" : "is outside the actuator's range";
+            source.why = made.isMotor ? "ERM motors cannot play noise; the envelope covers it"
+                                      : "is outside the actuator's range";
         }
         const SourceCurves curves{band.amplitude, nullptr, centre, played ? &found->amplitude : nullptr,
                                   nullptr,        centre};
-        follow(source, curves, trace, {0.0, 1e9}, gain);
+        follow(source, curves, trace, {0.0, 1e9}, made.gain);
         trace.sources.push_back(std::move(source));
     }
 }
@@ -285,47 +340,19 @@ std::vector<LostPart> ActuatorTrace::parts(std::span<const Loss> losses)
 Result<std::shared_ptr<const ActuatorTrace>> traceActuator(const Clip& clip, const Profile& profile, double strength,
                                                            const std::atomic<bool>& cancelled)
 {
-    Scene scene;
-    scene.clips.push_back(clip);
-    scene.plays.emplace_back();
-    CompileParams params;
-    params.sampleRate = traceRate;
-    params.adaptation.strength = strength;
-    auto plan = compilePlan(scene, &profile, params);
-    if (!plan)
-        return plan.error();
-    const RenderPlan planned = *plan;
-    ScenePlayerParams playing;
-    playing.sampleRate = traceRate;
-    ScenePlayer player(std::move(plan).value(), playing);
-
-    const auto steps = static_cast<std::size_t>(std::ceil(clip.duration / ActuatorTrace::step));
-    std::vector<float> peaks(steps), reductions(steps);
-    std::vector<std::uint8_t> limits(steps);
-    std::array<float, stepFrames> block;
-    const std::span<float> out(block);
-    for (std::size_t i = 0; i < steps; ++i)
-    {
-        if (i % stepsBetweenChecks == 0 && cancelled.load(std::memory_order_relaxed))
-            return std::shared_ptr<const ActuatorTrace>();
-        player.process(std::span(&out, 1));
-        for (const float sample : block)
-            peaks[i] = std::max(peaks[i], std::abs(sample));
-        if (const ProtectionMeter* meter = player.protectionMeter())
-        {
-            reductions[i] = static_cast<float>(std::max(0.0, meter->gainReduction));
-            limits[i] = static_cast<std::uint8_t>((meter->level ? ActuatorTrace::fullDrive : 0) |
-                                                  (meter->excursion ? ActuatorTrace::travel : 0) |
-                                                  (meter->heat ? ActuatorTrace::heat : 0));
-        }
-    }
-    auto trace = std::make_shared<ActuatorTrace>(profile, clip.duration, std::move(peaks), std::move(reductions),
-                                                 std::move(limits));
-    for (const Adaptation& adaptation : planned.adaptations)
-        trace->changes.push_back(adaptation.what);
-    const bool adapts = profile.technology != Technology::pcm;
-    const TimeRange reach = adapts && profile.polyphony > 0 ? reachOf(profile, strength) : TimeRange{0.0, 1e9};
-    addBands(*trace, clip, planned, params.adaptation, adapts, reach, OutputGain(planned));
+    RenderParams params;
+    params.compile.sampleRate = traceRate;
+    params.compile.adaptation.strength = strength;
+    params.blockFrames = stepFrames;
+    Steps steps(static_cast<std::size_t>(std::ceil(clip.duration / ActuatorTrace::step)), cancelled);
+    auto report = renderScene(sceneOf(clip), &profile, params, steps);
+    if (!report)
+        return report.error();
+    auto trace = std::make_shared<ActuatorTrace>(profile, clip.duration, std::move(steps.peaks),
+                                                 std::move(steps.reductions), std::move(steps.limits));
+    for (Adaptation& adaptation : report->adaptations)
+        trace->changes.push_back(std::move(adaptation.what));
+    addBands(*trace, clip, {params.compile.adaptation, steps.isMotor, report->leftOut, *steps.gain});
     return std::shared_ptr<const ActuatorTrace>(std::move(trace));
 }
 

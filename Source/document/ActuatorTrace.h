@@ -94,8 +94,8 @@ public:
     [[nodiscard]] static std::vector<LostPart> parts(std::span<const Loss> losses);
 };
 
-/// Plays the clip on the actuator as `pacini render` does, at 16 kHz, with `strength` as fitActuator() has it. Null
-/// when `cancelled` has become true meanwhile. Errors: those of compilePlan(). [worker]
+/// Renders the clip for the actuator as `pacini render` does, at 16 kHz, with `strength` as fitActuator() has it.
+/// Errors: those of renderScene(), and cancelled when `cancelled` has become true meanwhile. [worker]
 [[nodiscard]] Result<std::shared_ptr<const ActuatorTrace>>
 traceActuator(const Clip& clip, const Profile& profile, double strength, const std::atomic<bool>& cancelled);
 

@@ -1,8 +1,7 @@
 #include "document/SoundComparison.h"
 
 #include <pacini/evaluate/Comparison.h>
-#include <pacini/synthesis/CompilePlan.h>
-#include <pacini/synthesis/ScenePlayer.h>
+#include <pacini/synthesis/RenderScene.h>
 
 #include <algorithm>
 #include <cmath>
@@ -18,21 +17,15 @@ constexpr double comparedRate = 8000.0; // Hz: what is felt ends at 1 kHz
 
 Result<std::vector<float>> driveOf(const Clip& clip, double duration)
 {
-    Scene scene;
-    scene.clips.push_back(clip);
-    scene.plays.emplace_back();
-    CompileParams params;
-    params.sampleRate = comparedRate;
-    auto plan = compilePlan(scene, nullptr, params);
-    if (!plan)
-        return plan.error();
-    ScenePlayerParams playing;
-    playing.sampleRate = comparedRate;
-    ScenePlayer player(std::move(plan).value(), playing);
-    std::vector<float> drive(static_cast<std::size_t>(std::ceil(duration * comparedRate)));
-    const std::span<float> out(drive);
-    player.process(std::span(&out, 1));
-    return drive;
+    const double frames = std::ceil(duration * comparedRate);
+    RenderParams params;
+    params.compile.sampleRate = comparedRate;
+    params.to = frames / comparedRate;
+    auto rendered = renderScene(sceneOf(clip), nullptr, params);
+    if (!rendered)
+        return rendered.error();
+    rendered->samples.resize(static_cast<std::size_t>(frames), 0.0f);
+    return std::move(rendered->samples);
 }
 
 std::vector<std::uint8_t> levelsOf(MonoSource source, double rate, const SoundComparison& of)
@@ -92,8 +85,7 @@ void takeDifference(SoundComparison& found)
 }
 } // namespace
 
-Result<std::optional<SoundComparison>> compareWithSound(const Clip& clip, const StoredAudio& audio,
-                                                        const std::atomic<bool>& cancelled)
+Result<SoundComparison> compareWithSound(const Clip& clip, const StoredAudio& audio, const std::atomic<bool>& cancelled)
 {
     SoundComparison found;
     found.duration = std::min({clip.duration, audio.duration(), SoundComparison::longest});
@@ -103,17 +95,17 @@ Result<std::optional<SoundComparison>> compareWithSound(const Clip& clip, const 
     std::vector<float> mono(static_cast<std::size_t>(found.duration * audio.rate()));
     audio.readMean(0, mono);
     if (cancelled)
-        return std::optional<SoundComparison>();
+        return wasCancelled();
     found.sound = levelsOf(mono, audio.rate(), found);
     found.drive = levelsOf(*drive, comparedRate, found);
     takeDifference(found);
     if (cancelled)
-        return std::optional<SoundComparison>();
+        return wasCancelled();
     Comparer comparer;
     if (auto done = comparer.setReference(mono, audio.rate()); !done)
         return done.error();
     if (cancelled)
-        return std::optional<SoundComparison>();
+        return wasCancelled();
     if (auto done = comparer.setCandidate(*drive, static_cast<int>(comparedRate)); !done)
         return done.error();
     const Comparison scores = comparer.compare();
@@ -124,7 +116,7 @@ Result<std::optional<SoundComparison>> compareWithSound(const Clip& clip, const 
         found.match = predictedMatch(*scores.match);
         found.bestMatch = scores.matchCeiling;
     }
-    return std::optional(std::move(found));
+    return found;
 }
 
 } // namespace pacini

@@ -35,9 +35,9 @@ struct SoundComparison
     std::optional<double> match, bestMatch; ///< as people are predicted to judge; empty for a silent sound
 };
 
-/// Renders the clip without an actuator and compares it with its sound. Null once `cancelled`. Errors: those of
-/// compilePlan() and of Comparer. [worker]
-[[nodiscard]] Result<std::optional<SoundComparison>> compareWithSound(const Clip& clip, const StoredAudio& audio,
-                                                                      const std::atomic<bool>& cancelled);
+/// Renders the clip without an actuator and compares it with its sound. Errors: those of renderScene() and of Comparer,
+/// and cancelled when `cancelled` has become true meanwhile. [worker]
+[[nodiscard]] Result<SoundComparison> compareWithSound(const Clip& clip, const StoredAudio& audio,
+                                                       const std::atomic<bool>& cancelled);
 
 } // namespace pacini

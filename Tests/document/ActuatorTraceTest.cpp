@@ -184,8 +184,8 @@ TEST_CASE("A trace that is not wanted any more ends early, and a wrong profile i
     clip.bands = {bandAt(100.0, {{0.0, 0.2}})};
     const std::atomic<bool> cancelled{true};
     const auto made = traceActuator(clip, plainActuator(), standardStrength, cancelled);
-    REQUIRE(made.ok());
-    CHECK(*made == nullptr);
+    REQUIRE(!made.ok());
+    CHECK(made.error().code == ErrorCode::cancelled);
     Profile wrong = plainActuator();
     wrong.range.lowFrequency = -1.0;
     const std::atomic<bool> going{false};

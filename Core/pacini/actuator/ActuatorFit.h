@@ -6,6 +6,7 @@
 #include <pacini/actuator/Equalizer.h>
 #include <pacini/actuator/OutputFilter.h>
 #include <pacini/actuator/Profile.h>
+#include <pacini/actuator/Strength.h>
 #include <pacini/foundation/Clamp.h>
 #include <pacini/foundation/Units.h>
 

@@ -5,11 +5,14 @@
 #include <pacini/actuator/OutputFilter.h>
 #include <pacini/actuator/Profile.h>
 #include <pacini/clip/Clip.h>
+#include <pacini/foundation/DspBlock.h>
 #include <pacini/synthesis/DecoderParams.h>
 #include <pacini/synthesis/PanSends.h>
 #include <pacini/synthesis/PlayTimeline.h>
 
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -44,6 +47,15 @@ struct Adaptation
     bool operator==(const Adaptation&) const = default;
 };
 
+/// Report of a play: what its decoder was made to play.
+struct DecodedPlay
+{
+    std::size_t play = 0;  ///< index into the scene's plays
+    double start = 0.0;    ///< s
+    double duration = 0.0; ///< s, with the changes that were known
+    DecoderReport decoder;
+};
+
 /// Everything that players need to play a scene on its actuators.
 struct RenderPlan
 {
@@ -58,5 +70,11 @@ struct RenderPlan
     std::vector<LeftOut> leftOut;
     double predictedError = 0.0; ///< dB below the scene, of all left out, behind limiters; -infinity = nothing lost
 };
+
+/// The frames of a plan at `sampleRate` Hz; none at a rate that nothing plays at.
+[[nodiscard]] inline std::int64_t frameCount(const RenderPlan& plan, double sampleRate) noexcept
+{
+    return isPlayableRate(sampleRate) ? static_cast<std::int64_t>(std::floor(plan.duration * sampleRate + 0.5)) : 0;
+}
 
 } // namespace pacini

@@ -47,15 +47,6 @@ struct NoLivePlays
     void mix(std::span<const std::span<float>>, std::size_t, std::size_t, std::int64_t) noexcept {}
 };
 
-/// Report of a play: what the decoder of a play was made to play.
-struct DecodedPlay
-{
-    std::size_t play = 0;  ///< index into the scene's plays
-    double start = 0.0;    ///< s
-    double duration = 0.0; ///< s, with the changes that were known
-    DecoderReport decoder;
-};
-
 /// Scene player. Plays a plan on its actuators: only plays that are sounding cost anything. The output does not depend
 /// on how it is cut into blocks. Decoders take memory: build() makes those that start soon and frees those that have
 /// ended, from a thread that may wait; the constructor makes all of them, so that live use need not call it.
@@ -66,8 +57,7 @@ public:
         : plan(std::move(planToPlay)),
           fs(clampTo(params.sampleRate, limits::lowestRate, limits::highestRate)),
           liveDelay(params.liveDelay),
-          endFrame(isPlayableRate(params.sampleRate) ? static_cast<std::int64_t>(std::floor(plan.duration * fs + 0.5))
-                                                     : 0)
+          endFrame(frameCount(plan, params.sampleRate))
     {
         for (const PlannedPlay& planned : plan.plays)
             voices.emplace_back(planned, plan.actuators, fs);

@@ -65,6 +65,7 @@ public:
     [[nodiscard]] std::int64_t totalFrames() const noexcept { return player.totalFrames(); }
     [[nodiscard]] std::size_t maxSounding() const noexcept { return player.maxSounding(); }
     [[nodiscard]] double maxReduction() const noexcept { return player.maxReduction(); }
+    [[nodiscard]] const ProtectionMeter* protectionMeter() const noexcept { return player.protectionMeter(); }
 
     /// What the decoder of every play plays, in order of start. Those that have not sounded yet are made for it.
     [[nodiscard]] const std::vector<DecodedPlay>& decodedPlays()

@@ -10,8 +10,7 @@
 #include <pacini/evaluate/Hts.h>
 #include <pacini/evaluate/HtsAnalyzer.h>
 #include <pacini/evaluate/match/MatchParts.h>
-#include <pacini/synthesis/CompilePlan.h>
-#include <pacini/synthesis/ScenePlayer.h>
+#include <pacini/synthesis/RenderScene.h>
 
 #include <fmt/format.h>
 
@@ -33,23 +32,23 @@ constexpr double actuatorsExcerpt = 10.0; // s of each sound
 struct Way
 {
     std::string name;
-    CompileParams params;
+    RenderParams params;
 };
 
 /// As it is, not flattened, and the trade of strength for likeness; with `sweep` in small steps, at other boosts too.
 std::vector<Way> ways(bool sweep)
 {
-    CompileParams asItIs, unflattened;
-    asItIs.adapt = false;
-    unflattened.adaptation.maxBoost = 0_dB;
+    RenderParams asItIs, unflattened;
+    asItIs.compile.adapt = false;
+    unflattened.compile.adaptation.maxBoost = 0_dB;
     std::vector<Way> all{{"as it is", asItIs}, {"not flattened", unflattened}, {"adapted", {}}};
     const auto add = [&](double boost, double strength)
     {
-        CompileParams params;
-        params.adaptation.maxBoost = Decibels(boost);
-        params.adaptation.strength = strength;
+        RenderParams params;
+        params.compile.adaptation.maxBoost = Decibels(boost);
+        params.compile.adaptation.strength = strength;
         std::string name = fmt::format("strength {:g}", strength);
-        if (params.adaptation.maxBoost != AdaptationParams{}.maxBoost)
+        if (params.compile.adaptation.maxBoost != AdaptationParams{}.maxBoost)
             name += fmt::format(", boost {:g} dB", boost);
         all.push_back({std::move(name), params});
     };
@@ -88,14 +87,11 @@ double shareOnResonance(const RenderPlan& plan, const Profile& profile)
     return whole > 0.0 ? 100.0 * within / whole : 0.0;
 }
 
-/// The drive signal at 48 kHz, with the protection.
-std::vector<float> drive(const RenderPlan& plan)
+/// The drive signal of a plan, with the protection.
+std::vector<float> drive(RenderPlan plan, const RenderParams& params)
 {
-    ScenePlayer player(plan);
-    std::vector<float> signal(static_cast<std::size_t>(player.totalFrames()));
-    const std::span<float> all(signal);
-    player.process(std::span(&all, 1));
-    return signal;
+    RenderMemory memory;
+    return renderPlan(std::move(plan), params, memory) ? std::move(memory.samples) : std::vector<float>();
 }
 
 /// What the skin gets, m/s^2; the drive itself where the profile has no body.
@@ -140,13 +136,11 @@ void measureActuators(const BenchSound& sound, const BenchSettings& settings, Be
     if (!heard)
         return;
     TouchAnalyzer touch;
-    Scene scene;
-    scene.clips = {clip};
-    scene.plays.resize(1);
-    const auto flatPlan = compilePlan(scene);
+    const Scene scene = sceneOf(clip);
+    const auto flatPlan = planScene(scene, nullptr, {});
     if (!flatPlan)
         return;
-    const double flat = timed(settings.repeats, [&] { return drive(*flatPlan); }).seconds;
+    const double flat = timed(settings.repeats, [&] { return drive(*flatPlan, {}); }).seconds;
     for (const ShippedProfile& shipped : shippedProfiles(programFolder()))
     {
         const auto profile = readProfile(shipped.path);
@@ -154,13 +148,12 @@ void measureActuators(const BenchSound& sound, const BenchSettings& settings, Be
             continue;
         for (const Way& way : ways(settings.sweep))
         {
-            const auto plan = compilePlan(scene, &*profile, way.params);
+            const auto plan = planScene(scene, &*profile, way.params);
             if (!plan)
                 continue;
-            const auto run =
-                timed(settings.repeats, [&] { return drive(compilePlan(scene, &*profile, way.params).value()); });
-            const double rendering = timed(settings.repeats, [&] { return drive(*plan); }).seconds;
-            const auto acceleration = felt(run.result, *profile);
+            const auto run = timed(settings.repeats, [&] { return renderScene(scene, &*profile, way.params).value(); });
+            const double rendering = timed(settings.repeats, [&] { return drive(*plan, way.params); }).seconds;
+            const auto acceleration = felt(run.result.samples, *profile);
             const std::span<const float> skin(acceleration);
             const auto features = htsCandidateFeatures(analyzer, skin, 48000);
             const auto track = touchTrack(touch, skin, 48000);

@@ -3,15 +3,13 @@
 
 #include <pacini/analysis/EncodeSound.h>
 #include <pacini/foundation/Random.h>
-#include <pacini/synthesis/CompilePlan.h>
-#include <pacini/synthesis/ScenePlayer.h>
+#include <pacini/synthesis/RenderScene.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -51,36 +49,13 @@ Scene crowd(const Clip& clip, std::size_t audible)
     return scene;
 }
 
-struct Rendered
+/// A scene as `pacini render` plays it; no samples where it cannot be.
+RenderedScene rendered(const Scene& scene, const CompileParams& compile)
 {
-    std::vector<float> signal;
-    std::size_t plays = 0;
-    double predictedError = 0.0; // dB
-};
-
-/// A scene as `pacini render` plays it, from the plan on.
-Rendered rendered(const Scene& scene, const CompileParams& params)
-{
-    constexpr std::size_t blockFrames = 4096;
-    Rendered result;
-    auto plan = compilePlan(scene, nullptr, params);
-    if (!plan)
-        return result;
-    result.plays = plan->plays.size();
-    result.predictedError = plan->predictedError;
-    ScenePlayerParams playing;
-    playing.sampleRate = params.sampleRate;
-    playing.builtUntil = 0_s;
-    ScenePlayer player(std::move(*plan), playing);
-    result.signal.resize(static_cast<std::size_t>(player.totalFrames()));
-    for (std::size_t done = 0; done < result.signal.size();)
-    {
-        const auto part = std::span(result.signal).subspan(done, std::min(blockFrames, result.signal.size() - done));
-        done += part.size();
-        player.build(Seconds(static_cast<double>(done) / params.sampleRate));
-        player.process(std::span(&part, 1));
-    }
-    return result;
+    RenderParams params;
+    params.compile = compile;
+    auto result = renderScene(scene, nullptr, params);
+    return result ? std::move(*result) : RenderedScene();
 }
 
 /// The energy of the difference, dB below that of the whole.
@@ -116,7 +91,7 @@ void measureScenes(const BenchSound& sound, const BenchSettings& settings, Bench
         CompileParams params;
         params.leaveOut = false;
         const auto whole = timed(settings.repeats, [&] { return rendered(scene, params); });
-        if (whole.result.signal.empty())
+        if (whole.result.samples.empty())
             return;
         rows.add({sound.name, key, "everything", scene.duration, whole.seconds, whole.seconds,
                   static_cast<double>(playCount), BenchCell(), BenchCell(), BenchCell(), BenchCell()});
@@ -125,11 +100,11 @@ void measureScenes(const BenchSound& sound, const BenchSettings& settings, Bench
         {
             params.tolerance = tolerance;
             const auto run = timed(settings.repeats, [&] { return rendered(scene, params); });
-            const double error = errorOf(run.result.signal, whole.result.signal);
-            const double predicted = run.result.predictedError;
+            const double error = errorOf(run.result.samples, whole.result.samples);
+            const double predicted = run.result.report.predictedError;
             rows.add({sound.name, key, fmt::format("{:.0f} dB", tolerance), scene.duration, run.seconds, whole.seconds,
-                      static_cast<double>(run.result.plays), levelCell(predicted), levelCell(error), errorShare(-error),
-                      error <= predicted && predicted <= tolerance ? 100.0 : 0.0});
+                      static_cast<double>(run.result.report.keptPlays), levelCell(predicted), levelCell(error),
+                      errorShare(-error), error <= predicted && predicted <= tolerance ? 100.0 : 0.0});
         }
     }
 }

@@ -3,6 +3,7 @@
 // Table of the clip file formats, Pacini's own and those of other programs: what each reads, writes and loses.
 
 #include <pacini/actuator/Profile.h>
+#include <pacini/actuator/Strength.h>
 #include <pacini/clip/Clip.h>
 #include <pacini/foundation/Result.h>
 

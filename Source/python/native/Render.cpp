@@ -8,9 +8,7 @@
 #include "python/native/SceneHandle.h"
 #include "python/native/Support.h"
 
-#include <pacini/synthesis/CompilePlan.h>
-#include <pacini/synthesis/SceneAdjustment.h>
-#include <pacini/synthesis/SignalPlayer.h>
+#include <pacini/synthesis/RenderScene.h>
 
 #include <nanobind/operators.h>
 #include <nanobind/stl/filesystem.h>
@@ -20,7 +18,7 @@
 #include <nanobind/stl/vector.h>
 
 #include <algorithm>
-#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -64,15 +62,9 @@ double inRange(const char* where, double value, double low, double high, const c
 }
 
 /// Rendering options.
-struct RenderOptions
+struct RenderOptions : RenderParams
 {
-    CompileParams compile;
-    SceneAdjustment adjustment;
-    double from = 0.0;
-    std::optional<double> to;
-    bool protect = true;
     std::optional<Profile> profile;
-    std::optional<FeltSettings> felt;
 
     void set(double rate, double tolerance, bool leaveOut, bool adapt, const std::optional<std::string>& mapping,
              double maxBoost, double strength, bool protectIt)
@@ -125,88 +117,33 @@ struct RenderOptions
     }
     void feel(unsigned wearer, double fullScale)
     {
-        if (!profile)
-            wrong("profile", "is needed to know what is felt");
         if (wearer > simulatedWearers)
             wrong("wearer", "must be 0 to 14");
-        felt = feltSettingsOf(*profile, wearer,
-                              inRange("full_scale", fullScale, 1e-3, 1e6, "must be 0.001 to 1000000 m/s^2"));
-        if (!felt)
-            raise({ErrorCode::invalidData, "body", "is missing in this profile, so nothing is known of what is felt"});
+        felt = {wearer, inRange("full_scale", fullScale, 1e-3, 1e6, "must be 0.001 to 1000000 m/s^2")};
     }
 };
 
-/// All of a signal, one channel after the other.
-struct Rendered
+/// Without the lock.
+Result<RenderedScene> rendered(Scene scene, const RenderOptions& options, Watch& watch)
 {
-    std::size_t actuators = 1;
-    std::size_t frames = 0;
-    std::vector<float> samples;
-    double reduction = 0.0; ///< dB, the most that was taken to keep within the limits
-    double predictedError = 0.0;
-    std::vector<Adaptation> adaptations;
-    std::vector<LeftOut> leftOut;
-};
-
-Result<Rendered> rendered(Scene scene, bool isScene, const RenderOptions& options, Watch& watch)
-{
-    constexpr std::size_t blockFrames = 4096;
-    const double fs = options.compile.sampleRate;
-    scene = adjusted(std::move(scene), options.adjustment);
-    const double length = isScene
-                              ? scene.duration
-                              : scene.plays.front().start + scene.clips.front().duration * options.adjustment.stretch;
-    if (length > limits::duration)
-        return Error{ErrorCode::tooLarge, "duration", "would be longer than 24 hours"};
-    auto plan = compilePlan(scene, options.profile ? &*options.profile : nullptr, options.compile);
-    if (!plan)
-        return plan.error();
-    Rendered result;
-    result.actuators = plan->actuators;
-    result.predictedError = plan->predictedError;
-    result.adaptations = std::move(plan->adaptations);
-    result.leftOut = std::move(plan->leftOut);
-    scene = {};
-    ScenePlayerParams playing;
-    playing.sampleRate = fs;
-    playing.protect = options.protect;
-    SignalPlayer player(std::move(*plan), playing, options.felt);
-    // A part is played from the start like the whole, so that it is equal to that part of the whole.
-    const auto total = static_cast<std::size_t>(player.totalFrames());
-    const auto first = static_cast<std::size_t>(std::llround(options.from * fs));
-    const auto last = options.to ? std::min(total, static_cast<std::size_t>(std::llround(*options.to * fs))) : total;
-    if (first >= last && (first > 0 || last < total))
-        return Error{ErrorCode::invalidArgument, "start", "is behind the end"};
-    result.frames = last - first;
-    result.samples.resize(result.frames * result.actuators);
-    std::vector<float> before(first > 0 ? blockFrames * result.actuators : 0);
-    std::vector<std::span<float>> block(result.actuators);
-    for (std::size_t done = 0; done < last;)
-    {
-        // Blocks end where the part starts.
-        const std::size_t frames = std::min(blockFrames, (done < first ? first : last) - done);
-        for (std::size_t a = 0; a < result.actuators; ++a)
-            block[a] = done < first ? std::span(before).subspan(a * blockFrames, frames)
-                                    : std::span(result.samples).subspan(a * result.frames + done - first, frames);
-        player.process(block);
-        done += frames;
-        watch(static_cast<double>(done) / static_cast<double>(last));
-    }
-    result.reduction = player.maxReduction();
-    return result;
+    return renderScene(std::move(scene), options.profile ? &*options.profile : nullptr, options,
+                       [&watch](double share)
+                       {
+                           watch(share);
+                           return Result<void>();
+                       });
 }
 
-nb::object handedOut(Rendered&& made)
+nb::object handedOut(RenderedScene&& made)
 {
+    const RenderReport& report = made.report;
     nb::list adaptations, leftOut;
-    for (const Adaptation& adaptation : made.adaptations)
+    for (const Adaptation& adaptation : report.adaptations)
         adaptations.append(nb::make_tuple(adaptation.where, adaptation.what));
-    for (const LeftOut& item : made.leftOut)
+    for (const LeftOut& item : report.leftOut)
         leftOut.append(nb::make_tuple(item.where, item.reason, item.error));
-    const std::size_t actuators = made.actuators;
-    const std::size_t frames = made.frames;
-    return nb::make_tuple(toArray(std::move(made.samples), {actuators, frames}), made.reduction, made.predictedError,
-                          adaptations, leftOut);
+    return nb::make_tuple(toArray(std::move(made.samples), {report.actuators, static_cast<std::size_t>(report.frames)}),
+                          report.reduction, report.predictedError, adaptations, leftOut);
 }
 
 /// "0" to the first of `clips`, and so on: a text of a scene names them so.
@@ -309,7 +246,7 @@ void bindRender(nb::module_& module)
         [](const ClipHandle& clip, const RenderOptions& options, nb::object progress)
         {
             Watch watch(std::move(progress));
-            return handedOut(take(unlocked([&] { return rendered(sceneOf(clip.clip()), false, options, watch); })));
+            return handedOut(take(unlocked([&] { return rendered(sceneOf(clip.clip()), options, watch); })));
         },
         "clip"_a, "options"_a, "progress"_a.none());
     module.def(
@@ -317,10 +254,11 @@ void bindRender(nb::module_& module)
         [](const SceneHandle& scene, const RenderOptions& options, nb::object progress)
         {
             Watch watch(std::move(progress));
-            return handedOut(take(unlocked([&] { return rendered(scene.scene(), true, options, watch); })));
+            return handedOut(take(unlocked([&] { return rendered(scene.scene(), options, watch); })));
         },
         "scene"_a, "options"_a, "progress"_a.none());
     module.attr("STANDARD_STRENGTH") = standardStrength;
+    module.attr("FELT_FULL_SCALE") = FeltParams().fullScale;
 }
 
 } // namespace pacini::python

@@ -9,6 +9,7 @@ import numpy.typing as npt
 from ._arrays import FloatArray
 
 STANDARD_STRENGTH: float
+FELT_FULL_SCALE: float
 VERSION: str
 
 _Rows = npt.NDArray[np.float64]

@@ -340,7 +340,7 @@ def felt(
     *,
     profile: AnyProfile,
     wearer: int = 0,
-    full_scale: float = 1.0,
+    full_scale: float = _native.FELT_FULL_SCALE,
     gain: float = 0.0,
     start: float = 0.0,
     end: Optional[float] = None,
@@ -349,8 +349,8 @@ def felt(
     dtype: npt.DTypeLike = np.float32,
     progress: Progress = None,
 ) -> FloatArray:
-    """The acceleration of the skin that the profile's model of the body predicts, in m/s^2 at `full_scale` of 1, as
-    :func:`render` has it. `wearer` is 0 as in the profile, or 1 to 14, simulated people."""
+    """The acceleration of the skin that the profile's model of the body predicts, as :func:`render` has it: 1 is
+    `full_scale` m/s^2. `wearer` is 0 as in the profile, or 1 to 14, simulated people."""
     options = _render_options(
         profile, sample_rate, protect, gain, 0.0, 1.0, 0.0, start, end, 0.0, "breakpoint", 0, -60.0, True, True, None,
         6.0, strength, None, None, None, None, 1.0,

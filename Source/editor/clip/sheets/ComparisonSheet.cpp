@@ -49,7 +49,7 @@ ComparisonSheet::ComparisonSheet(Session& session) : Sheet("Clip and sound", 980
     if (!audio || !clip)
         return;
     jobs.run([clip, audio, stop = cancelled] { return compareWithSound(*clip, audio->audio, *stop); },
-             [this](Result<std::optional<SoundComparison>> result) { showResult(std::move(result)); });
+             [this](Result<SoundComparison> result) { showResult(std::move(result)); });
 }
 
 ComparisonSheet::~ComparisonSheet()
@@ -57,13 +57,13 @@ ComparisonSheet::~ComparisonSheet()
     *cancelled = true;
 }
 
-void ComparisonSheet::showResult(Result<std::optional<SoundComparison>> result)
+void ComparisonSheet::showResult(Result<SoundComparison> result)
 {
     if (!result)
         summary = translateMessage(toText(result.error().text()));
-    else if (*result)
+    else
     {
-        found = std::move(**result);
+        found = std::move(*result);
         const auto number = [](double value)
         {
             return juce::String(value, 1);

@@ -27,7 +27,7 @@ public:
     void mouseMove(const juce::MouseEvent& event) override;
 
 private:
-    void showResult(Result<std::optional<SoundComparison>> result);
+    void showResult(Result<SoundComparison> result);
     [[nodiscard]] juce::Rectangle<int> rowArea(int row) const;
 
     std::optional<SoundComparison> found;

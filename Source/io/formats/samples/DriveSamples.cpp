@@ -1,12 +1,9 @@
 #include "io/formats/samples/DriveSamples.h"
 
-#include <pacini/synthesis/CompilePlan.h>
-#include <pacini/synthesis/ScenePlayer.h>
+#include <pacini/synthesis/RenderScene.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <span>
 #include <utility>
 
 namespace pacini
@@ -15,27 +12,13 @@ namespace pacini
 Result<std::vector<float>> driveSignal(const Clip& clip, double sampleRate, const std::optional<Profile>& profile,
                                        double strength)
 {
-    Scene scene;
-    scene.clips = {clip};
-    scene.plays.emplace_back();
-    CompileParams params;
-    params.sampleRate = sampleRate;
-    params.adaptation.strength = strength;
-    auto plan = compilePlan(scene, profile ? &*profile : nullptr, params);
-    if (!plan)
-        return plan.error();
-    ScenePlayerParams playing;
-    playing.sampleRate = sampleRate;
-    ScenePlayer player(std::move(*plan), playing);
-    std::vector<float> samples(static_cast<std::size_t>(std::max<std::int64_t>(player.totalFrames(), 0)));
-    constexpr std::size_t block = 4096;
-    for (std::size_t at = 0; at < samples.size(); at += block)
-    {
-        const std::span<float> out = std::span(samples).subspan(at, std::min(block, samples.size() - at));
-        const std::span<float> outputs[] = {out};
-        player.process(outputs);
-    }
-    return samples;
+    RenderParams params;
+    params.compile.sampleRate = sampleRate;
+    params.compile.adaptation.strength = strength;
+    auto rendered = renderScene(sceneOf(clip), profile ? &*profile : nullptr, params);
+    if (!rendered)
+        return rendered.error();
+    return std::move(rendered->samples);
 }
 
 Result<DriveSamples> driveSamples(const Clip& clip, const ExportParams& params, int usualRate)

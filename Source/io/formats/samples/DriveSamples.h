@@ -5,6 +5,7 @@
 #include "io/formats/LossList.h"
 
 #include <pacini/actuator/Profile.h>
+#include <pacini/actuator/Strength.h>
 #include <pacini/clip/Clip.h>
 #include <pacini/foundation/Result.h>
 
@@ -15,7 +16,7 @@ namespace pacini
 {
 
 /// The drive signal of the clip at `sampleRate` Hz (2000 to 768000), made for `profile` with `strength` (see
-/// fitActuator) when there is one. Errors: those of compilePlan().
+/// fitActuator) when there is one. Errors: those of renderScene().
 [[nodiscard]] Result<std::vector<float>> driveSignal(const Clip& clip, double sampleRate,
                                                      const std::optional<Profile>& profile,
                                                      double strength = standardStrength);
