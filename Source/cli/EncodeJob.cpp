@@ -77,23 +77,15 @@ Result<std::size_t> EncodeJob::encodeClip(AudioReader& reader, const fs::path& i
                                           Existing existing, Replaceable replaceable, const Progress& progress,
                                           Stopwatch& work, EncodeResult& result)
 {
-    auto made = encoder.clipOf(reader, input, progress, work);
-    if (!made)
-        return withAdvice(made.error(), true);
-    // Both of Pacini's formats hold the same: what lies on the grids of `quantise` bits.
-    Clip clip;
-    work.run(
-        [&]
-        {
-            clip = onGrids(std::move(*made));
-            sealClip(clip);
-        });
-    result.duration = clip.duration;
-    result.breakpoints = breakpointCount(clip);
-    result.transients = clip.transients.size();
+    auto clip = encoder.clipOf(reader, input, progress, work);
+    if (!clip)
+        return withAdvice(clip.error(), true);
+    result.duration = clip->duration;
+    result.breakpoints = breakpointCount(*clip);
+    result.transients = clip->transients.size();
     if (!settings.format->isOwn())
-        return writeForeign(clip, output, replaceable, work, result);
-    const auto written = writeClip(output, std::move(clip), *settings.format, existing);
+        return writeForeign(*clip, output, replaceable, work, result);
+    const auto written = writeClip(output, std::move(*clip), *settings.format, existing);
     return written ? written : atOutput(output, written.error());
 }
 

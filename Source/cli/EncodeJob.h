@@ -54,7 +54,7 @@ public:
     [[nodiscard]] Result<EncodeResult> run(const std::filesystem::path& input, const std::filesystem::path& output,
                                            Replaceable replaceable, const std::function<void(double)>& progress);
 
-    /// The clip of one file, not yet rounded to its grids. Only for methods that make clips. Errors: as run().
+    /// The clip of one file as run() writes it. Only for methods that make clips. Errors: as run().
     [[nodiscard]] Result<Clip> encode(const std::filesystem::path& input, const std::function<void(double)>& progress);
 
 private:

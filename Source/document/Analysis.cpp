@@ -1,10 +1,13 @@
 #include "document/Analysis.h"
 
+#include "io/FinishedClip.h"
+
 #include <pacini/analysis/EncodeSound.h>
 
 #include <algorithm>
 #include <cstddef>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace pacini
@@ -31,7 +34,7 @@ Result<Clip> analyse(const StoredAudio& audio, const EncoderParams& params, cons
     {
         const auto all = static_cast<double>(std::max<std::size_t>(1, audio.frames()));
         if (goOn && !goOn(shareOfReading * static_cast<double>(done) / all))
-            return Error{ErrorCode::invalidData, "", "was cancelled"};
+            return wasCancelled();
         const std::size_t frames = std::min(part.size() / channels, audio.frames() - done);
         const auto filled = std::span(part).first(frames * channels);
         audio.read(done, filled);
@@ -39,12 +42,7 @@ Result<Clip> analyse(const StoredAudio& audio, const EncoderParams& params, cons
         return std::span<const float>(filled);
     };
     auto clip = encodeSound(encoder, {audio.rate(), audio.channels()}, next);
-    if (clip)
-    {
-        clip->source.file = reference.path.filename().string();
-        clip->name = reference.path.stem().string();
-    }
-    return clip;
+    return clip ? finishClip(std::move(*clip), clipNamesOf(reference.path)) : clip;
 }
 
 } // namespace pacini

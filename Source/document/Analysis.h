@@ -15,9 +15,9 @@ namespace pacini
 /// Progress callback, called now and then with what is done, 0 to 1; false stops the work.
 using GoOn = std::function<bool(double done)>;
 
-/// The clip of a sound on the grids of `params.quantise` bits, named after its file. Errors: those of validate(params);
-/// invalidData for a sound without channels, and when `goOn` has said no. Takes about a hundredth of the sound's
-/// duration. [worker]
+/// The clip of a sound on the grids of `params.quantise` bits, named after its file and sealed. Errors: those of
+/// validate(params); invalidData for a sound without channels; cancelled when `goOn` has said no. Takes about a
+/// hundredth of the sound's duration. [worker]
 [[nodiscard]] Result<Clip> analyse(const StoredAudio& audio, const EncoderParams& params,
                                    const AudioReference& reference, const GoOn& goOn = {});
 

@@ -3,6 +3,7 @@
 
 #include "editor/Text.h"
 #include "io/AudioWriter.h"
+#include "io/FinishedClip.h"
 
 #include <pacini/analysis/EncodeSound.h>
 
@@ -22,9 +23,7 @@ Result<Clip> clipOfCapture(const Capture& capture, double sampleRate, const std:
         return Error{ErrorCode::invalidData, "", "less than 0.1 s of sound was captured"};
     Encoder encoder{EncoderParams{}};
     auto clip = encodeSound(encoder, {rate, 1}, SoundParts(capture.samples, 1));
-    if (clip)
-        clip->name = name;
-    return clip;
+    return clip ? finishClip(std::move(*clip), {name, ""}) : clip;
 }
 
 Result<DescribedAudio> soundOfCapture(const Capture& capture, double sampleRate, const std::string& name)

@@ -19,8 +19,9 @@
 namespace pacini::editor
 {
 
-/// The clip of a capture, with the encoder's usual parameters, on the grids of its quantiser. Errors: invalidData for
-/// less than a tenth of a second, invalidArgument for rates that the encoder does not know (8 to 768 kHz).
+/// The clip of a capture, with the encoder's usual parameters, on the grids of its quantiser and sealed. Errors:
+/// invalidData for less than a tenth of a second, invalidArgument for rates that the encoder does not know (8 to 768
+/// kHz).
 [[nodiscard]] Result<Clip> clipOfCapture(const Capture& capture, double sampleRate, const std::string& name);
 
 /// The sound of a capture as an embedded FLAC file of 24 bits, or of floats as a WAV where it is beyond full scale.

@@ -5,14 +5,15 @@
 
 #include "io/AtomicFile.h"
 #include "io/AudioReader.h"
+#include "io/FinishedClip.h"
 #include "io/Stopwatch.h"
-#include "io/Utf8.h"
 
 #include <pacini/analysis/EncodeSound.h>
 #include <pacini/analysis/Encoder.h>
 #include <pacini/analysis/MonoMix.h>
 #include <pacini/analysis/SoundSurvey.h>
 #include <pacini/analysis/methods/Method.h>
+#include <pacini/clip/PackedClip.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -36,13 +37,7 @@ struct SoundEncoderParams
     AudioReadOptions reading;
 };
 
-/// What a clip calls its sound; nothing when that came from standard input.
-[[nodiscard]] inline std::string sourceNameOf(const std::filesystem::path& input)
-{
-    return input == "-" ? std::string() : wellFormedUtf8(input.filename().string());
-}
-
-/// The parts of an open file. Errors: those of AudioReader, tooLarge beyond 24 hours.
+/// The parts of an open file. Errors: those of AudioReader.
 class SoundFileParts
 {
 public:
@@ -62,8 +57,6 @@ public:
         if (!got)
             return got.error();
         frames += *got;
-        if (static_cast<double>(frames) / reader.sampleRate() > limits::duration)
-            return Error{ErrorCode::tooLarge, "", "is longer than 24 hours; cut it into parts"};
         return std::span<const float>(buffer).first(*got * static_cast<std::size_t>(reader.channels()));
     }
 
@@ -85,9 +78,9 @@ public:
     /// `params.params` must be valid.
     explicit SoundEncoder(const SoundEncoderParams& wanted) : settings(wanted), encoder(wanted.params) {}
 
-    /// The clip of an open file, not yet rounded to its grids, named by `input`. Only for methods that make clips.
-    /// `progress(share)` is called now and then; `work` counts the time without access to files. Long files are read
-    /// twice. Errors: those of AudioReader, tooLarge beyond 24 hours.
+    /// The clip of an open file, named by `input`: on its grids and sealed, as clip files hold it. Only for methods
+    /// that make clips. `progress(share)` is called now and then; `work` counts the time without access to files. Long
+    /// files are read twice. Errors: those of AudioReader, tooLarge beyond 24 hours.
     [[nodiscard]] Result<Clip> clipOf(AudioReader& reader, const std::filesystem::path& input, const Progress& progress,
                                       Stopwatch& work)
     {
@@ -107,28 +100,29 @@ public:
             progress(done + (1.0 - done) * part);
         };
         SoundFileParts file(reader, rest);
-        auto clip = clipOf({reader.sampleRate(), reader.channels(), reader.frames().value_or(0), scale}, file, work);
-        if (!clip)
-            return clip;
-        clip->source.file = sourceNameOf(input);
-        clip->name = clip->source.file.empty() ? "stdin" : wellFormedUtf8(input.stem().string());
-        return clip;
+        return clipOf({reader.sampleRate(), reader.channels(), reader.frames().value_or(0), scale}, file,
+                      clipNamesOf(input), work);
     }
 
-    /// The same, without a name, of the sound that `next()` hands out as SoundPart by SoundPart. Errors: those of
-    /// next().
+    /// The same of the sound that `next()` hands out as SoundPart by SoundPart. Errors: those of next(), tooLarge
+    /// beyond 24 hours.
     template <typename Next>
-    [[nodiscard]] Result<Clip> clipOf(const SoundFormat& format, Next& next, Stopwatch& work)
+    [[nodiscard]] Result<Clip> clipOf(const SoundFormat& format, Next& next, ClipNames names, Stopwatch& work)
     {
         if (settings.method != Method::a2vt)
         {
-            const auto mono = readMono(format.channels, next, work);
+            const auto mono = readMono(format, next, work);
             if (!mono)
                 return mono.error();
             Clip clip;
-            work.run([&] { clip = translateToClip(settings.method, *mono, format.sampleRate, settings.choices); });
-            clip.source.sampleRate = format.sampleRate;
-            clip.source.channels = format.channels;
+            work.run(
+                [&]
+                {
+                    clip = translateToClip(settings.method, *mono, format.sampleRate, settings.choices);
+                    clip.source.sampleRate = format.sampleRate;
+                    clip.source.channels = format.channels;
+                    clip = finishClip(onGrids(std::move(clip)), std::move(names));
+                });
             return clip;
         }
         Stopwatch reading;
@@ -142,7 +136,9 @@ public:
                     reading.run([&] { part = next(); });
                     return part;
                 };
-                clip = encodePrecisely(encoder, format, timed);
+                clip = encodeSound(encoder, format, timed);
+                if (clip)
+                    clip = finishClip(std::move(*clip), std::move(names));
             });
         work.leaveOut(reading);
         return clip;
@@ -153,7 +149,7 @@ public:
     template <typename Next>
     [[nodiscard]] Result<std::vector<float>> signalOf(const SoundFormat& format, Next& next, Stopwatch& work) const
     {
-        const auto mono = readMono(format.channels, next, work);
+        const auto mono = readMono(format, next, work);
         if (!mono)
             return mono.error();
         std::vector<float> signal;
@@ -172,30 +168,16 @@ private:
     /// How much of the time of encoding a long sound its survey takes.
     [[nodiscard]] double shareOfSurvey() const { return settings.params.audible > 0.0 ? 0.4 : 0.2; }
 
-    /// Hands visit() all parts of a sound. Errors: those of next().
-    template <typename Next, typename Visit>
-    [[nodiscard]] static Result<void> forEachPart(Next& next, Visit&& visit)
-    {
-        for (;;)
-        {
-            const SoundPart part = next();
-            if (!part)
-                return part.error();
-            if (part->empty())
-                return {};
-            visit(*part);
-        }
-    }
-
     template <typename Next>
-    [[nodiscard]] static Result<std::vector<float>> readMono(int channels, Next& next, Stopwatch& work)
+    [[nodiscard]] static Result<std::vector<float>> readMono(const SoundFormat& format, Next& next, Stopwatch& work)
     {
         std::vector<float> samples;
-        const auto read = forEachPart(next, [&samples](std::span<const float> part)
+        const auto read = forEachPart(format, next,
+                                      [&samples](std::span<const float> part)
                                       { samples.insert(samples.end(), part.begin(), part.end()); });
         if (!read)
             return read.error();
-        work.run([&] { samples = monoMix(samples, static_cast<std::size_t>(channels)); });
+        work.run([&] { samples = monoMix(samples, static_cast<std::size_t>(format.channels)); });
         return samples;
     }
 
@@ -208,7 +190,8 @@ private:
         SoundSurvey whole(settings.params);
         whole.start(reader->sampleRate(), reader->channels());
         SoundFileParts file(*reader, progress);
-        const auto read = forEachPart(file, [&](std::span<const float> part) { work.run([&] { whole.push(part); }); });
+        const auto read = forEachPart({reader->sampleRate(), reader->channels()}, file,
+                                      [&](std::span<const float> part) { work.run([&] { whole.push(part); }); });
         if (!read)
             return read.error();
         SoundScale found;

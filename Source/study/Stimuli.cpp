@@ -7,9 +7,7 @@
 #include <pacini/clip/PackedClip.h>
 #include <pacini/filters/Resampler.h>
 #include <pacini/synthesis/ActuatorOutput.h>
-#include <pacini/synthesis/CompilePlan.h>
-#include <pacini/synthesis/SceneAdjustment.h>
-#include <pacini/synthesis/SignalPlayer.h>
+#include <pacini/synthesis/RenderScene.h>
 
 #include <fmt/format.h>
 
@@ -152,22 +150,12 @@ Result<std::vector<float>> StimulusMaker::soundOf(const Stimulus& stimulus) cons
 
 Result<std::vector<float>> StimulusMaker::rendered(const Clip& clip) const
 {
-    CompileParams compiling;
-    compiling.sampleRate = settings.sampleRate;
-    auto plan = compilePlan(sceneOf(clip), settings.profile ? &*settings.profile : nullptr, compiling);
-    if (!plan)
-        return plan.error();
-    ScenePlayerParams playing;
-    playing.sampleRate = settings.sampleRate;
-    SignalPlayer player(std::move(*plan), playing, std::nullopt);
-    std::vector<float> samples(static_cast<std::size_t>(player.totalFrames()));
-    constexpr std::size_t blockFrames = 4096;
-    for (std::size_t n = 0; n < samples.size(); n += blockFrames)
-    {
-        const std::span<float> block = std::span(samples).subspan(n, std::min(blockFrames, samples.size() - n));
-        player.process(std::span(&block, 1));
-    }
-    return samples;
+    RenderParams params;
+    params.compile.sampleRate = settings.sampleRate;
+    auto drive = renderScene(sceneOf(clip), settings.profile ? &*settings.profile : nullptr, params);
+    if (!drive)
+        return drive.error();
+    return std::move(drive->samples);
 }
 
 Result<std::vector<float>> StimulusMaker::translated(const Stimulus& stimulus) const
@@ -209,8 +197,11 @@ Result<std::vector<float>> StimulusMaker::translated(const Stimulus& stimulus) c
     auto clip = encoder.clipOf(*reader, path, nobody, ignored);
     if (!clip)
         return Error{clip.error().code, stimulus.sound, clip.error().text()};
-    if (const int bits = params.params.quantise; stimulus.bits)
-        setQuantise(*clip, bits); // the other methods do not round
+    if (stimulus.bits) // the other methods have grids of their own
+    {
+        setQuantise(*clip, params.params.quantise);
+        return rendered(onGrids(std::move(*clip)));
+    }
     return rendered(*clip);
 }
 

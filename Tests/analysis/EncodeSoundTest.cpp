@@ -54,3 +54,21 @@ TEST_CASE("What is wrong with a part is what is wrong with the encoding", "[anal
     CHECK(clip.error().code == ErrorCode::truncated);
     CHECK(parts == 3);
 }
+
+TEST_CASE("A sound of more than 24 hours is refused as it comes", "[analysis]")
+{
+    const std::vector<float> hour(3600 * 8000);
+    for (const int hours : {24, 25})
+    {
+        int given = 0, visited = 0;
+        auto next = [&]() -> SoundPart
+        {
+            return given++ < hours ? std::span<const float>(hour) : std::span<const float>();
+        };
+        const auto read = forEachPart({8000, 1}, next, [&](std::span<const float>) { ++visited; });
+        CHECK(visited == 24);
+        CHECK(read.ok() == (hours == 24));
+        if (!read)
+            CHECK(read.error().code == ErrorCode::tooLarge);
+    }
+}

@@ -113,6 +113,7 @@ try {
     ['no rate', () => encode({ samples: new Float32Array(10) }), 'sampleRate'],
     ['no samples', () => encode({ samples: 'x', sampleRate: 48000 }), 'samples'],
     ['not a number', () => encode({ samples: new Float32Array([0, NaN]), sampleRate: 48000 }), 'frame 1, channel 0'],
+    ['an absurd number', () => encode({ samples: new Float32Array([0, 1e30]), sampleRate: 48000 }), 'frame 1, channel 0'],
     ['an unknown method', () => encode(sound, { method: 'x' }), 'method'],
     ['an option out of range', () => encode(sound, { bands: 33 }), 'bands'],
     ['an option of another method', () => encode(sound, { method: 'decomposition', bands: 4 }), 'bands'],

@@ -50,28 +50,39 @@ public:
         return part;
     }
 
-    [[nodiscard]] std::size_t samplesLeft() const noexcept { return rest.size(); }
-
 private:
     std::span<const float> rest;
     std::size_t length;
 };
 
-/// The clip of the sound that `next()` hands out as SoundPart by SoundPart, as precise as it was found. Errors: those
-/// of next().
-template <typename Next>
-[[nodiscard]] Result<Clip> encodePrecisely(Encoder& encoder, const SoundFormat& format, Next&& next)
+/// Hands visit() all parts of a sound. Errors: those of next(), tooLarge beyond 24 hours.
+template <typename Next, typename Visit>
+[[nodiscard]] Result<void> forEachPart(const SoundFormat& format, Next& next, Visit&& visit)
 {
-    encoder.start(format.sampleRate, format.channels, format.expectedFrames, format.scale);
-    for (;;)
+    const double mostSamples = limits::duration * format.sampleRate * format.channels;
+    for (double samples = 0.0;;)
     {
         const SoundPart part = next();
         if (!part)
             return part.error();
         if (part->empty())
-            return encoder.finish();
-        encoder.push(*part);
+            return {};
+        samples += static_cast<double>(part->size());
+        if (samples > mostSamples)
+            return Error{ErrorCode::tooLarge, "", "is longer than 24 hours; cut it into parts"};
+        visit(*part);
     }
+}
+
+/// The clip of the sound that `next()` hands out as SoundPart by SoundPart, as precise as it was found. Errors: those
+/// of forEachPart().
+template <typename Next>
+[[nodiscard]] Result<Clip> encodePrecisely(Encoder& encoder, const SoundFormat& format, Next&& next)
+{
+    encoder.start(format.sampleRate, format.channels, format.expectedFrames, format.scale);
+    if (auto read = forEachPart(format, next, [&](std::span<const float> part) { encoder.push(part); }); !read)
+        return read.error();
+    return encoder.finish();
 }
 
 /// The same on the grids of `quantise` bits, as clip files hold it.

@@ -1,11 +1,8 @@
 // Sounds to clips, or to drive signals by methods that make no clip.
 
-#include "io/ClipSeal.h"
 #include "io/SoundEncoder.h"
 #include "python/native/ClipHandle.h"
 #include "python/native/Support.h"
-
-#include <pacini/clip/PackedClip.h>
 
 #include <nanobind/stl/filesystem.h>
 #include <nanobind/stl/optional.h>
@@ -126,8 +123,7 @@ public:
                 {
                     ArrayParts parts(sound, unsound, watch);
                     Stopwatch work;
-                    return finished(encoder->clipOf(format, parts, work),
-                                    [&](Clip& made) { named(made, std::move(name), std::move(source)); });
+                    return encoder->clipOf(format, parts, {std::move(name), std::move(source)}, work);
                 });
             return nb::cast(ClipHandle(take(std::move(clip))));
         }
@@ -155,9 +151,11 @@ public:
                 SoundParts parts(samples, format.channels);
                 Stopwatch work;
                 return encoded(
-                    *shared, method, [&] { return shared->clipOf(format, parts, work); },
-                    [&] { return shared->signalOf(format, parts, work); },
-                    [&](Clip& made) { named(made, std::move(name), std::move(source)); });
+                    method,
+                    [&] {
+                        return shared->clipOf(format, parts, {std::move(name), std::move(source)}, work);
+                    },
+                    [&] { return shared->signalOf(format, parts, work); });
             })));
     }
 
@@ -182,31 +180,12 @@ public:
     [[nodiscard]] bool makesClip() const { return methodInfo(params.method).output == MethodOutput::clip; }
 
 private:
-    static void named(Clip& clip, std::string name, std::string source)
-    {
-        clip.name = wellFormedUtf8(std::move(name));
-        clip.source.file = wellFormedUtf8(std::move(source));
-    }
-
-    /// What both of Pacini's formats hold: the clip on its grids, sealed.
-    template <typename Name>
-    [[nodiscard]] static Result<Clip> finished(Result<Clip> made, Name&& name)
-    {
-        if (!made)
-            return made;
-        name(*made);
-        Clip clip = onGrids(std::move(*made));
-        sealClip(clip);
-        return clip;
-    }
-
-    template <typename MakeClip, typename MakeSignal, typename Name>
-    [[nodiscard]] static Result<Encoded> encoded(SoundEncoder&, Method method, MakeClip&& makeClip,
-                                                 MakeSignal&& makeSignal, Name&& name)
+    template <typename MakeClip, typename MakeSignal>
+    [[nodiscard]] static Result<Encoded> encoded(Method method, MakeClip&& makeClip, MakeSignal&& makeSignal)
     {
         if (methodInfo(method).output == MethodOutput::clip)
         {
-            auto clip = finished(makeClip(), name);
+            auto clip = makeClip();
             return clip ? Result<Encoded>(std::move(*clip)) : clip.error();
         }
         auto signal = makeSignal();
@@ -223,13 +202,12 @@ private:
             return inFile(path, reader.error());
         Stopwatch work;
         auto made = encoded(
-            encoder, params.method, [&] { return encoder.clipOf(*reader, path, progress, work); },
+            params.method, [&] { return encoder.clipOf(*reader, path, progress, work); },
             [&]
             {
                 SoundFileParts parts(*reader, progress);
                 return encoder.signalOf({reader->sampleRate(), reader->channels()}, parts, work);
-            },
-            [](Clip&) {});
+            });
         if (!made)
             return inFile(path, made.error());
         return std::pair(std::move(*made), reader->sampleRate());

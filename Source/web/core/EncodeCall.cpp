@@ -41,7 +41,7 @@ Result<void> encodeSound(Call& call)
     if (auto valid = validate(params); !valid)
         return valid;
     Encoder encoder(params);
-    auto clip = encodePrecisely(encoder, sound.sound(), sound);
+    auto clip = pacini::encodeSound(encoder, sound.sound(), sound);
     if (!clip)
         return clip.error();
     return sound.put(std::move(*clip));

@@ -3,13 +3,12 @@
 // The sound that a call works on, which JavaScript hands out piece by piece, and the clip that is made of it.
 
 #include "io/AudioReader.h"
-#include "io/ClipSeal.h"
-#include "io/Utf8.h"
+#include "io/FinishedClip.h"
 #include "io/formats/ClipFormat.h"
 #include "web/core/Call.h"
 
 #include <pacini/analysis/EncodeSound.h>
-#include <pacini/clip/PackedClip.h>
+#include <pacini/foundation/DspBlock.h>
 
 #include <cmath>
 #include <cstddef>
@@ -52,23 +51,19 @@ public:
         const auto width = static_cast<std::size_t>(channels);
         const auto samples = std::span<const float>(buffer).first(got * width);
         for (std::size_t i = 0; i < samples.size(); ++i)
-            if (!std::isfinite(samples[i]))
+            if (!areWithinLimit(samples.subspan(i, 1)))
                 return Error{ErrorCode::notFinite, fmt::format("frame {}, channel {}", done + i / width, i % width),
-                             "is no finite number"};
+                             std::isfinite(samples[i]) ? "is far beyond full scale" : "is no finite number"};
         done += got;
         return samples;
     }
 
-    /// Puts the clip that was made of it, rounded to its grids, into the call's outputs.
+    /// Puts the clip that was made of it, on its grids, into the call's outputs.
     [[nodiscard]] Result<void> put(Clip clip) const
     {
-        clip.name = wellFormedUtf8(name);
-        clip.source.file = wellFormedUtf8(source);
         clip.source.sampleRate = rate;
         clip.source.channels = channels;
-        Clip finished = onGrids(std::move(clip));
-        sealClip(finished);
-        const auto written = format->write(finished);
+        const auto written = format->write(finishClip(std::move(clip), {name, source}));
         if (!written)
             return written.error();
         call.put(written->files.front().bytes);

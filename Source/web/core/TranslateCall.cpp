@@ -5,6 +5,7 @@
 
 #include <pacini/analysis/MonoMix.h>
 #include <pacini/analysis/methods/Method.h>
+#include <pacini/clip/PackedClip.h>
 
 #include <cstddef>
 #include <span>
@@ -53,18 +54,14 @@ Result<void> translateSound(Call& call)
         return {};
     const SoundFormat format = sound.sound();
     std::vector<float> samples;
-    for (;;)
-    {
-        const SoundPart part = sound();
-        if (!part)
-            return part.error();
-        if (part->empty())
-            break;
-        samples.insert(samples.end(), part->begin(), part->end());
-    }
+    if (auto read =
+            forEachPart(format, sound,
+                        [&](std::span<const float> part) { samples.insert(samples.end(), part.begin(), part.end()); });
+        !read)
+        return read;
     samples = monoMix(samples, static_cast<std::size_t>(format.channels));
     if (info.output == MethodOutput::clip)
-        return sound.put(translateToClip(*method, samples, format.sampleRate, choices));
+        return sound.put(onGrids(translateToClip(*method, samples, format.sampleRate, choices)));
     call.value["signal"] = true;
     call.put(std::span<const float>(translateToSignal(*method, samples, format.sampleRate)));
     return {};

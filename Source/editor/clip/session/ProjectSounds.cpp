@@ -3,6 +3,7 @@
 
 #include "editor/Text.h"
 #include "editor/Translation.h"
+#include "io/FinishedClip.h"
 #include "io/InputFile.h"
 
 #include <pacini/foundation/Result.h>
@@ -21,6 +22,13 @@ std::vector<std::filesystem::path> foldersOf(const Document& document)
 {
     const auto folder = document.path().parent_path();
     return folder.empty() ? std::vector<std::filesystem::path>{} : std::vector<std::filesystem::path>{folder};
+}
+
+/// Gives an analysis the name that its clip has, whatever its sound is called.
+void keepName(Clip& analysis, const ClipItem& item)
+{
+    ClipNames names{item.analysis->name, analysis.source.file};
+    analysis = finishClip(std::move(analysis), std::move(names));
 }
 } // namespace
 
@@ -332,7 +340,7 @@ void ProjectSounds::reanalyse(const std::vector<int>& clips, const EncoderParams
             // Clips keep their names; those that were removed meanwhile are gone.
             std::erase_if(*done, [this](const auto& one) { return !model.document().clip(one.id); });
             for (auto& one : *done)
-                one.analysis.name = model.document().clip(one.id)->analysis->name;
+                keepName(one.analysis, *model.document().clip(one.id));
             model.change([&](Document& document)
                          { return document.reanalyse(std::move(*done), "Analysis of clips", wanted); });
         });
@@ -366,7 +374,7 @@ void ProjectSounds::analyseAgain(Again wanted, const std::function<Result<Import
         [wanted, read]() -> Result<Imported>
         {
             if (wanted.task->stopped)
-                return Error{ErrorCode::invalidData, "", "was cancelled"};
+                return wasCancelled();
             auto imported = read();
             if (!imported)
                 return imported;
@@ -394,8 +402,7 @@ void ProjectSounds::putAgain(const Again& done, Result<Imported> analysed, bool 
         return;
     if (!analysed)
         return model.report(otherSound ? "Sound not replaced" : "Not analysed", analysed.error());
-    // The clip keeps its name, whatever its sound is called.
-    analysed->clip.name = now->analysis->name;
+    keepName(analysed->clip, *now);
     std::optional<AudioReference> other;
     if (otherSound)
         other = analysed->reference;
