@@ -113,13 +113,13 @@ inline std::array<double, 2> turningPoints(const Resonance& actuator, const Reso
     const double b = r * r - 1.0; // half of the coefficient of x
     const double c = n * r * r - d;
     const double root = std::sqrt(std::max(b * b - a * c, 0.0));
-    const double far = b < 0.0 ? root - b : -root - b; // no cancellation
+    const double larger = b < 0.0 ? root - b : -root - b; // no cancellation
     const auto frequency = [&](double above, double below)
     {
         const double x = below != 0.0 ? above / below : 0.0;
         return x > 0.0 ? actuator.frequency * std::sqrt(x) : 0.0;
     };
-    return {frequency(far, a), frequency(c, far)};
+    return {frequency(larger, a), frequency(c, larger)};
 }
 
 /// The highest gain of the inverse at any frequency, without sampling.
@@ -172,12 +172,12 @@ inline double highestGain(const Resonance& actuator, const Resonance& target) no
                          nearestQ * std::pow(wantedQ / nearestQ, way)};
         return result.gain * detail::highestGain(result.actuator, result.target) <= result.most;
     };
-    double near = 0.0, far = 1.0;
-    if (aim(far))
+    double within = 0.0, beyond = 1.0;
+    if (aim(beyond))
         return result;
     for (int i = 0; i < 40; ++i)
-        (aim(0.5 * (near + far)) ? near : far) = 0.5 * (near + far);
-    aim(near);
+        (aim(0.5 * (within + beyond)) ? within : beyond) = 0.5 * (within + beyond);
+    aim(within);
     return result;
 }
 
@@ -209,8 +209,8 @@ inline double highestGain(const BiquadCoefficients& c, const Flattening& flatten
     const double q = n[2] * d[0] - n[0] * d[2]; // half of the coefficient
     const double s = n[1] * d[0] - n[0] * d[1];
     const double root = std::sqrt(std::max(q * q - p * s, 0.0));
-    const double far = q < 0.0 ? root - q : -root - q;
-    for (const double x : {p != 0.0 ? far / p : 0.0, far != 0.0 ? s / far : 0.0})
+    const double larger = q < 0.0 ? root - q : -root - q;
+    for (const double x : {p != 0.0 ? larger / p : 0.0, larger != 0.0 ? s / larger : 0.0})
         if (x > 0.0 && x < 1.0)
             look(fs / std::numbers::pi * std::asin(std::sqrt(x)));
     return highest;

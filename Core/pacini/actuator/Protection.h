@@ -346,10 +346,10 @@ private:
         lastCall.level |= matters;
         if (current.excursion)
         {
-            const bool near =
+            const bool isNear =
                 excursion.measure(wanted, wantedPeak, SoftKnee::startSquared, gains) > SoftKnee::startSquared;
-            lastCall.excursion |= near;
-            matters = matters || near;
+            lastCall.excursion |= isNear;
+            matters = matters || isNear;
         }
         if (!matters && gain.idle())
         {

@@ -45,7 +45,7 @@ struct TrainSpan
 {
     constexpr double alike = 0.7; // smaller over larger
     constexpr std::size_t fewest = 5;
-    const auto near = [](double a, double b)
+    const auto isNear = [](double a, double b)
     {
         return std::min(a, b) >= alike * std::max(a, b);
     };
@@ -60,12 +60,12 @@ struct TrainSpan
     for (std::size_t i = 1; i < onsets.size(); ++i)
     {
         const double gap = onsets[i].time - onsets[i - 1].time;
-        if (gap >= reach || !near(onsets[i].amplitude, onsets[i - 1].amplitude))
+        if (gap >= reach || !isNear(onsets[i].amplitude, onsets[i - 1].amplitude))
         {
             end(i - 1);
             first = i;
         }
-        else if (i > first + 1 && !near(gap, onsets[i - 1].time - onsets[i - 2].time))
+        else if (i > first + 1 && !isNear(gap, onsets[i - 1].time - onsets[i - 2].time))
             end(i - 1); // which may begin the next
     }
     if (!onsets.empty())

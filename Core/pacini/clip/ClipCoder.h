@@ -90,9 +90,9 @@ private:
     /// A double as a small whole number where it is one, else bit for bit.
     double exact(double value)
     {
-        const bool small = value >= 0.0 && value < 1048576.0 && value == std::floor(value) && !std::signbit(value);
-        if (coder.bit(small, wholeModel))
-            return static_cast<double>(number(small ? static_cast<std::uint64_t>(value) : 0, 1000.0));
+        const bool isSmall = value >= 0.0 && value < 1048576.0 && value == std::floor(value) && !std::signbit(value);
+        if (coder.bit(isSmall, wholeModel))
+            return static_cast<double>(number(isSmall ? static_cast<std::uint64_t>(value) : 0, 1000.0));
         return std::bit_cast<double>(raw(std::bit_cast<std::uint64_t>(value), 64));
     }
 

@@ -41,17 +41,17 @@ public:
           spread(static_cast<std::int64_t>(step * unit))
     {
         for (std::size_t age = 0; age < ages; ++age)
-            for (std::size_t near = 0; near < 3; ++near)
+            for (std::size_t neighbour = 0; neighbour < 3; ++neighbour)
                 for (std::size_t total = 0; total < 3; ++total)
                 {
-                    const double pull = (near == 2   ? 3.5
-                                         : near == 1 ? 1.3
-                                                     : 0.6) *
+                    const double pull = (neighbour == 2   ? 3.5
+                                         : neighbour == 1 ? 1.3
+                                                          : 0.6) *
                                         (total == 2   ? 1.6
                                          : total == 1 ? 1.0
                                                       : 0.7);
                     const double young = age == 0 ? 0.6 : 1.0;
-                    here[age][near][total] = AdaptiveBit(std::min(0.9, pull * young / pointEvery), 5);
+                    here[age][neighbour][total] = AdaptiveBit(std::min(0.9, pull * young / pointEvery), 5);
                 }
         // Each power of 1.5 is exact, as no library's std::pow need be: reader and writer must agree to the last bit.
         double power = 1.0;

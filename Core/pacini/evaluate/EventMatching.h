@@ -66,10 +66,10 @@ struct EventScore
 [[nodiscard]] inline EventScore scoreEvents(std::vector<double> onsets, std::vector<double> detections,
                                             double tolerance, std::span<const double> ambiguous = {})
 {
-    constexpr double near = 0.025;
+    constexpr double reach = 0.025;
     const auto isNear = [](std::span<const double> times, double t)
     {
-        return std::any_of(times.begin(), times.end(), [t](double other) { return std::abs(t - other) <= near; });
+        return std::any_of(times.begin(), times.end(), [t](double other) { return std::abs(t - other) <= reach; });
     };
 
     std::sort(onsets.begin(), onsets.end());

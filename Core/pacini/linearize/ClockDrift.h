@@ -152,11 +152,11 @@ private:
         std::vector<std::size_t> bestSplits;
         for (std::size_t i = side; i + side <= points.size(); ++i)
         {
-            const auto near = [&](std::size_t other)
+            const auto isNear = [&](std::size_t other)
             {
                 return std::max(i, other) - std::min(i, other) < side;
             };
-            if (std::any_of(splits.begin(), splits.end(), near))
+            if (std::any_of(splits.begin(), splits.end(), isNear))
                 continue;
             auto candidate = splits;
             candidate.push_back(i);

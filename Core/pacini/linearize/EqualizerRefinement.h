@@ -88,9 +88,9 @@ public:
         evaluate(candidate.sections);
         double damping = 1e-2;
         double growth = 2.0;
-        int small = 0;
+        int smallGains = 0;
         bool moved = true;
-        for (int i = 0; i < maxSteps && small < 2 && damping < 1e7; ++i)
+        for (int i = 0; i < maxSteps && smallGains < 2 && damping < 1e7; ++i)
         {
             if (moved)
                 linearise(candidate);
@@ -111,7 +111,7 @@ public:
             const double trust = 2.0 * gained / std::max(promised, gained) - 1.0;
             damping = std::max(1e-9, damping * std::max(0.2, 1.0 - trust * trust * trust));
             growth = 2.0;
-            small = gained <= enough * candidate.cost ? small + 1 : 0;
+            smallGains = gained <= enough * candidate.cost ? smallGains + 1 : 0;
             candidate = trial;
             if (lowerShelves(candidate))
                 evaluate(candidate.sections);

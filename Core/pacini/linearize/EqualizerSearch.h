@@ -149,8 +149,8 @@ public:
             now = withOneMore(now);
             flatness = assess(now);
             const bool last = now.sections.size() == most || flatness.rms <= nothing;
-            const bool near = !params.sections && flatness.rms < 3.0 * params.goalRms;
-            if (last || near)
+            const bool nearGoal = !params.sections && flatness.rms < 3.0 * params.goalRms;
+            if (last || nearGoal)
                 flatness = finish(now, flatness);
             const double reached = criterion(now);
             const bool better = reached < bestCriterion;

@@ -192,10 +192,10 @@ private:
     for (int pass = 0; pass < 2; ++pass)
     {
         const double reach = std::exp2(std::clamp(4.0 / best.q, 0.25, 1.5) + octaves);
-        const detail::ResonanceProblem near(response, best.frequency / reach, best.frequency * reach, octaves);
-        if (near.size() < FrequencyResponse::fewestPoints)
+        const detail::ResonanceProblem around(response, best.frequency / reach, best.frequency * reach, octaves);
+        if (around.size() < FrequencyResponse::fewestPoints)
             break;
-        best = near.refined(best);
+        best = around.refined(best);
     }
     return best;
 }

@@ -182,16 +182,16 @@ inline constexpr double widestDrift = 0.005;
     const double tolerance = 0.02 + widestDrift * (startOf(loudest) - firstStart);
     const double peak = largest(at - tolerance, at + tolerance);
     found.contrast = peak * peak / static_cast<double>(std::max<std::size_t>(1, arrivals.channels));
-    double near = 0.0;
+    double narrow = 0.0;
     double wide = 0.0;
     for (std::size_t i = 0; i < arrivals.strength.size(); ++i)
     {
         const double distance = std::abs(arrivals.first + static_cast<double>(i) * detail::locatorStep - at);
         const double power = arrivals.strength[i] * arrivals.strength[i];
-        near += distance < 0.025 ? power : 0.0;
+        narrow += distance < 0.025 ? power : 0.0;
         wide += distance < 2.5 ? power : 0.0;
     }
-    found.focus = wide > 0.0 ? near / wide : 0.0;
+    found.focus = wide > 0.0 ? narrow / wide : 0.0;
     return found;
 }
 

@@ -72,11 +72,11 @@ public:
     /// An event as it is found.
     void noteEvent(const HeardEvent& event) noexcept
     {
-        const auto near = [](double a, double b)
+        const auto isNear = [](double a, double b)
         {
             return std::min(a, b) >= 0.7 * std::max(a, b);
         };
-        const bool follows = event.gap < longestGap && near(event.amplitude, strength) && near(event.gap, gap);
+        const bool follows = event.gap < longestGap && isNear(event.amplitude, strength) && isNear(event.gap, gap);
         alike = follows ? std::min(alike + 1, fewestAlike) : 0;
         gap = event.gap;
         strength = event.amplitude;

@@ -127,13 +127,13 @@ private:
         segments.advance();
         segments.setCost(pointCost);
         StraightRun run;
-        FarStart far;
+        FarStart distant;
         for (std::size_t j = 1; j < samples.size(); ++j)
         {
             const StraightRun before = run;
             if (!run.advance(samples, j, segments.costAt(0)) && j - before.first > span &&
-                (!far.alive || before.cost < far.cost))
-                far.become(samples, before.cheapest, j - 1, before.cost);
+                (!distant.alive || before.cost < distant.cost))
+                distant.become(samples, before.cheapest, j - 1, before.cost);
             segments.advance();
             double best = run.cost;
             std::size_t bestStart = run.cheapest;
@@ -158,19 +158,19 @@ private:
             if (bestLag != 0)
                 bestStart = j - bestLag + placeOf(best, costs.data() + (costs.size() - bestLag));
 
-            if (far.alive)
+            if (distant.alive)
             {
-                far.segment.include(j);
-                const double via = far.cost + far.segment.errorTo(j);
+                distant.segment.include(j);
+                const double via = distant.cost + distant.segment.errorTo(j);
                 if (via < best)
                 {
                     best = via;
-                    bestStart = far.start;
+                    bestStart = distant.start;
                 }
-                far.alive = via <= best + pointCost;
+                distant.alive = via <= best + pointCost;
             }
-            if (!far.alive && searchedAll && runLength < span && j >= span)
-                far.become(samples, j - span, j, segments.costAt(span));
+            if (!distant.alive && searchedAll && runLength < span && j >= span)
+                distant.become(samples, j - span, j, segments.costAt(span));
 
             segments.setCost(best + pointCost);
             from[j] = static_cast<std::uint32_t>(bestStart);

@@ -84,10 +84,10 @@ namespace detail
         else
             values.insert(values.begin(), static_cast<std::size_t>(-count), Value{});
     };
-    const auto far = static_cast<int>(std::lround(frames / (TouchTrack::frameSeconds * TouchTrack::rate)));
+    const auto steps = static_cast<int>(std::lround(frames / (TouchTrack::frameSeconds * TouchTrack::rate)));
     move(felt.strength, frames);
-    move(felt.octave, far);
-    move(felt.power, far);
+    move(felt.octave, steps);
+    move(felt.power, steps);
     return felt;
 }
 
