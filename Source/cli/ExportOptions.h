@@ -5,6 +5,8 @@
 #include "cli/Console.h"
 #include "io/formats/ClipFormat.h"
 
+#include <pacini/actuator/Strength.h>
+
 #include <CLI/CLI.hpp>
 
 #include <optional>

@@ -5,6 +5,7 @@
 #include "document/RowPlaces.h"
 
 #include <pacini/actuator/Profile.h>
+#include <pacini/actuator/Strength.h>
 #include <pacini/synthesis/Scene.h>
 
 #include <cstddef>

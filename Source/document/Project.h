@@ -7,6 +7,7 @@
 #include "document/Reapply.h"
 
 #include <pacini/actuator/Profile.h>
+#include <pacini/actuator/Strength.h>
 #include <pacini/analysis/EncoderParams.h>
 #include <pacini/clip/Curve.h>
 #include <pacini/synthesis/Scene.h>

@@ -4,6 +4,7 @@
 #include "support/Paths.h"
 
 #include <pacini/actuator/ActuatorFit.h>
+#include <pacini/actuator/Strength.h>
 
 #include <algorithm>
 #include <cmath>

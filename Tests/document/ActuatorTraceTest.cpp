@@ -4,6 +4,7 @@
 #include "support/ShippedProfile.h"
 
 #include <pacini/actuator/ActuatorFit.h>
+#include <pacini/actuator/Strength.h>
 #include <pacini/synthesis/CompilePlan.h>
 #include <pacini/synthesis/ScenePlayer.h>
 

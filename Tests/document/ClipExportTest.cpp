@@ -5,6 +5,7 @@
 #include "support/ShippedProfile.h"
 #include "support/TempFolder.h"
 
+#include <pacini/actuator/Strength.h>
 #include <pacini/synthesis/CompilePlan.h>
 #include <pacini/synthesis/ScenePlayer.h>
 

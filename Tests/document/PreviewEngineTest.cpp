@@ -6,6 +6,7 @@
 #include "support/HeapGuard.h"
 #include "support/ShippedProfile.h"
 
+#include <pacini/actuator/Strength.h>
 #include <pacini/clip/edits/RangeEdits.h>
 #include <pacini/synthesis/CompilePlan.h>
 

@@ -5,6 +5,7 @@
 #include "editor/clip/scene/SceneSelection.h"
 #include "support/Paths.h"
 
+#include <pacini/actuator/Strength.h>
 #include <pacini/foundation/Random.h>
 
 #include <algorithm>

@@ -6,6 +6,7 @@
 #include "io/AudioReader.h"
 #include "support/TempFolder.h"
 
+#include <pacini/actuator/Strength.h>
 #include <pacini/synthesis/CompilePlan.h>
 #include <pacini/synthesis/ScenePlayer.h>
 

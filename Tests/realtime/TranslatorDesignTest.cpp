@@ -1,6 +1,7 @@
 #include "support/Catch.h"
 #include "support/Pinned.h"
 
+#include <pacini/actuator/Strength.h>
 #include <pacini/realtime/TranslatorDesign.h>
 #include <pacini/realtime/TranslatorMeters.h>
 #include <pacini/realtime/TranslatorPresets.h>

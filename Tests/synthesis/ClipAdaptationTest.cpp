@@ -7,6 +7,7 @@
 #include "support/ShippedProfile.h"
 
 #include <pacini/actuator/FeltModel.h>
+#include <pacini/actuator/Strength.h>
 #include <pacini/synthesis/CompilePlan.h>
 #include <pacini/synthesis/ScenePlayer.h>
 #include <pacini/synthesis/VoiceLimit.h>

@@ -16,12 +16,6 @@
 namespace pacini
 {
 
-/// The strength with which an actuator is played unless another is asked for, see fitActuator(). It costs at most 3 dB
-/// of felt level against an actuator that is not flattened, and keeps at least two thirds of what adaptation gains in
-/// likeness: chosen on thirty recordings with `pacini bench actuators`. That holds on each shipped profile but the
-/// DualSense's (q 1.7), where adaptation gains next to nothing.
-inline constexpr double standardStrength = 0.4;
-
 /// Says of the number at `path`, or of all below it, where it was found: `{"drive", "datasheet of ..."}`. A text that
 /// starts with "assumed" marks numbers that nobody measured.
 struct ProfileSource

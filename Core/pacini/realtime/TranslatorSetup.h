@@ -3,6 +3,7 @@
 // Configuration of the translator: actuator, bands and strength.
 
 #include <pacini/actuator/Profile.h>
+#include <pacini/actuator/Strength.h>
 #include <pacini/filters/BandLayout.h>
 #include <pacini/foundation/Units.h>
 

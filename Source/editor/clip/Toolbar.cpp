@@ -6,6 +6,8 @@
 #include "editor/Theme.h"
 #include "editor/Translation.h"
 
+#include <pacini/actuator/Strength.h>
+
 namespace pacini::editor
 {
 

@@ -4,6 +4,7 @@
 // Table of the plugin's parameters: ids, names, units, ranges, defaults of everything that can be automated.
 
 #include <pacini/actuator/Profile.h>
+#include <pacini/actuator/Strength.h>
 
 #include <array>
 #include <cstddef>

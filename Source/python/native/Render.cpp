@@ -8,6 +8,7 @@
 #include "python/native/SceneHandle.h"
 #include "python/native/Support.h"
 
+#include <pacini/actuator/Strength.h>
 #include <pacini/synthesis/RenderScene.h>
 
 #include <nanobind/operators.h>

@@ -3,6 +3,8 @@
 #include "io/formats/ClipFormat.h"
 #include "web/core/Call.h"
 
+#include <pacini/actuator/Strength.h>
+
 #include <utility>
 
 namespace pacini::web

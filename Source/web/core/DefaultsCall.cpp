@@ -3,6 +3,7 @@
 #include "web/core/Call.h"
 
 #include <pacini/actuator/Profile.h>
+#include <pacini/actuator/Strength.h>
 #include <pacini/analysis/Encoder.h>
 
 namespace pacini::web

@@ -7,6 +7,8 @@
 #include "support/RandomProfile.h"
 #include "support/TempFolder.h"
 
+#include <pacini/actuator/Strength.h>
+
 #include <filesystem>
 
 using namespace pacini;

@@ -9,6 +9,8 @@
 #include "editor/clip/session/Jobs.h"
 #include "editor/clip/session/ViewState.h"
 
+#include <pacini/actuator/Strength.h>
+
 #include <juce_gui_basics/juce_gui_basics.h>
 
 #include <atomic>
