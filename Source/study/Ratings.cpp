@@ -1,6 +1,7 @@
 #include "study/Ratings.h"
 
 #include "io/InputFile.h"
+#include "io/TableText.h"
 
 #include <pacini/foundation/ParseNumber.h>
 
@@ -120,16 +121,6 @@ Result<std::vector<Rating>> readRatings(const std::filesystem::path& path)
     if (!text)
         return text.error();
     return ratingsOfCsv(*text);
-}
-
-std::string csvField(std::string_view text)
-{
-    if (text.find_first_of(",;\"\n\r") == std::string_view::npos)
-        return std::string(text);
-    std::string quoted = "\"";
-    for (const char c : text)
-        quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-    return quoted + '"';
 }
 
 std::string ratingsCsv(const std::vector<Rating>& ratings)

@@ -37,7 +37,4 @@ inline constexpr std::size_t mostRatings = 1'000'000;
 /// The table of `ratings` as ratingsOfCsv() reads it.
 [[nodiscard]] std::string ratingsCsv(const std::vector<Rating>& ratings);
 
-/// `text` as a field of a table: in quotes where it needs them.
-[[nodiscard]] std::string csvField(std::string_view text);
-
 } // namespace pacini::study

@@ -1,5 +1,7 @@
 #include "study/StudyExport.h"
 
+#include "io/TableText.h"
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 

@@ -1,5 +1,7 @@
 #include "cli/bench/BenchTable.h"
 
+#include "io/TableText.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -45,17 +47,6 @@ BenchCell quotient(double above, const double* below)
     if (below != nullptr && *below != 0.0)
         cell = above / *below;
     return cell;
-}
-
-std::string csvField(const std::string& text)
-{
-    if (text.find_first_of(",\"\r\n") == std::string::npos)
-        return text;
-    std::string quoted = "\"";
-    for (const char c : text)
-        quoted.append(c == '"' ? 2 : 1, c);
-    quoted += '"';
-    return quoted;
 }
 
 std::string markdownField(const std::string& text)

@@ -1,5 +1,7 @@
 #include "cli/plot/SvgCanvas.h"
 
+#include "io/TableText.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,26 +16,7 @@ namespace
 {
 std::string escaped(std::string_view text)
 {
-    std::string result;
-    for (const char c : printable(text))
-        switch (c)
-        {
-        case '&':
-            result += "&amp;";
-            break;
-        case '<':
-            result += "&lt;";
-            break;
-        case '>':
-            result += "&gt;";
-            break;
-        case '"':
-            result += "&quot;";
-            break;
-        default:
-            result += c;
-        }
-    return result;
+    return xmlText(printable(text));
 }
 
 /// To a hundredth, without needless zeros.

@@ -1,6 +1,7 @@
 #include "cli/study/Page.h"
 
 #include "io/Sha256.h"
+#include "io/TableText.h"
 
 #include <fmt/format.h>
 
@@ -12,25 +13,6 @@ namespace pacini::cli
 
 namespace
 {
-std::string escaped(std::string_view text)
-{
-    std::string safe;
-    for (const char c : text)
-    {
-        if (c == '&')
-            safe += "&amp;";
-        else if (c == '<')
-            safe += "&lt;";
-        else if (c == '>')
-            safe += "&gt;";
-        else if (c == '"')
-            safe += "&quot;";
-        else
-            safe += c;
-    }
-    return safe;
-}
-
 /// A cell of a Markdown table: on one line, without its separator; HTML in it stays text.
 std::string cellText(std::string_view text)
 {
@@ -71,17 +53,17 @@ std::string htmlTable(const PageTable& table)
 {
     std::string text = "<div class=\"scrolls\" tabindex=\"0\"><table>\n";
     if (!table.caption.empty())
-        text += fmt::format("<caption>{}</caption>\n", escaped(table.caption));
+        text += fmt::format("<caption>{}</caption>\n", xmlText(table.caption));
     text += "<thead><tr>";
     for (const std::string& column : table.columns)
-        text += fmt::format("<th scope=\"col\">{}</th>", escaped(column));
+        text += fmt::format("<th scope=\"col\">{}</th>", xmlText(column));
     text += "</tr></thead>\n<tbody>\n";
     for (const auto& row : table.rows)
     {
         text += "<tr>";
         for (std::size_t i = 0; i < row.size(); ++i)
-            text += i == 0 ? fmt::format("<th scope=\"row\">{}</th>", escaped(row[i]))
-                           : fmt::format("<td>{}</td>", escaped(row[i]));
+            text += i == 0 ? fmt::format("<th scope=\"row\">{}</th>", xmlText(row[i]))
+                           : fmt::format("<td>{}</td>", xmlText(row[i]));
         text += "</tr>\n";
     }
     return text + "</tbody>\n</table></div>\n";
@@ -129,18 +111,18 @@ std::string htmlOf(const Page& page)
     std::string text = fmt::format("<!DOCTYPE html>\n<html lang=\"{}\">\n<head>\n<meta charset=\"utf-8\">\n"
                                    "<meta name=\"viewport\" content=\"width=device-width\">\n<title>{}</title>\n"
                                    "<style>{}</style>\n</head>\n<body>\n<main>\n",
-                                   page.language, escaped(page.title), style);
+                                   page.language, xmlText(page.title), style);
     for (const PagePart& part : page.parts)
     {
         if (const auto* heading = std::get_if<PageHeading>(&part))
-            text += fmt::format("<h{0}>{1}</h{0}>\n", heading->level, escaped(heading->text));
+            text += fmt::format("<h{0}>{1}</h{0}>\n", heading->level, xmlText(heading->text));
         else if (const auto* paragraph = std::get_if<PageParagraph>(&part))
-            text += fmt::format("<p>{}</p>\n", escaped(paragraph->text));
+            text += fmt::format("<p>{}</p>\n", xmlText(paragraph->text));
         else if (const auto* table = std::get_if<PageTable>(&part))
             text += htmlTable(*table);
         else if (const auto* picture = std::get_if<PagePicture>(&part))
             text += fmt::format("<figure role=\"img\" aria-label=\"{}\">\n{}\n</figure>\n",
-                                escaped(picture->description), withoutProlog(picture->svg));
+                                xmlText(picture->description), withoutProlog(picture->svg));
     }
     return text + "</main>\n</body>\n</html>\n";
 }
