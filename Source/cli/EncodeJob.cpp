@@ -26,6 +26,14 @@ bool dependsOnSound(const EncoderParameter& parameter)
 {
     return parameter.name == "gain" || parameter.name == "channelGain" || parameter.name == clipSealName;
 }
+
+/// Whether `input` has not been written since `output` was.
+bool wasWrittenBefore(const fs::path& input, const fs::path& output)
+{
+    std::error_code error;
+    const auto made = fs::last_write_time(output, error);
+    return !error && fs::last_write_time(input, error) <= made && !error;
+}
 } // namespace
 
 EncodeJob::EncodeJob(const EncodeSettings& wanted) : settings(wanted), encoder(wanted) {}
@@ -33,18 +41,25 @@ EncodeJob::EncodeJob(const EncodeSettings& wanted) : settings(wanted), encoder(w
 Result<EncodeResult> EncodeJob::run(const fs::path& input, const fs::path& output, Replaceable replaceable,
                                     const Progress& progress)
 {
-    const bool makesClip = methodInfo(settings.method).output == MethodOutput::clip;
+    Target target{output, replaceable, Existing::replace, {}};
     EncodeResult result;
+    const bool makesClip = methodInfo(settings.method).output == MethodOutput::clip;
     // What others' formats hold is only known when it is made.
     Result<Existing> existing = Existing::replace;
     if (!makesClip)
-        existing = mayReplace(output, signalOrigin(input, output), replaceable);
+    {
+        Fingerprint method;
+        method.add(methodInfo(settings.method).name);
+        target.origin = originOf(input, output, method.text());
+        existing = mayReplace(output, target.origin, replaceable);
+    }
     else if (settings.format->isOwn())
-        existing = lookAt(input, output, replaceable, result);
+        existing = lookAt(input, target, result);
     if (!existing)
         return existing.error();
     if (result.upToDate)
         return result;
+    target.existing = *existing;
 
     auto reader = AudioReader::open(input, settings.reading);
     if (!reader)
@@ -52,9 +67,18 @@ Result<EncodeResult> EncodeJob::run(const fs::path& input, const fs::path& outpu
     if (settings.dryRun)
         return result;
     Stopwatch work;
-    const auto written = makesClip
-                             ? encodeClip(*reader, input, output, *existing, replaceable, progress, work, result)
-                             : encodeSignal(*reader, input, output, *existing, replaceable, progress, work, result);
+    Result<std::size_t> written = std::size_t(0);
+    if (makesClip)
+    {
+        auto clip = encoder.clipOf(*reader, input, progress, work);
+        written = clip ? write(std::move(*clip), target, work, result) : withAdvice(clip.error(), true);
+    }
+    else
+    {
+        SoundFileParts parts(*reader, progress);
+        const auto signal = encoder.signalOf({reader->sampleRate(), reader->channels()}, parts, work);
+        written = signal ? write(*signal, reader->sampleRate(), target, result) : withAdvice(signal.error(), true);
+    }
     if (!written)
         return written.error();
     result.bytes = *written;
@@ -73,66 +97,45 @@ Result<Clip> EncodeJob::encode(const fs::path& input, const Progress& progress)
     return clip ? clip : withAdvice(clip.error(), true);
 }
 
-Result<std::size_t> EncodeJob::encodeClip(AudioReader& reader, const fs::path& input, const fs::path& output,
-                                          Existing existing, Replaceable replaceable, const Progress& progress,
-                                          Stopwatch& work, EncodeResult& result)
+Result<std::size_t> EncodeJob::write(Clip clip, const Target& target, Stopwatch& work, EncodeResult& result) const
 {
-    auto clip = encoder.clipOf(reader, input, progress, work);
-    if (!clip)
-        return withAdvice(clip.error(), true);
-    result.duration = clip->duration;
-    result.breakpoints = breakpointCount(*clip);
-    result.transients = clip->transients.size();
-    if (!settings.format->isOwn())
-        return writeForeign(*clip, output, replaceable, work, result);
-    const auto written = writeClip(output, std::move(*clip), *settings.format, existing);
-    return written ? written : atOutput(output, written.error());
-}
-
-Result<std::size_t> EncodeJob::writeForeign(const Clip& clip, const fs::path& output, Replaceable replaceable,
-                                            Stopwatch& work, EncodeResult& result) const
-{
+    result.duration = clip.duration;
+    result.breakpoints = breakpointCount(clip);
+    result.transients = clip.transients.size();
+    if (settings.format->isOwn())
+    {
+        const auto written = writeClip(target.output, std::move(clip), *settings.format, target.existing);
+        return written ? written : atOutput(target.output, written.error());
+    }
     std::optional<Result<ExportedClip>> exported;
     work.run([&] { exported = settings.format->write(clip, settings.exporting); });
     if (!*exported)
         return exported->error();
-    const auto allowed = mayReplace(output, **exported, replaceable);
+    const auto allowed = mayReplace(target.output, **exported, target.replaceable);
     if (!allowed)
         return allowed.error();
-    const auto written = writeExport(output, **exported, *allowed);
+    const auto written = writeExport(target.output, **exported, *allowed);
     if (!written)
-        return atOutput(output, written.error());
-    result.stray = strayCompanion(output, *settings.format, **exported);
+        return atOutput(target.output, written.error());
+    result.stray = strayCompanion(target.output, *settings.format, **exported);
     std::size_t bytes = 0;
     for (const ExportedFile& file : (*exported)->files)
         bytes += file.bytes.size();
     return bytes;
 }
 
-FileOrigin EncodeJob::signalOrigin(const fs::path& input, const fs::path& output) const
+Result<std::size_t> EncodeJob::write(std::span<const float> signal, int sampleRate, const Target& target,
+                                     EncodeResult& result) const
 {
-    Fingerprint method;
-    method.add(methodInfo(settings.method).name);
-    return originOf(input, output, method.text());
-}
-
-Result<std::size_t> EncodeJob::encodeSignal(AudioReader& reader, const fs::path& input, const fs::path& output,
-                                            Existing existing, Replaceable replaceable, const Progress& progress,
-                                            Stopwatch& work, EncodeResult& result) const
-{
-    SoundFileParts file(reader, progress);
-    const auto signal = encoder.signalOf({reader.sampleRate(), reader.channels()}, file, work);
-    if (!signal)
-        return withAdvice(signal.error(), true);
-    result.duration = static_cast<double>(signal->size()) / reader.sampleRate();
+    result.duration = static_cast<double>(signal.size()) / sampleRate;
     AudioWriteParams writing;
-    writing.sampleRate = reader.sampleRate();
-    if (replaceable != Replaceable::named)
-        writing.origin = signalOrigin(input, output);
-    writing.existing = existing;
-    const auto report = writeAudio(output, *signal, writing);
+    writing.sampleRate = sampleRate;
+    if (target.replaceable != Replaceable::named)
+        writing.origin = target.origin;
+    writing.existing = target.existing;
+    const auto report = writeAudio(target.output, signal, writing);
     if (!report)
-        return atOutput(output, report.error());
+        return atOutput(target.output, report.error());
     return static_cast<std::size_t>(report->bytes);
 }
 
@@ -146,9 +149,11 @@ std::vector<EncoderParameter> EncodeJob::expectedRecord(const Clip& clip) const
     return record;
 }
 
-Result<Existing> EncodeJob::lookAt(const fs::path& input, const fs::path& output, Replaceable replaceable,
-                                   EncodeResult& result) const
+Result<Existing> EncodeJob::lookAt(const fs::path& input, const Target& target, EncodeResult& result) const
 {
+    const auto& [output, replaceable, existing, origin] = target;
+    const bool isOlder = wasWrittenBefore(input, output);
+    const std::string source = sourceNameOf(input);
     if (!isOccupied(output))
         return replaceable == Replaceable::own ? Existing::keep : Existing::replace;
     const ClipFormat* there = ownFormatOf(output);
@@ -160,7 +165,7 @@ Result<Existing> EncodeJob::lookAt(const fs::path& input, const fs::path& output
     const ClipSeal seal = clip != nullptr ? sealOf(*clip) : ClipSeal::missing;
     const bool mayBeEdited = seal == ClipSeal::missing;
     if (clip && seal != ClipSeal::broken && !(mayBeEdited && replaceable == Replaceable::any) && !settings.force &&
-        there == settings.format && isUpToDate(input, output, *clip))
+        there == settings.format && isOlder && clip->source.file == source && isMadeSo(*clip))
     {
         std::error_code ignored;
         result.upToDate = true;
@@ -178,19 +183,13 @@ Result<Existing> EncodeJob::lookAt(const fs::path& input, const fs::path& output
         return notReplaced(output, "was edited since it was encoded");
     if (mayBeEdited)
         return notReplaced(output, "exists and may have been edited, since it has no seal of the encoder");
-    if (replaceable == Replaceable::own && clip->source.file != sourceNameOf(input))
+    if (replaceable == Replaceable::own && clip->source.file != source)
         return notReplaced(output, "was encoded from " + clip->source.file);
     return Existing::replace;
 }
 
-bool EncodeJob::isUpToDate(const fs::path& input, const fs::path& output, const Clip& clip) const
+bool EncodeJob::isMadeSo(const Clip& clip) const
 {
-    std::error_code error;
-    const auto made = fs::last_write_time(output, error);
-    if (error || fs::last_write_time(input, error) > made || error)
-        return false;
-    if (clip.source.file != sourceNameOf(input))
-        return false;
     if (clip.source.sampleRate < limits::lowestSampleRate || clip.source.sampleRate > limits::highestSampleRate)
         return false;
     auto record = clip.encoder;

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -61,27 +62,29 @@ private:
     using Path = std::filesystem::path;
     using Progress = std::function<void(double)>;
 
-    /// How the clip may be written to `output`, unless what is there is up to date, as `result` says then.
-    [[nodiscard]] Result<Existing> lookAt(const Path& input, const Path& output, Replaceable replaceable,
-                                          EncodeResult& result) const;
+    /// Where the result goes.
+    struct Target
+    {
+        const Path& output;
+        Replaceable replaceable = Replaceable::own;
+        Existing existing = Existing::replace;
+        FileOrigin origin; ///< of a signal
+    };
 
-    [[nodiscard]] bool isUpToDate(const Path& input, const Path& output, const Clip& clip) const;
+    /// How the clip may be written, unless what is there is up to date, as `result` says then.
+    [[nodiscard]] Result<Existing> lookAt(const Path& input, const Target& target, EncodeResult& result) const;
+
+    /// Whether a clip was made by this version in this way.
+    [[nodiscard]] bool isMadeSo(const Clip& clip) const;
 
     /// What a clip made now would say of its encoder, without what depends on the sound.
     [[nodiscard]] std::vector<EncoderParameter> expectedRecord(const Clip& clip) const;
 
-    /// Both return the size of the file they wrote.
-    [[nodiscard]] Result<std::size_t> encodeClip(AudioReader& reader, const Path& input, const Path& output,
-                                                 Existing existing, Replaceable replaceable, const Progress& progress,
-                                                 Stopwatch& work, EncodeResult& result);
-    [[nodiscard]] Result<std::size_t> encodeSignal(AudioReader& reader, const Path& input, const Path& output,
-                                                   Existing existing, Replaceable replaceable, const Progress& progress,
-                                                   Stopwatch& work, EncodeResult& result) const;
-
-    [[nodiscard]] FileOrigin signalOrigin(const Path& input, const Path& output) const;
-
-    [[nodiscard]] Result<std::size_t> writeForeign(const Clip& clip, const Path& output, Replaceable replaceable,
-                                                   Stopwatch& work, EncodeResult& result) const;
+    /// Write a clip, or a signal, and return the size of the file or files.
+    [[nodiscard]] Result<std::size_t> write(Clip clip, const Target& target, Stopwatch& work,
+                                            EncodeResult& result) const;
+    [[nodiscard]] Result<std::size_t> write(std::span<const float> signal, int sampleRate, const Target& target,
+                                            EncodeResult& result) const;
 
     EncodeSettings settings;
     SoundEncoder encoder;

@@ -24,27 +24,6 @@ namespace pacini::cli
 
 namespace
 {
-/// What each play is called: by itself or by its clip.
-std::vector<std::string> playNames(const Scene& scene)
-{
-    std::vector<std::string> names;
-    for (const ScenePlay& play : scene.plays)
-        names.push_back(play.name.empty() ? scene.clips[play.clip].name : play.name);
-    return names;
-}
-
-/// 16 digits that change when the output would: with the bytes of the input, a scene's clips and the settings.
-std::string substanceOf(std::string_view bytes, const Scene& scene, bool isScene, const RenderSettings& settings)
-{
-    Fingerprint all;
-    all.add(settings.record);
-    all.add(bytes);
-    if (isScene)
-        for (const Clip& clip : scene.clips)
-            all.add(writeClipJson(clip));
-    return all.text();
-}
-
 /// Whether `output` was made so, and is still as it was made; then `result` tells its size.
 bool isUpToDate(const std::filesystem::path& output, const FileOrigin& origin, RenderResult& result)
 {
@@ -60,14 +39,6 @@ bool isUpToDate(const std::filesystem::path& output, const FileOrigin& origin, R
     result.duration = static_cast<double>(*sound->frames()) / sound->sampleRate();
     result.upToDate = true;
     return true;
-}
-
-/// Whether `output` is the recording beside the clip `input` that it says it was made from.
-bool isRecordingOf(const Clip& clip, const std::filesystem::path& input, const std::filesystem::path& output)
-{
-    std::error_code unknown; // false when one of them is missing
-    return !clip.source.file.empty() && !isStream(input) &&
-           std::filesystem::equivalent(input.parent_path() / clip.source.file, output, unknown);
 }
 
 /// The sound file that a rendering becomes.
@@ -170,14 +141,25 @@ Result<RenderInput> readInput(const std::filesystem::path& input, const std::fil
     RenderInput found;
     found.scene =
         result.isScene ? std::get<Scene>(std::move(read->content)) : sceneOf(std::get<Clip>(std::move(read->content)));
-    found.origin = originOf(input, output, substanceOf(read->bytes, found.scene, result.isScene, settings));
+    Fingerprint substance; // changes when the output would
+    substance.add(settings.record);
+    substance.add(read->bytes);
+    if (result.isScene)
+        for (const Clip& clip : found.scene.clips)
+            substance.add(writeClipJson(clip));
+    found.origin = originOf(input, output, substance.text());
     if (settings.resume && replaceable != Replaceable::named && isUpToDate(output, found.origin, result))
         return found;
     const auto existing = mayReplace(output, found.origin, replaceable);
     if (!existing)
         return existing.error();
-    if (replaceable == Replaceable::named && !result.isScene && isRecordingOf(found.scene.clips.front(), input, output))
-        return notReplaced(output, "is the recording that this clip was made from");
+    if (replaceable == Replaceable::named && !result.isScene && !isStream(input))
+    {
+        std::error_code unknown; // no recording when one of them is missing
+        const std::string& recording = found.scene.clips.front().source.file;
+        if (!recording.empty() && std::filesystem::equivalent(input.parent_path() / recording, output, unknown))
+            return notReplaced(output, "is the recording that this clip was made from");
+    }
     found.existing = *existing;
     return found;
 }
@@ -193,8 +175,6 @@ Result<RenderResult> render(const std::filesystem::path& input, const std::files
         return found.error();
     if (result.upToDate || settings.dryRun)
         return result;
-    if (settings.describe)
-        result.playNames = playNames(found->scene);
 
     AudioWriteParams format;
     format.sampleRate = static_cast<int>(std::lround(settings.compile.sampleRate));

@@ -39,9 +39,8 @@ struct RenderResult : RenderReport
     std::uint64_t clippedSamples = 0;
     bool upToDate = false; ///< nothing was done; only bytes and duration are known
     bool isScene = false;
-    std::vector<std::string> warnings;  ///< of reading
-    std::string protection;             ///< what becomes of the profile's limits; empty: no profile
-    std::vector<std::string> playNames; ///< of the plays of the scene: their own or of their clips
+    std::vector<std::string> warnings; ///< of reading
+    std::string protection;            ///< what becomes of the profile's limits; empty: no profile
 };
 
 /// Errors: those of readClipOrScene, renderScene and AudioWriter, without the file's name; io when what is at `output`

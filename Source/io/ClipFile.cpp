@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <iterator>
+#include <optional>
 #include <span>
 #include <system_error>
 #include <utility>
@@ -28,15 +29,6 @@ namespace
 // Haptics Studio writes NAME.continuous.ahap and NAME.transients.ahap, for two players.
 constexpr std::string_view studioContinuous = ".continuous";
 constexpr std::string_view studioTransients = ".transients";
-
-/// Whether files of this extension (lower case) are clips of other programs, whatever they hold.
-bool isForeignExtension(std::string_view extension)
-{
-    const auto formats = clipFormats();
-    return std::any_of(formats.begin(), formats.end(),
-                       [&](const ClipFormat& format)
-                       { return format.isRead() && !format.isOwn() && format.extension == extension; });
-}
 
 bool isBlank(std::string_view bytes)
 {
@@ -69,18 +61,34 @@ Error notRead(const ClipFormat& format)
         fmt::format("is a file of format {} ({}), which Pacini writes but does not read", format.name, format.title)};
 }
 
-Result<std::string> readBytes(const fs::path& path)
+/// A file that may be a clip or a scene.
+struct FoundFile
+{
+    std::string bytes;
+    const ClipFormat* format = nullptr; ///< as clipFormatOf() finds it
+    bool isScene = false;
+};
+
+Result<FoundFile> readFile(const fs::path& path)
 {
     const std::string extension = lowerExtension(path);
     // A recording of hundreds of megabytes is not read just to find that it is no clip. Pipes can be read only once.
+    StartCheck check;
     std::error_code ignored;
     if (!isForeignExtension(extension) && fs::is_regular_file(path, ignored))
-        if (const auto start = firstBytesOf(path); !isBlank(start) && !startsAsOwn(start))
+        check = [&](std::string_view start) -> std::optional<Error>
         {
+            if (isBlank(start) || startsAsOwn(start))
+                return std::nullopt;
             const ClipFormat* format = clipFormatOf(extension, start);
             return format != nullptr && !format->isRead() ? notRead(*format) : notAClip();
-        }
-    return readWholeFile(path, largestClipText);
+        };
+    auto bytes = readWholeFile(path, largestClipText, check);
+    if (!bytes)
+        return bytes.error();
+    const ClipFormat* format = clipFormatOf(extension, *bytes);
+    const bool isScene = isSceneText(*bytes);
+    return FoundFile{std::move(*bytes), format, isScene};
 }
 
 /// Adds the events of the second file.
@@ -124,9 +132,9 @@ fs::path companionFile(const fs::path& main, const ClipFormat& format)
     return {};
 }
 
-Result<ReadClip> clipIn(const fs::path& path, std::string bytes, bool strict)
+Result<ReadClip> clipIn(const fs::path& path, FoundFile found, bool strict)
 {
-    const ClipFormat* format = clipFormatOf(lowerExtension(path), bytes);
+    auto& [bytes, format, isScene] = found;
     if (format == nullptr && bytes.empty())
         return Error{ErrorCode::invalidData, "", "is empty; it has no clip"};
     if (format == nullptr && !looksLikeJson(bytes))
@@ -150,28 +158,29 @@ Result<ReadClip> clipIn(const fs::path& path, std::string bytes, bool strict)
 
 Result<ReadClip> readClip(const fs::path& path, bool strict)
 {
-    auto bytes = readBytes(path);
-    if (!bytes)
-        return bytes.error();
-    if (isSceneText(*bytes))
+    auto found = readFile(path);
+    if (!found)
+        return found.error();
+    if (found->isScene)
         return Error{ErrorCode::invalidData, "", "is a scene, and a clip is needed; 'pacini render' plays scenes"};
-    return clipIn(path, std::move(bytes).value(), strict);
+    return clipIn(path, std::move(*found), strict);
 }
 
 Result<ClipOrScene> readClipOrScene(const fs::path& path, const ClipReadParams& params)
 {
-    auto bytes = readBytes(path);
-    if (!bytes)
-        return bytes.error();
-    if (isSceneText(*bytes))
+    auto found = readFile(path);
+    if (!found)
+        return found.error();
+    if (found->isScene)
     {
         ReadWarnings warnings(params.strict);
-        auto scene = sceneOfText(*bytes, params.clipFolder.empty() ? path.parent_path() : params.clipFolder, &warnings);
+        auto scene =
+            sceneOfText(found->bytes, params.clipFolder.empty() ? path.parent_path() : params.clipFolder, &warnings);
         if (!scene)
             return scene.error();
-        return ClipOrScene{std::move(scene).value(), nullptr, warnings.texts(), std::move(bytes).value()};
+        return ClipOrScene{std::move(scene).value(), nullptr, warnings.texts(), std::move(found->bytes)};
     }
-    auto clip = clipIn(path, std::move(bytes).value(), params.strict);
+    auto clip = clipIn(path, std::move(*found), params.strict);
     if (!clip)
         return clip.error();
     return ClipOrScene{std::move(clip->clip), clip->format, std::move(clip->warnings), std::move(clip->bytes)};

@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 
 namespace
 {
-/// All that comes from `stream`, in a file without a name, at its start.
+/// All that comes from `stream`, in a file without a name.
 Result<FileHandle> takenIn(std::FILE* stream)
 {
     constexpr std::uint64_t most = 8ull << 30;
@@ -45,7 +45,7 @@ Result<FileHandle> takenIn(std::FILE* stream)
     }
     if (std::ferror(stream) != 0)
         return fileError(errno);
-    if (std::fflush(file.get()) != 0 || !seekStream(file.get(), 0, SEEK_SET))
+    if (std::fflush(file.get()) != 0)
         return fileError(errno);
     return file;
 }
@@ -84,8 +84,9 @@ Result<FileHandle> openPipe(const fs::path& path)
         whole = std::move(*taken);
     }
     FileHandle file(secondStream(whole.get()));
-    if (!file || !seekStream(file.get(), 0, SEEK_SET))
+    if (!file)
         return fileError(errno);
+    std::rewind(file.get());
     return file;
 }
 } // namespace
@@ -116,12 +117,17 @@ Result<FileHandle> openRewindable(const fs::path& path)
     return openForReading(path);
 }
 
-Result<std::string> readWholeFile(const fs::path& path, std::size_t maximumBytes)
+Result<std::string> readWholeFile(const fs::path& path, std::size_t maximumBytes, const StartCheck& check)
 {
     auto opened = openForReading(path);
     if (!opened)
         return opened.error();
     std::FILE* file = opened->get();
+    std::string bytes(check ? 1024 : 0, '\0');
+    std::size_t used = std::fread(bytes.data(), 1, bytes.size(), file);
+    if (check)
+        if (auto wrong = check(std::string_view(bytes).substr(0, used)))
+            return *wrong;
 
     const auto tooLarge = [&]
     {
@@ -133,9 +139,6 @@ Result<std::string> readWholeFile(const fs::path& path, std::size_t maximumBytes
     const auto hint = noSize ? 0 : size;
     if (hint > maximumBytes)
         return tooLarge();
-
-    std::string bytes;
-    std::size_t used = 0;
     for (std::size_t step = static_cast<std::size_t>(hint) + 1;; step = std::max<std::size_t>(65536, used))
     {
         // One byte more than allowed is asked for, to see whether there is more.

@@ -5,7 +5,10 @@
 #include "io/FileHandle.h"
 
 #include <cstddef>
+#include <functional>
+#include <optional>
 #include <string>
+#include <string_view>
 
 namespace pacini
 {
@@ -18,8 +21,13 @@ namespace pacini
 /// The same for what can be rewound: devices are refused (io).
 [[nodiscard]] Result<FileHandle> openRewindable(const std::filesystem::path& path);
 
-/// All bytes of `path`. More than `maximumBytes` is an Error (tooLarge), found before that much memory is used, so
-/// endless devices and pipes are safe too. Errors of opening as in openForReading.
-[[nodiscard]] Result<std::string> readWholeFile(const std::filesystem::path& path, std::size_t maximumBytes);
+/// Looks at the first bytes of a file: what is wrong with them, if anything is.
+using StartCheck = std::function<std::optional<Error>(std::string_view start)>;
+
+/// All bytes of `path`, unless `check` says what is wrong with the first 1024. More than `maximumBytes` is an Error
+/// (tooLarge), found before that much memory is used, so endless devices and pipes are safe too. Errors of opening as
+/// in openForReading.
+[[nodiscard]] Result<std::string> readWholeFile(const std::filesystem::path& path, std::size_t maximumBytes,
+                                                const StartCheck& check = {});
 
 } // namespace pacini

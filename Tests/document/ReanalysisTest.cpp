@@ -55,7 +55,8 @@ TEST_CASE("An analysis that is stopped ends there, whenever that is")
     {
         int asked = 0;
         const auto stopped = analyse(audio, {}, {}, [&](double) { return asked++ < last; });
-        CHECK_FALSE(stopped);
+        REQUIRE_FALSE(stopped);
+        CHECK(stopped.error().code == ErrorCode::cancelled);
         CHECK(asked == last + 1);
     }
 }

@@ -289,3 +289,21 @@ TEST_CASE("A touch is as strong as its sensation level or acceleration says", "[
     StimulusMaker maker(study, params);
     CHECK(maker.make(1, Variation{Variable::level, -20.0}));
 }
+
+TEST_CASE("The bits of a stimulus change what is felt, by each method that makes a clip", "[study][stimuli]")
+{
+    for (const char* method : {"", "envelope-sine", "thesis"})
+    {
+        Study study = withClicks();
+        study.stimuli[0].method = method;
+        study.stimuli[0].bits = 4.0;
+        Stimulus fine = study.stimuli[0];
+        fine.bits = 16.0;
+        study.stimuli.push_back(fine);
+        StimulusMaker maker(study, here());
+        const auto coarse = maker.make(0), finest = maker.make(3);
+        REQUIRE(coarse);
+        REQUIRE(finest);
+        CHECK(coarse->touch != finest->touch);
+    }
+}

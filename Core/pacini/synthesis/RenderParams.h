@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace pacini
@@ -47,8 +48,9 @@ struct RenderReport
     double predictedError = 0.0; ///< dB, of all that is left out; -infinity: nothing is lost
     std::optional<double> measuredError; ///< dB, what leaving out really cost; where it was to be measured
     std::vector<Adaptation> adaptations;
-    std::vector<LeftOut> leftOut;     ///< in order of what it costs
-    std::vector<DecodedPlay> decoded; ///< in order of start; where they were to be described
+    std::vector<LeftOut> leftOut;       ///< in order of what it costs
+    std::vector<DecodedPlay> decoded;   ///< in order of start; where they were to be described
+    std::vector<std::string> playNames; ///< of all plays of the scene then, or of their clips
 };
 
 } // namespace pacini

@@ -227,6 +227,10 @@ inline Result<RenderPart> renderPart(const RenderParams& params, std::uint64_t t
                          "is missing in this profile, so nothing is known of what is felt"};
     }
     const std::size_t plays = scene.plays.size();
+    std::vector<std::string> names;
+    for (const ScenePlay& play : scene.plays)
+        if (params.describe && play.clip < scene.clips.size())
+            names.push_back(play.name.empty() ? scene.clips[play.clip].name : play.name);
     std::optional<RenderPlan> everything;
     if (params.measure)
     {
@@ -242,7 +246,10 @@ inline Result<RenderPart> renderPart(const RenderParams& params, std::uint64_t t
         return plan.error();
     auto report = renderPlan(std::move(*plan), params, sink, felt, std::move(everything));
     if (report)
+    {
         report->givenPlays = plays;
+        report->playNames = std::move(names);
+    }
     return report;
 }
 

@@ -8,11 +8,13 @@
 #include <pacini/synthesis/Variation.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <iterator>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace pacini
@@ -112,6 +114,15 @@ struct Scene
     bool operator==(const Scene&) const = default;
 };
 
+/// A scene in which a clip plays once, as it is.
+[[nodiscard]] inline Scene sceneOf(Clip clip)
+{
+    Scene scene;
+    scene.clips.push_back(std::move(clip));
+    scene.plays.push_back({});
+    return scene;
+}
+
 namespace limits
 {
 inline constexpr std::size_t plays = 10'000;
@@ -128,46 +139,68 @@ inline constexpr double playDelay = 1.0;     ///< s
     return dB <= limits::silentGain ? 0.0 : std::pow(10.0, dB / 20.0);
 }
 
-/// Whether a value is one that a parameter takes: gains and levels -1000 to 60 dB, pan 0-1, delay 0 to 1 s,
-/// transposition -96 to 96, stretch 0.01 to 100.
+/// Range of a parameter, and how it is told.
+struct ParameterRange
+{
+    const char* name;
+    double low, high;
+    const char* rule;
+};
+
+/// In the order of SceneParameter.
+inline constexpr std::array<ParameterRange, 8> parameterRanges{
+    {{"gain", -1000.0, 60.0, "must be -1000 to 60 dB"},
+     {"pan", 0.0, 1.0, "must be 0 to 1"},
+     {"delay", 0.0, limits::playDelay, "must be 0 to 1 s"},
+     {"transposition", -96.0, 96.0, "must be -96 to 96 semitones"},
+     {"stretch", 0.01, 100.0, "must be 0.01 to 100"},
+     {"tones", -1000.0, 60.0, "must be -1000 to 60 dB"},
+     {"events", -1000.0, 60.0, "must be -1000 to 60 dB"},
+     {"noise", -1000.0, 60.0, "must be -1000 to 60 dB"}}};
+
+/// Whether a value is one that a parameter takes.
 [[nodiscard]] inline bool inRange(SceneParameter parameter, double value) noexcept
 {
-    switch (parameter)
-    {
-    case SceneParameter::gain:
-    case SceneParameter::tones:
-    case SceneParameter::events:
-    case SceneParameter::noise:
-        return value >= -1000.0 && value <= 60.0;
-    case SceneParameter::pan:
-        return value >= 0.0 && value <= 1.0;
-    case SceneParameter::delay:
-        return value >= 0.0 && value <= limits::playDelay;
-    case SceneParameter::transposition:
-        return value >= -96.0 && value <= 96.0;
-    case SceneParameter::stretch:
-        return value >= 0.01 && value <= 100.0;
-    }
-    return false;
+    const auto i = static_cast<std::size_t>(parameter);
+    return i < parameterRanges.size() && value >= parameterRanges[i].low && value <= parameterRanges[i].high;
 }
+
+namespace detail
+{
+/// Checks what a play can change, as it begins and as it changes.
+inline Result<void> checkParameters(const Scene& scene)
+{
+    const auto outside = [](std::size_t parameter, const std::string& where)
+    {
+        return brokenRule(where + parameterRanges[parameter].name, parameterRanges[parameter].rule);
+    };
+    if (!inRange(SceneParameter::gain, scene.gain))
+        return outside(0, "");
+    for (std::size_t i = 0; i < scene.plays.size(); ++i)
+    {
+        const ScenePlay& play = scene.plays[i];
+        const double values[] = {play.gain,    play.pan,   play.delay,  play.transposition,
+                                 play.stretch, play.tones, play.events, play.noise};
+        for (std::size_t k = 0; k < std::size(values); ++k)
+            if (!inRange(static_cast<SceneParameter>(k), values[k]))
+                return outside(k, indexed("plays", i) + ".");
+    }
+    for (std::size_t i = 0; i < scene.changes.size(); ++i)
+        if (const SceneChange& change = scene.changes[i]; !inRange(change.parameter, change.value))
+            return brokenRule(indexed("changes", i) + ".value",
+                              parameterRanges[static_cast<std::size_t>(change.parameter)].rule);
+    return {};
+}
+} // namespace detail
 
 /// Checks a scene, its clips included; errors name the place, such as `plays[3].clip`.
 [[nodiscard]] inline Result<void> validate(const Scene& scene)
 {
     using namespace detail;
-    constexpr const char* ranges[] = {"must be -1000 to 60 dB",      "must be 0 to 1",        "must be 0 to 1 s",
-                                      "must be -96 to 96 semitones", "must be 0.01 to 100",   "must be -1000 to 60 dB",
-                                      "must be -1000 to 60 dB",      "must be -1000 to 60 dB"};
-    constexpr const char* names[] = {".gain",    ".pan",   ".delay",  ".transposition",
-                                     ".stretch", ".tones", ".events", ".noise"};
-    const auto outside = [&](SceneParameter parameter, const std::string& where)
-    {
-        return brokenRule(where, ranges[static_cast<std::size_t>(parameter)]);
-    };
+    if (auto r = checkParameters(scene); !r)
+        return r;
     if (auto r = checkNumber(scene.duration, 0.0, limits::duration, "duration"); !r)
         return r;
-    if (!inRange(SceneParameter::gain, scene.gain))
-        return outside(SceneParameter::gain, "gain");
     if (scene.actuators < 1 || scene.actuators > limits::actuators)
         return brokenRule("actuators", "must be 1 to 16");
     if (auto r = checkNumber(scene.panDelay, 0.0, 0.1, "panDelay"); !r)
@@ -192,11 +225,6 @@ inline constexpr double playDelay = 1.0;     ///< s
             return brokenRule(where + ".loop", "is longer than the clip");
         if (play.loop > 0.0 && play.passes == 0 && scene.duration == 0.0)
             return brokenRule(where + ".passes", "is needed, or a duration of the scene: the loop would never end");
-        const double values[] = {play.gain,    play.pan,   play.delay,  play.transposition,
-                                 play.stretch, play.tones, play.events, play.noise};
-        for (std::size_t k = 0; k < std::size(values); ++k)
-            if (!inRange(static_cast<SceneParameter>(k), values[k]))
-                return outside(static_cast<SceneParameter>(k), where + names[k]);
         if (auto r = checkNumber(play.variation.amount, 0.0, 1.0, where + ".variation"); !r)
             return r;
     }
@@ -214,8 +242,6 @@ inline constexpr double playDelay = 1.0;     ///< s
         before = change.time;
         if (change.play >= scene.plays.size())
             return brokenRule(where + ".play", "is not one of the scene's plays");
-        if (!inRange(change.parameter, change.value))
-            return outside(change.parameter, where + ".value");
         if (auto r = checkNumber(change.glide, 0.0, limits::duration, where + ".glide"); !r)
             return r;
     }

@@ -22,15 +22,6 @@ struct SceneAdjustment
     VariationParams variation; ///< of plays that have none of their own; its seed moves all seeds
 };
 
-/// A scene in which a clip plays once, as it is.
-[[nodiscard]] inline Scene sceneOf(Clip clip)
-{
-    Scene scene;
-    scene.clips.push_back(std::move(clip));
-    scene.plays.push_back({});
-    return scene;
-}
-
 /// Moves, stretches, transposes and varies a whole scene. Times and changes come along.
 [[nodiscard]] inline Scene adjusted(Scene scene, const SceneAdjustment& adjustment)
 {

@@ -281,6 +281,13 @@ bool isOwnExtension(std::string_view extension)
     return format != nullptr && format->isOwn();
 }
 
+bool isForeignExtension(std::string_view extension)
+{
+    return std::any_of(formats.begin(), formats.end(),
+                       [&](const ClipFormat& format)
+                       { return format.isRead() && !format.isOwn() && format.extension == extension; });
+}
+
 const ClipFormat* clipFormatOf(std::string_view extension, std::string_view bytes)
 {
     const ClipFormat* found = nullptr;

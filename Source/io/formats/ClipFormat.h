@@ -186,6 +186,9 @@ struct FormatDescription
 /// Whether that is one of Pacini's own.
 [[nodiscard]] bool isOwnExtension(std::string_view extension);
 
+/// Whether files of this extension (with dot, lower case) are clips of other programs, whatever they hold.
+[[nodiscard]] bool isForeignExtension(std::string_view extension);
+
 /// The format of a file with this extension (with dot, lower case) and content; null when it is none. A clip that says
 /// that it is Pacini's is that. Of several others that recognise the content the one with the extension counts. What
 /// none recognises is of the format with the extension, whose reader then says what is wrong with it; but any program's

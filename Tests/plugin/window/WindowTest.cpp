@@ -4,6 +4,7 @@
 #include "editor/Pump.h"
 #include "editor/Unmarked.h"
 #include "io/ClipFile.h"
+#include "io/ClipSeal.h"
 #include "plugin/engine/Rig.h"
 #include "plugin/window/PluginWindow.h"
 #include "support/TempFolder.h"
@@ -311,6 +312,7 @@ TEST_CASE("What was heard last becomes a clip")
     CHECK(clip->duration == Approx(2.0).margin(0.05));
     CHECK(clip->bands.size() > 0);
     CHECK(clip->envelope.size() > 5);
+    CHECK(sealOf(*clip) == ClipSeal::whole);
     const TempFolder folder;
     REQUIRE(writeClip(folder / "capture.json", *clip, jsonFormat()));
     const auto read = readClip(folder / "capture.json");
