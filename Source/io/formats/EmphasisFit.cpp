@@ -97,38 +97,57 @@ private:
 
 /// Without those that the voice reaches by itself: played on top of it they hide the onset that is there already, which
 /// cost up to 9 points of HTS in single sounds.
-std::vector<Transient> playedOnTop(std::vector<Transient> events, const Curve& amplitude, const NormalisedRange& range)
+std::vector<Transient> playedOnTop(std::vector<Transient> events, const Curve& amplitude)
 {
     std::erase_if(events, [](const Transient& event) { return event.amplitude <= 0.0; });
     for (Transient& event : events)
     {
         // Players must not show an event weaker than the voice around it.
         event.amplitude = std::max(event.amplitude, valueAt(amplitude, event.time));
-        event.sharpness = range.normalisedOf(100.0 * std::pow(2.8, event.sharpness));
     }
     return events;
 }
 
-/// The sharpness at which `player` shows the frequency of an event, or the one at which it is over in time where the
-/// next event is `gap` s away.
-double sharpnessFor(const EmphasisPlayer& player, const Transient& event, double gap)
+/// Makes the sharpness of events that at which a player shows their frequency.
+void fitSharpness(std::vector<Transient>& events, const NormalisedRange& range)
 {
-    const double own = player.range.normalisedOf(100.0 * std::pow(2.8, event.sharpness));
+    for (Transient& event : events)
+        event.sharpness = range.normalisedOf(100.0 * std::pow(2.8, event.sharpness));
+}
+
+/// `own`, or the sharpness at which an event is over in time where the next one is `gap` s away.
+double sharpnessFor(const EmphasisPlayer& player, double own, double gap)
+{
     return gap < train ? std::max(own, player.sharpnessOfLength(std::clamp(0.6 * gap, 0.006, 0.015))) : own;
 }
 } // namespace
 
+double EmphasisPlayer::lengthOf(double sharpness) const noexcept
+{
+    if (periods > 0.0)
+        return periods / range.hertzOf(sharpness);
+    return dullLength + (crispLength - dullLength) * sharpness;
+}
+
+double EmphasisPlayer::sharpnessOfLength(double length) const noexcept
+{
+    if (periods > 0.0)
+        return range.normalisedOf(periods / length);
+    return std::clamp((dullLength - length) / (dullLength - crispLength), 0.0, 1.0);
+}
+
 std::vector<Transient> emphasesOf(std::vector<Transient> events, const Curve& amplitude, const EmphasisPlayer& player)
 {
+    fitSharpness(events, player.range);
     if (player.ducking == 1.0)
-        return playedOnTop(std::move(events), amplitude, player.range);
+        return playedOnTop(std::move(events), amplitude);
     constexpr double noticeable = 1.5; // dB: the difference of levels from which on HTS counts
     std::vector<Transient> emphases;
     for (std::size_t i = 0; i < events.size(); ++i)
     {
         Transient emphasis = events[i];
         const double gap = nearestGap(events, i);
-        emphasis.sharpness = sharpnessFor(player, emphasis, gap);
+        emphasis.sharpness = sharpnessFor(player, emphasis.sharpness, gap);
         const VoicePower voice(amplitude, emphasis.time, std::min(player.lengthOf(emphasis.sharpness), gap));
         const double beside = (1.0 - square(player.ducking)) * voice.meanOfPulse();
         if (events[i].amplitude <= 0.0 &&
@@ -168,19 +187,20 @@ std::vector<std::size_t> separated(const std::vector<Transient>& events, double 
     return kept;
 }
 
-std::vector<Transient> emphasisOfEach(const std::vector<Transient>& events, const std::vector<double>& beyond,
+std::vector<Transient> emphasisOfEach(std::vector<Transient> events, const std::vector<double>& beyond,
                                       const Curve& amplitude, const EmphasisPlayer& player)
 {
     constexpr double comesBack = 0.010;   // s after a pulse in which a rise of the voice is felt as another event
     constexpr double sharpnessStep = 0.1; // finer ones gain nothing
     const double ducked = square(player.ducking);
+    fitSharpness(events, player.range);
     std::vector<Transient> emphases;
     for (std::size_t i = 0; i < events.size(); ++i)
     {
         const double gap = nearestGap(events, i);
         Transient emphasis = events[i];
         double least = -1.0; // none yet; in silence no deviation is a number
-        for (double sharpness = sharpnessFor(player, events[i], gap);;
+        for (double sharpness = sharpnessFor(player, events[i].sharpness, gap);;
              sharpness = std::min(sharpness + sharpnessStep, 1.0))
         {
             const double length = std::min(player.lengthOf(sharpness), gap);

@@ -6,7 +6,6 @@
 
 #include <pacini/clip/Clip.h>
 
-#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -24,18 +23,8 @@ struct EmphasisPlayer
     double separation = 0.0;    ///< s; of two events that are nearer it shows one
     double periods = 0.0;       ///< above 0: events are so many periods of a sine, whatever the lengths are
 
-    [[nodiscard]] double lengthOf(double sharpness) const noexcept
-    {
-        if (periods > 0.0)
-            return periods / range.hertzOf(sharpness);
-        return dullLength + (crispLength - dullLength) * sharpness;
-    }
-    [[nodiscard]] double sharpnessOfLength(double length) const noexcept
-    {
-        if (periods > 0.0)
-            return range.normalisedOf(periods / length);
-        return std::clamp((dullLength - length) / (dullLength - crispLength), 0.0, 1.0);
-    }
+    [[nodiscard]] double lengthOf(double sharpness) const noexcept; ///< s
+    [[nodiscard]] double sharpnessOfLength(double length) const noexcept;
 };
 
 /// That of Quest controllers, as the Meta haptics SDK and its actuator file say.
@@ -58,9 +47,8 @@ inline constexpr EmphasisPlayer questPlayer{{55.0, 165.0}, 0.0364, 0.0121, 0.5, 
 /// event together, and at least as the voice that comes back after it, which would else be felt as a second hit; no
 /// less than leastAmplitude. It is as sharp as the event, or sharper, where a shorter pulse leaves the levels nearer to
 /// those of the voice.
-[[nodiscard]] std::vector<Transient> emphasisOfEach(const std::vector<Transient>& events,
-                                                    const std::vector<double>& beyond, const Curve& amplitude,
-                                                    const EmphasisPlayer& player);
+[[nodiscard]] std::vector<Transient> emphasisOfEach(std::vector<Transient> events, const std::vector<double>& beyond,
+                                                    const Curve& amplitude, const EmphasisPlayer& player);
 
 /// Indices of the events, in order, of which none is nearer than `separation` s to another: the stronger ones stay.
 [[nodiscard]] std::vector<std::size_t> separated(const std::vector<Transient>& events, double separation);

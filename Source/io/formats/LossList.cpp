@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <utility>
 
 namespace pacini
@@ -16,6 +17,16 @@ namespace pacini
 
 namespace
 {
+constexpr const char* inVoice = "residual noise is merged into the voice";
+
+double largestValue(const Curve& curve)
+{
+    double largest = 0.0;
+    for (const Breakpoint& point : curve)
+        largest = std::max(largest, point.value);
+    return largest;
+}
+
 std::string cutMessage(double most)
 {
     return fmt::format("amplitudes above {} are clipped", decimal(most, 3));
@@ -143,6 +154,57 @@ std::vector<FormatLoss> LossList::sorted() &&
         before->error = std::max(before->error, loss.error);
     }
     return merged;
+}
+
+void addVoiceLosses(LossList& losses, const Clip& clip, const SingleVoice& voice)
+{
+    LossTrack bands(
+        LossKind::bands,
+        fmt::format("{} bands are merged into one voice; bands more than 1/3 octave away play at its frequency",
+                    clip.bands.size()));
+    for (const Breakpoint& point : voice.displaced)
+        bands.add(point.time, point.value > leastAmplitude ? point.value : 0.0);
+    losses.append(bands);
+    losses.addNoise(clip, inVoice);
+    addEmptyParts(losses, voice);
+}
+
+void addStrengthLosses(LossList& losses, const Clip& clip, const SingleVoice& voice)
+{
+    if (!clip.bands.empty())
+        losses.add(LossKind::bands, 0.0, clip.duration, 0.0,
+                   fmt::format("only the strength of {} is kept, not the frequency",
+                               clip.bands.size() == 1 ? "the band" : fmt::format("{} bands", clip.bands.size())));
+    for (const Transient& event : voice.events)
+        losses.add(LossKind::event, event.time, 0.0, 0.0, "events become bursts without sharpness");
+    losses.addNoise(clip, inVoice);
+    addEmptyParts(losses, voice);
+}
+
+void addEmptyParts(LossList& losses, const SingleVoice& voice)
+{
+    constexpr double shortestGap = 0.25; // s: less is the end of a decay
+    const Curve& curve = voice.amplitude;
+    double strongest = 0.0;
+    for (const Transient& event : voice.events)
+        strongest = std::max(strongest, event.amplitude);
+    if (std::max(strongest, largestValue(curve)) < leastAmplitude)
+        return losses.add(LossKind::empty, 0.0, voice.duration, std::max(strongest, largestValue(curve)),
+                          "too weak to be felt");
+    std::size_t event = 0, end = 0;
+    for (std::size_t begin = 0; begin < curve.size(); begin = end + 1)
+    {
+        double peak = 0.0;
+        for (end = begin; end < curve.size() && curve[end].value < leastAmplitude; ++end)
+            peak = std::max(peak, curve[end].value);
+        const double from = curve[begin].time;
+        const double to = end == curve.size() ? voice.duration : end > begin ? curve[end - 1].time : from;
+        while (event < voice.events.size() && voice.events[event].time < from)
+            ++event;
+        const bool hasEvent = event < voice.events.size() && voice.events[event].time <= to;
+        if (peak > 0.0 && to - from >= shortestGap && !hasEvent)
+            losses.add(LossKind::empty, from, to - from, peak, "too weak to be felt");
+    }
 }
 
 } // namespace pacini

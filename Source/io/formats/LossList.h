@@ -13,6 +13,8 @@
 namespace pacini
 {
 
+struct SingleVoice;
+
 /// Amplitudes below one step of 8 bits are not told from silence, nor errors below it from none: that is the finest
 /// that players of these formats show.
 inline constexpr double leastAmplitude = 1.0 / 255.0;
@@ -93,6 +95,16 @@ public:
 private:
     std::vector<FormatLoss> losses;
 };
+
+/// What a clip loses on one voice but words: frequencies of others than the strongest band, noise, parts that are too
+/// weak to be there.
+void addVoiceLosses(LossList& losses, const Clip& clip, const SingleVoice& voice);
+
+/// What a clip loses as a strength, words not.
+void addStrengthLosses(LossList& losses, const Clip& clip, const SingleVoice& voice);
+
+/// Parts of a quarter of a second or more in which all that sounds is below leastAmplitude, and clips that are silent.
+void addEmptyParts(LossList& losses, const SingleVoice& voice);
 
 /// An export of one file.
 [[nodiscard]] inline ExportedClip oneFile(std::string bytes, LossList losses)

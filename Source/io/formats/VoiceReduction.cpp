@@ -22,29 +22,15 @@ namespace
 {
 constexpr double shortest = 0.01; // s
 
-constexpr const char* inVoice = "residual noise is merged into the voice";
-
-double largestValue(const Curve& curve)
+/// The clip with its frequencies moved into the range of `profile`; nothing without one.
+std::optional<Clip> movedClip(const Clip& clip, const std::optional<Profile>& profile)
 {
-    double largest = 0.0;
-    for (const Breakpoint& point : curve)
-        largest = std::max(largest, point.value);
-    return largest;
-}
-
-/// What a clip loses on one voice but words: frequencies of others than the strongest band, noise, parts that are too
-/// weak to be there.
-void addVoiceLosses(LossList& losses, const Clip& clip, const SingleVoice& voice)
-{
-    LossTrack bands(
-        LossKind::bands,
-        fmt::format("{} bands are merged into one voice; bands more than 1/3 octave away play at its frequency",
-                    clip.bands.size()));
-    for (const Breakpoint& point : voice.displaced)
-        bands.add(point.time, point.value > leastAmplitude ? point.value : 0.0);
-    losses.append(bands);
-    losses.addNoise(clip, inVoice);
-    addEmptyParts(losses, voice);
+    AdaptationParams onlyFrequencies;
+    onlyFrequencies.voices = false;
+    onlyFrequencies.dynamicRange = false;
+    onlyFrequencies.maxBoost = 0_dB;
+    onlyFrequencies.strength = 0.0;
+    return profile ? std::optional(adaptClip(clip, *profile, onlyFrequencies).clip) : std::nullopt;
 }
 
 /// `curve` at both sides of every time of `dense`: visit(time, exact, approximate).
@@ -144,23 +130,27 @@ std::vector<Transient> transientsOf(const std::vector<Transient>& events, const 
                                     const Curve& amplitude, const EmphasisPlayer& player, EventExport how,
                                     LossList& losses)
 {
+    std::vector<Transient> shown, emphases;
+    std::string why;
     if (how == EventExport::merged)
     {
-        std::vector<Transient> shown = emphasesOf(beside, amplitude, player);
-        losses.addOmitted(events, shown, "dropped: already covered by the amplitude curve");
-        return shown;
+        shown = emphases = emphasesOf(beside, amplitude, player);
+        why = "dropped: already covered by the amplitude curve";
     }
-    std::vector<Transient> shown;
-    std::vector<double> beyond;
-    for (const std::size_t i : separated(events, player.separation))
-        if (events[i].amplitude > 0.0)
-        {
-            shown.push_back(events[i]);
-            beyond.push_back(beside[i].amplitude);
-        }
-    losses.addOmitted(events, shown,
-                      fmt::format("dropped: a stronger event is less than {:g} ms away", 1000.0 * player.separation));
-    return emphasisOfEach(shown, beyond, amplitude, player);
+    else
+    {
+        std::vector<double> beyond;
+        for (const std::size_t i : separated(events, player.separation))
+            if (events[i].amplitude > 0.0)
+            {
+                shown.push_back(events[i]);
+                beyond.push_back(beside[i].amplitude);
+            }
+        emphases = emphasisOfEach(shown, beyond, amplitude, player);
+        why = fmt::format("dropped: a stronger event is less than {:g} ms away", 1000.0 * player.separation);
+    }
+    losses.addOmitted(events, shown, why);
+    return emphases;
 }
 
 std::size_t pointCount(double perSecond, double duration)
@@ -218,52 +208,10 @@ void fewFrequencies(NormalisedVoice& result, const Curve& frequency, const Curve
 }
 } // namespace
 
-void addStrengthLosses(LossList& losses, const Clip& clip, const SingleVoice& voice)
-{
-    if (!clip.bands.empty())
-        losses.add(LossKind::bands, 0.0, clip.duration, 0.0,
-                   fmt::format("only the strength of {} is kept, not the frequency",
-                               clip.bands.size() == 1 ? "the band" : fmt::format("{} bands", clip.bands.size())));
-    for (const Transient& event : voice.events)
-        losses.add(LossKind::event, event.time, 0.0, 0.0, "events become bursts without sharpness");
-    losses.addNoise(clip, inVoice);
-    addEmptyParts(losses, voice);
-}
-
-void addEmptyParts(LossList& losses, const SingleVoice& voice)
-{
-    constexpr double shortestGap = 0.25; // s: less is the end of a decay
-    const Curve& curve = voice.amplitude;
-    double strongest = 0.0;
-    for (const Transient& event : voice.events)
-        strongest = std::max(strongest, event.amplitude);
-    if (std::max(strongest, largestValue(curve)) < leastAmplitude)
-        return losses.add(LossKind::empty, 0.0, voice.duration, std::max(strongest, largestValue(curve)),
-                          "too weak to be felt");
-    std::size_t event = 0, end = 0;
-    for (std::size_t begin = 0; begin < curve.size(); begin = end + 1)
-    {
-        double peak = 0.0;
-        for (end = begin; end < curve.size() && curve[end].value < leastAmplitude; ++end)
-            peak = std::max(peak, curve[end].value);
-        const double from = curve[begin].time;
-        const double to = end == curve.size() ? voice.duration : end > begin ? curve[end - 1].time : from;
-        while (event < voice.events.size() && voice.events[event].time < from)
-            ++event;
-        const bool hasEvent = event < voice.events.size() && voice.events[event].time <= to;
-        if (peak > 0.0 && to - from >= shortestGap && !hasEvent)
-            losses.add(LossKind::empty, from, to - from, peak, "too weak to be felt");
-    }
-}
-
 SingleVoice oneVoice(const Clip& clip, const std::optional<Profile>& profile, double otherwise)
 {
-    AdaptationParams onlyFrequencies;
-    onlyFrequencies.voices = false;
-    onlyFrequencies.dynamicRange = false;
-    onlyFrequencies.maxBoost = 0_dB;
-    onlyFrequencies.strength = 0.0;
-    SingleVoice voice = singleVoiceOf(profile ? adaptClip(clip, *profile, onlyFrequencies).clip : clip);
+    const std::optional<Clip> moved = movedClip(clip, profile);
+    SingleVoice voice = singleVoiceOf(moved ? *moved : clip);
     if (voice.frequency.empty())
         voice.frequency = {{0.0, otherwise}};
     if (voice.amplitude.empty())
@@ -352,13 +300,12 @@ ReducedVoice reducedStrength(const Clip& clip, const ExportParams& params, doubl
 NormalisedVoice normalisedVoice(const Clip& clip, const ExportParams& params, const VoiceFormat& format)
 {
     const NormalisedRange range = normalisedRangeOf(params.profile, format.range);
-    SingleVoice voice = params.profile
-                            ? singleVoiceOf(adaptClip(clip, *params.profile, {true, false, false, 0_dB, 0.0, {}}).clip,
-                                            range.low, range.high)
-                            : singleVoiceOf(clip, range.low, range.high);
     NormalisedVoice result;
     result.name = params.name.empty() ? clip.name : params.name;
     result.duration = std::max(clip.duration, shortest);
+    const std::optional<Clip> moved = movedClip(clip, params.profile);
+    result.wasSingle = isSingleVoice(clip);
+    SingleVoice voice = singleVoiceOf(moved ? *moved : clip, range.low, range.high);
     addVoiceLosses(result.losses, clip, voice);
     result.losses.addMarkers(clip);
     result.losses.limit(voice.amplitude, 1.0);
@@ -375,11 +322,11 @@ NormalisedVoice normalisedVoice(const Clip& clip, const ExportParams& params, co
     voice.amplitude = whole(std::move(voice.amplitude), 0.0);
     const Curve level = format.scale == LevelScale::root ? rootOf(voice.amplitude) : voice.amplitude;
     const Curve frequency = whole(normalised(voice, range, result.losses), 0.5);
-    const bool keepsPoints = isSingleVoice(clip);
+    const bool keepsPoints = result.wasSingle;
     const EmphasisPlayer* player = keepsPoints || format.events.ducking == 1.0 ? nullptr : &format.events;
     std::vector<Transient> events = clip.transients;
-    for (std::vector<Transient>* moved : {&events, &voice.events})
-        for (Transient& event : *moved)
+    for (std::vector<Transient>* list : {&events, &voice.events})
+        for (Transient& event : *list)
             event.time = std::clamp(event.time, 0.0, result.duration);
     result.events = keepsPoints ? std::move(voice.events)
                                 : transientsOf(events, voice.events, voice.amplitude, format.events,

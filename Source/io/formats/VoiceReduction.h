@@ -51,12 +51,6 @@ struct ReducedVoice
 /// The same for motors, which have a strength without frequency and sharpness; events are at most 1 too.
 [[nodiscard]] ReducedVoice reducedStrength(const Clip& clip, const ExportParams& params, double otherwise);
 
-/// What a clip loses as a strength, words not.
-void addStrengthLosses(LossList& losses, const Clip& clip, const SingleVoice& voice);
-
-/// Parts of a quarter of a second or more in which all that sounds is below leastAmplitude, and clips that are silent.
-void addEmptyParts(LossList& losses, const SingleVoice& voice);
-
 /// Scale of a format's amplitudes.
 enum class LevelScale
 {
@@ -80,8 +74,9 @@ struct VoiceFormat
 struct NormalisedVoice
 {
     std::string name;
-    double duration = 0.0; ///< s, above 0
-    Curve level;           ///< has a point at the time of each event
+    double duration = 0.0;  ///< s, above 0
+    bool wasSingle = false; ///< the clip was one voice already
+    Curve level;            ///< has a point at the time of each event
     Curve frequency;
     std::vector<Transient> events; ///< amplitude is a level
     LossList losses;

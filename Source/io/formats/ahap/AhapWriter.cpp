@@ -280,17 +280,17 @@ Result<ExportedClip> writeAhap(const Clip& clip, const ExportParams& params)
     if (auto valid = validate(clip); !valid)
         return valid.error();
     // Players play transients on top of the voice: the file has to make room for those that stand for it.
-    const bool merged = params.events.value_or(usualEvents) == EventExport::merged || isSingleVoice(clip);
-    const double duck = merged ? 1.0 : ducking;
-    EmphasisPlayer player{.range = sharpnessRange, .ducking = duck};
-    if (duck < 1.0)
+    EmphasisPlayer player{.range = sharpnessRange};
+    if (params.events.value_or(usualEvents) == EventExport::transients)
     {
+        player.ducking = ducking;
         player.separation = resolved;
         player.periods = transientPeriods;
     }
     NormalisedVoice voice =
         normalisedVoice(clip, params, {.scale = LevelScale::root, .range = sharpnessRange, .events = player});
     voice.losses.addCrowding(voice.events, resolved);
+    const double duck = voice.wasSingle ? 1.0 : player.ducking;
     // A file without continuous vibration has no curves that its events would have to be kept from.
     const bool split = params.split && !voice.events.empty() && peakOf(voice.level) > 0.0;
     const Pattern pattern = patternOf(voice, split, duck, voice.losses);
