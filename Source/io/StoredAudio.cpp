@@ -166,10 +166,11 @@ void StoredAudio::Piece::unpack(std::size_t first, std::span<float> samples) con
 
 void StoredAudio::read(std::size_t first, std::span<float> interleaved) const noexcept
 {
-    std::size_t sample = first * static_cast<std::size_t>(channelCount);
+    std::uint64_t sample = std::uint64_t{first} * static_cast<std::uint64_t>(channelCount);
     while (!interleaved.empty())
     {
-        const std::size_t index = sample / pieceSize, place = sample % pieceSize;
+        const auto index = static_cast<std::size_t>(sample / pieceSize);
+        const auto place = static_cast<std::size_t>(sample % pieceSize);
         const auto part = interleaved.first(std::min(interleaved.size(), pieceSize - place));
         if (index < pieces.size())
             pieces[index]->unpack(place, part);
@@ -189,7 +190,7 @@ void StoredAudio::readMono(std::int64_t first, std::span<float> out, Reduce redu
     std::size_t done = 0;
     const auto silent = [&](std::int64_t count)
     {
-        const auto n = std::min(out.size() - done, static_cast<std::size_t>(std::max<std::int64_t>(count, 0)));
+        const auto n = std::min(out.size() - done, sizeInMemory(count));
         const auto part = out.subspan(done, n);
         std::fill(part.begin(), part.end(), 0.0f);
         done += n;
@@ -200,8 +201,7 @@ void StoredAudio::readMono(std::int64_t first, std::span<float> out, Reduce redu
         const std::int64_t from = first + static_cast<std::int64_t>(done);
         if (from >= end)
             return silent(static_cast<std::int64_t>(out.size()));
-        const std::size_t n =
-            std::min({buffer.size() / width, out.size() - done, static_cast<std::size_t>(end - from)});
+        const std::size_t n = std::min({buffer.size() / width, out.size() - done, sizeInMemory(end - from)});
         read(static_cast<std::size_t>(from), std::span(buffer).first(n * width));
         for (std::size_t i = 0; i < n; ++i)
             out[done + i] = reduce(buffer.data() + i * width);

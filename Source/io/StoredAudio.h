@@ -5,6 +5,7 @@
 #include "io/AudioReader.h"
 
 #include <pacini/foundation/Result.h>
+#include <pacini/foundation/SizeInMemory.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -35,7 +36,7 @@ public:
     [[nodiscard]] int channels() const noexcept { return channelCount; }
     [[nodiscard]] std::size_t frames() const noexcept
     {
-        return channelCount > 0 ? total / static_cast<std::size_t>(channelCount) : 0;
+        return channelCount > 0 ? sizeInMemory(total / static_cast<std::uint64_t>(channelCount)) : 0;
     }
     [[nodiscard]] double duration() const noexcept ///< s
     {
@@ -70,7 +71,7 @@ private:
 
     int sampleRate = 0;
     int channelCount = 0;
-    std::size_t total = 0; ///< samples
+    std::uint64_t total = 0; ///< samples: those that are 0 take no memory
     std::vector<std::shared_ptr<const Piece>> pieces;
     std::vector<float> open; ///< the last piece, while it is not full
 };

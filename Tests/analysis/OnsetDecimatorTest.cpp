@@ -6,6 +6,7 @@
 #include <pacini/foundation/Random.h>
 
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -23,7 +24,7 @@ std::vector<float> decimatedNoise(std::size_t count)
     return x;
 }
 
-std::vector<double> allOf(const SlidingBuffer<float>& buffer, std::ptrdiff_t begin = 0)
+std::vector<double> allOf(const SlidingBuffer<float>& buffer, std::int64_t begin = 0)
 {
     return {buffer.at(begin), buffer.at(begin) + (buffer.end() - begin)};
 }
@@ -81,10 +82,10 @@ TEST_CASE("Decimated tones stay where they are in time and as strong as they wer
         decimator.push(x.data(), 1, std::ssize(x), 0.0f);
         CAPTURE(fs);
         REQUIRE(decimator.base().end() > 650);
-        for (std::ptrdiff_t i = 40; i < decimator.base().end() - 10; ++i)
+        for (std::int64_t i = 40; i < decimator.base().end() - 10; ++i)
             REQUIRE(*decimator.base().at(i) ==
                     Approx(std::cos(2.0 * std::numbers::pi * 300.0 * static_cast<double>(i) / 7200.0)).margin(0.02));
-        for (std::ptrdiff_t i = 40; i < decimator.stage().end(); ++i)
+        for (std::int64_t i = 40; i < decimator.stage().end(); ++i)
             REQUIRE(*decimator.stage().at(i) ==
                     Approx(std::cos(2.0 * std::numbers::pi * 300.0 * static_cast<double>(i) / decimator.stageRate()))
                         .margin(0.01));
@@ -118,8 +119,8 @@ TEST_CASE("What is forgotten in time does not show in the decimation, whatever t
         {
             OnsetDecimator decimator(fs, 50);
             std::vector<double> base, stage;
-            std::ptrdiff_t baseRead = 0;
-            std::ptrdiff_t stageRead = 0;
+            std::int64_t baseRead = 0;
+            std::int64_t stageRead = 0;
             for (std::ptrdiff_t i = 0; i < std::ssize(x); i += piece)
             {
                 decimator.push(x.data() + i, 1, std::min(piece, std::ssize(x) - i), 0.0f);
@@ -175,14 +176,14 @@ TEST_CASE("Low and high parts of every octave add up, and pieces do not show", "
     OnsetOctaves expected;
     std::copy(x.begin(), x.end(), whole.extend(6000));
     expected.extend(whole);
-    for (std::ptrdiff_t i = 0; i < expected.high(0).end(); ++i)
+    for (std::int64_t i = 0; i < expected.high(0).end(); ++i)
         REQUIRE(*expected.high(0).at(i) + *expected.low().at(i) == Approx(x[static_cast<std::size_t>(i)]).margin(1e-6));
 
     for (const std::ptrdiff_t piece : {8, 100, 1111})
     {
         SlidingBuffer<float> base(32);
         OnsetOctaves octaves;
-        std::ptrdiff_t next = 0;
+        std::int64_t next = 0;
         bool same = true;
         for (std::ptrdiff_t i = 0; i < 6000; i += piece)
         {

@@ -198,7 +198,7 @@ public:
         held = std::max(held * decay, newest.empty() ? Knee::startSquared : newest.largest());
         if (held != before)
             target = gainOf(held == before * decay);
-        unity = target == 1.0 ? unity + 1 : 0;
+        unity = target == 1.0 ? std::min(unity + 1, length) : 0;
 
         sum += target - window[position];
         window[position] = target;

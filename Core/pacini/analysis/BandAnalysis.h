@@ -173,7 +173,7 @@ public:
 
     /// Starts over with a sound of `channels` channels. Room for `expected` samples of it, 4 hours at most, spares the
     /// results from being moved, and memory from holding them twice, while they grow; they may become longer.
-    void reset(std::size_t channels, std::size_t expected = 0)
+    void reset(std::size_t channels, std::uint64_t expected = 0)
     {
         pending.assign(channels, {});
         blockStart = 0;
@@ -210,10 +210,7 @@ public:
     }
 
     /// Values of the envelope that finish() will have found in all.
-    [[nodiscard]] std::size_t envelopeFrames() const noexcept
-    {
-        return static_cast<std::size_t>(framesEvery(BandAnalysisResult::envelopeStep));
-    }
+    [[nodiscard]] std::int64_t envelopeFrames() const noexcept { return framesEvery(BandAnalysisResult::envelopeStep); }
 
     /// What is complete by now; taken from its front, it is not kept.
     [[nodiscard]] BandAnalysisResult& found() noexcept { return output; }
@@ -451,7 +448,7 @@ private:
 
     std::vector<std::vector<float>> pending; // samples of each channel from blockStart on
     std::int64_t blockStart = 0;
-    std::size_t received = 0;
+    std::uint64_t received = 0;
     BandAnalysisResult output;
 
     std::vector<float> block;

@@ -3,6 +3,7 @@
 // Time constants: times as numbers of frames and as poles of a one-pole smoother.
 
 #include <pacini/foundation/Clamp.h>
+#include <pacini/foundation/SizeInMemory.h>
 #include <pacini/foundation/Units.h>
 
 #include <cmath>
@@ -19,11 +20,12 @@ enum class DecayDefinition
 };
 
 /// Number of frames of a duration, to the nearest integer (Weber 2020, Eq. 4.5). Ties go up, also when the value in
-/// seconds has been rounded down by its last digit. NaN and negative times give 0; the largest count is 2^53.
+/// seconds has been rounded down by its last digit. NaN and negative times give 0; the largest count is 2^53, or that
+/// of std::size_t.
 [[nodiscard]] inline std::size_t roundedFrames(Seconds time, double fs) noexcept
 {
     const double frames = time.frames(fs);
-    return static_cast<std::size_t>(std::floor(clampTo(frames + frames * 1e-12, 0.0, 0x1.0p53) + 0.5));
+    return sizeInMemory(std::floor(clampTo(frames + frames * 1e-12, 0.0, 0x1.0p53) + 0.5));
 }
 
 /// The pole of the one-pole smoother for a time of `frames` (Weber 2020, Eq. 4.6); 0 for 0 frames.

@@ -16,6 +16,7 @@
 #include <pacini/clip/Clip.h>
 #include <pacini/clip/PackedClip.h>
 #include <pacini/foundation/DspBlock.h>
+#include <pacini/foundation/SizeInMemory.h>
 
 #include <algorithm>
 #include <cmath>
@@ -60,7 +61,7 @@ inline void holdDownBetween(std::span<const Onset> onsets, std::span<const Train
 {
     const auto frameOf = [&](double time)
     {
-        return std::min(envelope.size(), static_cast<std::size_t>(std::max(0.0, std::ceil(time / step))));
+        return std::min(envelope.size(), sizeInMemory(std::ceil(time / step)));
     };
     auto train = trains.begin();
     for (std::size_t i = 0; i + 1 < onsets.size(); ++i)
@@ -116,7 +117,7 @@ public:
         const double expected = static_cast<double>(expectedFrames) / fs;
         const double longest = SoundSection::seconds + SoundSection::secondsAhead + 10.0;
         const double kept = knownScale ? std::min(expected, longest) : expected;
-        analysis.reset(channelCount, static_cast<std::size_t>(kept * analysisRate));
+        analysis.reset(channelCount, static_cast<std::uint64_t>(kept * analysisRate));
         fitter.expect(expected);
         features.emplace(fs, channelCount);
         detector.emplace(settings.onsets);
@@ -149,7 +150,7 @@ public:
         analysis.push(input.channels());
         features->finish();
         detectOnsets();
-        const std::size_t values = analysis.envelopeFrames();
+        const std::int64_t values = analysis.envelopeFrames();
         BandAnalysisResult rest = analysis.finish();
         const std::vector<Onset> onsets = detector->finish();
         if (heard)
@@ -270,7 +271,7 @@ private:
     std::optional<Heard> heard;
     int fs = 0;
     std::size_t channelCount = 1;
-    std::size_t frames = 0;
+    std::uint64_t frames = 0;
     std::optional<SoundScale> knownScale;
     int sections = 0; // added to the clip
     Clip clip;

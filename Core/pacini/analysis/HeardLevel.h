@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <numbers>
 #include <span>
 #include <vector>
@@ -40,7 +41,7 @@ public:
         for (const OnsetFrame& frame : frames)
         {
             recent.push_back(next(frame));
-            while (windowEnd() <= start + recent.size())
+            while (windowEnd() <= received())
                 emit();
         }
     }
@@ -52,18 +53,18 @@ public:
     void drop(std::size_t count)
     {
         values.erase(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(count));
-        dropped += count;
+        dropped += static_cast<std::int64_t>(count);
     }
 
     /// Completes found() to `count` values in all, more than were dropped; after the last frame comes nothing. None for
     /// a sound without frames.
-    void finish(std::size_t count)
+    void finish(std::int64_t count)
     {
-        if (start + recent.size() == 0)
+        if (received() == 0)
             return;
-        while (dropped + values.size() < count)
+        while (dropped + std::ssize(values) < count)
             emit();
-        values.resize(count - dropped);
+        values.resize(static_cast<std::size_t>(count - dropped));
     }
 
 private:
@@ -138,30 +139,33 @@ private:
     static constexpr double reach = BandAnalysisResult::envelopeStep * OnsetFrame::rate; // half the window
     static constexpr auto windowSize = static_cast<std::size_t>(4.0 * reach) + 3;
 
+    /// Frames so far.
+    [[nodiscard]] std::int64_t received() const noexcept { return start + std::ssize(recent); }
+
     [[nodiscard]] double centre() const noexcept
     {
-        return reach * static_cast<double>(dropped + values.size()) + delay;
+        return reach * static_cast<double>(dropped + std::ssize(values)) + delay;
     }
     /// The first frame after the window of the coming value.
-    [[nodiscard]] std::size_t windowEnd() const noexcept
+    [[nodiscard]] std::int64_t windowEnd() const noexcept
     {
-        return static_cast<std::size_t>(std::ceil(centre() + reach));
+        return static_cast<std::int64_t>(std::ceil(centre() + reach));
     }
 
     /// The mean under a Hann window of 10 ms.
     void emit()
     {
         const double middle = centre();
-        const auto first = static_cast<std::size_t>(std::max(0.0, std::floor(middle - reach)));
-        const std::size_t end = std::min(windowEnd(), start + recent.size());
+        const auto first = static_cast<std::int64_t>(std::max(0.0, std::floor(middle - reach)));
+        const std::int64_t end = std::min(windowEnd(), received());
         Values sum{};
         double total = 0.0;
-        for (std::size_t k = std::max(first, start); k < end; ++k)
+        for (std::int64_t k = std::max(first, start); k < end; ++k)
         {
             const double w = window[static_cast<std::size_t>(2.0 * (static_cast<double>(k) + 0.5 - middle + reach))];
             total += w;
             for (std::size_t v = 0; v < valueCount; ++v)
-                sum[v] += w * recent[k - start][v];
+                sum[v] += w * recent[static_cast<std::size_t>(k - start)][v];
         }
         HeardFrame frame;
         if (total > 0.0)
@@ -169,7 +173,7 @@ private:
                      static_cast<float>(sum[2] / total), static_cast<float>(sum[3] / total),
                      static_cast<float>(sum[4] / total)};
         values.push_back(frame);
-        const std::size_t unused = std::min(first > start ? first - start : 0, recent.size());
+        const std::int64_t unused = std::clamp<std::int64_t>(first - start, 0, std::ssize(recent));
         if (unused < 4096)
             return;
         recent.erase(recent.begin(), recent.begin() + static_cast<std::ptrdiff_t>(unused));
@@ -193,9 +197,9 @@ private:
     std::array<double, windowSize> window = hann();
     std::array<Memory, 3> memory{}; // of the first values
     std::vector<Values> recent;     // frames from number `start` on
-    std::size_t start = 0;
+    std::int64_t start = 0;
     std::vector<HeardFrame> values; // from number `dropped` on
-    std::size_t dropped = 0;
+    std::int64_t dropped = 0;
 };
 
 } // namespace pacini

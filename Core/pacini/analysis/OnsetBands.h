@@ -12,6 +12,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <numbers>
 #include <vector>
 
@@ -46,16 +47,16 @@ public:
     /// the end itself looking like an event.
     void mirrorEnd()
     {
-        const std::ptrdiff_t end = decimator.input().end();
+        const std::int64_t end = decimator.input().end();
         std::vector<float> mirrored(static_cast<std::size_t>(mirrorLength));
-        for (std::ptrdiff_t i = 0; i < std::min(mirrorLength, end); ++i)
+        for (std::ptrdiff_t i = 0; i < std::min<std::int64_t>(mirrorLength, end); ++i)
             mirrored[static_cast<std::size_t>(i)] = *decimator.input().at(end - 1 - i);
         push(mirrored.data(), 1, mirrorLength, 0.0f);
     }
 
     /// Adds `weight` times the powers of the frames that are complete, at most `limit` frames in all, to `frames`,
     /// whose element 0 is frame `first`; grows `frames` as needed. Returns the index after the last frame.
-    std::ptrdiff_t emit(std::vector<OnsetFrame>& frames, std::ptrdiff_t first, std::ptrdiff_t limit, float weight)
+    std::int64_t emit(std::vector<OnsetFrame>& frames, std::int64_t first, std::int64_t limit, float weight)
     {
         for (; next < limit && complete(next); ++next)
         {
@@ -77,28 +78,28 @@ private:
     struct Samples
     {
         double perFrame = 0.0;
-        std::ptrdiff_t begin = 0;
-        std::ptrdiff_t end = 0;
+        std::int64_t begin = 0;
+        std::int64_t end = 0;
 
         explicit Samples(double rate) : perFrame(rate / OnsetFrame::rate), end(start(1)) {}
 
-        [[nodiscard]] std::ptrdiff_t start(std::ptrdiff_t frame) const noexcept
+        [[nodiscard]] std::int64_t start(std::int64_t frame) const noexcept
         {
             const double position = static_cast<double>(frame) * perFrame;
-            const auto whole = static_cast<std::ptrdiff_t>(position);
+            const auto whole = static_cast<std::int64_t>(position);
             return whole + (static_cast<double>(whole) < position ? 1 : 0); // the ceiling, without a library call
         }
 
-        void advanceTo(std::ptrdiff_t frame) noexcept
+        void advanceTo(std::int64_t frame) noexcept
         {
             begin = end;
             end = start(frame + 1);
         }
 
-        [[nodiscard]] std::ptrdiff_t count() const noexcept { return end - begin; }
+        [[nodiscard]] std::ptrdiff_t count() const noexcept { return static_cast<std::ptrdiff_t>(end - begin); }
     };
 
-    [[nodiscard]] bool complete(std::ptrdiff_t frame) const noexcept
+    [[nodiscard]] bool complete(std::int64_t frame) const noexcept
     {
         return frame + pitchFrames + 2 <= octaves.lowest().end() && inputSamples.end <= decimator.input().end() &&
                stageSamples.end + 1 <= decimator.stage().end();
@@ -109,7 +110,7 @@ private:
 
     void add(OnsetFrame& frame, float weight)
     {
-        const std::ptrdiff_t k = next;
+        const std::int64_t k = next;
         const double mean = static_cast<double>(detail::sumOfEight(decimator.base().at(8 * k))) / 8.0;
         dc += dcCoefficient * (mean - dc);
         const float squares = detail::sumOfSquares(decimator.input().at(inputSamples.begin), inputSamples.count());
@@ -152,7 +153,7 @@ private:
     }
 
     /// <x^2>/<x'^2> of the lowest band over 33 frames around frame k.
-    double squaredPeriod(std::ptrdiff_t k)
+    double squaredPeriod(std::int64_t k)
     {
         for (; measured < k + pitchFrames + 1; ++measured)
         {
@@ -176,10 +177,10 @@ private:
     Samples stageSamples;
     float bendScale = 1.0f;
 
-    std::ptrdiff_t next = 0; ///< the frame to come
+    std::int64_t next = 0; ///< the frame to come
     double dcCoefficient = 0.0;
     double dc = 0.0; ///< of the full band, slowly following
-    std::ptrdiff_t measured = 0;
+    std::int64_t measured = 0;
     std::array<std::array<double, 2>, 2 * pitchFrames + 1> pitchSquares{};
     std::array<double, 2> pitchSums{};
 };

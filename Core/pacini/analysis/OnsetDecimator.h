@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <numbers>
 #include <vector>
 
@@ -62,12 +63,12 @@ public:
     [[nodiscard]] double stageRate() const noexcept { return stageFs; }
 
     /// Declares that nothing before these indices will be read again.
-    void forget(std::ptrdiff_t inputBefore, std::ptrdiff_t stageBefore, std::ptrdiff_t baseBefore)
+    void forget(std::int64_t inputBefore, std::int64_t stageBefore, std::int64_t baseBefore)
     {
         // Each signal also keeps what the next one still reads.
-        const auto resampled = static_cast<std::ptrdiff_t>(static_cast<double>(baseSamples.end()) * stageFs / baseRate);
-        const std::ptrdiff_t staged = std::min(stageBefore, resampled - taps / 2) - 4;
-        const std::ptrdiff_t halved = stages.empty() ? staged : 2 * stages.front().end() - 4;
+        const auto resampled = static_cast<std::int64_t>(static_cast<double>(baseSamples.end()) * stageFs / baseRate);
+        const std::int64_t staged = std::min(stageBefore, resampled - taps / 2) - 4;
+        const std::int64_t halved = stages.empty() ? staged : 2 * stages.front().end() - 4;
         inputSamples.forget(std::min({inputBefore, halved, inputSamples.end() - keptInput}));
         for (std::size_t i = 0; i + 1 < stages.size(); ++i)
             stages[i].forget(2 * stages[i + 1].end() - 4);
@@ -119,9 +120,9 @@ private:
         const SlidingBuffer<float>* from = &inputSamples;
         for (SlidingBuffer<float>& to : stages)
         {
-            const std::ptrdiff_t begin = to.end();
-            const std::ptrdiff_t count = from->end() / 2 - begin; // the last needs its right neighbour
-            if (count <= 0)
+            const std::int64_t begin = to.end();
+            const std::ptrdiff_t count = to.missingTo(from->end() / 2); // the last needs its right neighbour
+            if (count == 0)
                 return;
             float* y = to.extend(count);
             const float* x = from->at(2 * begin);
@@ -134,18 +135,18 @@ private:
     void resample()
     {
         const SlidingBuffer<float>& from = stage();
-        const std::ptrdiff_t begin = baseSamples.end();
+        const std::int64_t begin = baseSamples.end();
         const double step = stageFs / baseRate;
         const auto ready = static_cast<double>(from.end() - taps / 2 - 2);
-        const std::ptrdiff_t count = static_cast<std::ptrdiff_t>(std::floor(ready / step)) - begin;
-        if (count <= 0)
+        const std::ptrdiff_t count = baseSamples.missingTo(static_cast<std::int64_t>(std::floor(ready / step)));
+        if (count == 0)
             return;
         float* y = baseSamples.extend(count);
         for (std::ptrdiff_t i = 0; i < count; ++i)
         {
             const double position = static_cast<double>(begin + i) * step * static_cast<double>(phases);
-            const auto place = static_cast<std::ptrdiff_t>(position + 0.5);
-            const std::ptrdiff_t whole = place / phases;
+            const auto place = static_cast<std::int64_t>(position + 0.5);
+            const std::int64_t whole = place / phases;
             const float* filter = table.data() + (place % phases) * taps;
             y[i] = detail::dotOfFours(from.at(whole - taps / 2 + 1), filter, taps);
         }

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <span>
 #include <vector>
@@ -61,7 +62,7 @@ public:
     explicit OnsetDetector(const OnsetParams& onsetParams = {})
         : params(onsetParams),
           scores(std::clamp(params.sensitivity, 0.25, 4.0)),
-          gap(static_cast<std::ptrdiff_t>(std::ceil(params.minimumGap.frames(OnsetFrame::rate) - 1e-9)))
+          gap(static_cast<std::int64_t>(std::ceil(params.minimumGap.frames(OnsetFrame::rate) - 1e-9)))
     {
     }
 
@@ -85,7 +86,7 @@ public:
 private:
     struct Peak
     {
-        std::ptrdiff_t frame = 0;
+        std::int64_t frame = 0;
         float salience = 0.0f;
     };
 
@@ -103,7 +104,7 @@ private:
         for (; measured < peaks.size() && peaks[measured].frame + measureReach <= searched; ++measured)
         {
             const Peak& peak = peaks[measured];
-            const std::ptrdiff_t next = measured + 1 < peaks.size() ? peaks[measured + 1].frame : searched;
+            const std::int64_t next = measured + 1 < peaks.size() ? peaks[measured + 1].frame : searched;
             onsets.push_back(measureOnset(frames.at(peak.frame), peak.frame, next));
             onsets.back().salience = static_cast<double>(peak.salience);
         }
@@ -123,13 +124,13 @@ private:
 
     OnsetParams params;
     OnsetSalience scores;
-    std::ptrdiff_t gap; ///< frames
+    std::int64_t gap; ///< frames
     SlidingBuffer<OnsetFrame> frames{OnsetSalience::history};
     SlidingBuffer<float> salience{peakReach};
     std::vector<Peak> peaks;
     std::size_t measured = 0; ///< of `peaks`, as many as `onsets`
     std::vector<Onset> onsets;
-    std::ptrdiff_t searched = 0; ///< all peaks before this frame are known
+    std::int64_t searched = 0; ///< all peaks before this frame are known
 };
 
 /// The onsets of `interleaved` samples of `channelCount` channels at `sampleRate` Hz (2-768 kHz), in order of time. All

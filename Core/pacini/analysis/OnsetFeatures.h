@@ -9,6 +9,7 @@
 #include <cassert>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <span>
 #include <vector>
@@ -54,7 +55,7 @@ public:
             start();
         if (length == 0)
             return;
-        const auto limit = static_cast<std::ptrdiff_t>(std::ceil(static_cast<double>(length) * OnsetFrame::rate / fs));
+        const auto limit = static_cast<std::int64_t>(std::ceil(static_cast<double>(length) * OnsetFrame::rate / fs));
         for (OnsetBands& channel : channels)
             channel.mirrorEnd();
         emit(limit);
@@ -67,7 +68,7 @@ public:
     void drop(std::size_t count)
     {
         ready.erase(ready.begin(), ready.begin() + static_cast<std::ptrdiff_t>(count));
-        dropped += static_cast<std::ptrdiff_t>(count);
+        dropped += static_cast<std::int64_t>(count);
     }
 
 private:
@@ -102,11 +103,11 @@ private:
                 channels[c].push(block + c, static_cast<std::ptrdiff_t>(stride), static_cast<std::ptrdiff_t>(n),
                                  offsets[c]);
             length += n;
-            emit(std::numeric_limits<std::ptrdiff_t>::max());
+            emit(std::numeric_limits<std::int64_t>::max());
         }
     }
 
-    void emit(std::ptrdiff_t limit)
+    void emit(std::int64_t limit)
     {
         const float weight = 1.0f / static_cast<float>(channels.size());
         for (OnsetBands& channel : channels)
@@ -119,8 +120,8 @@ private:
     std::vector<float> offsets; ///< DC of each channel
     std::vector<float> head;    ///< samples before the start
     std::vector<OnsetFrame> ready;
-    std::ptrdiff_t dropped = 0;
-    std::size_t length = 0; ///< samples per channel so far
+    std::int64_t dropped = 0;
+    std::uint64_t length = 0; ///< samples per channel so far
     bool started = false;
 };
 

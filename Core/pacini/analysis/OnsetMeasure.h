@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 
 namespace pacini
 {
@@ -29,7 +30,7 @@ namespace detail
 /// amplitude is reached, the first frame that stands out from the background before, that is exceeds 8 % of the peak
 /// amplitude and 2.5 times the background's median (but at most half the peak). `frame` must have 17 frames before it
 /// and 9 after; it does not go back beyond `index` frames, the frame's distance from the start of the sound.
-inline std::ptrdiff_t attackStart(const OnsetFrame* frame, std::ptrdiff_t index)
+inline std::ptrdiff_t attackStart(const OnsetFrame* frame, std::int64_t index)
 {
     float peak = 0.0f;
     for (std::ptrdiff_t j = -3; j < 9; ++j)
@@ -42,7 +43,7 @@ inline std::ptrdiff_t attackStart(const OnsetFrame* frame, std::ptrdiff_t index)
         background[i] = frame[start - 14 + static_cast<std::ptrdiff_t>(i)].power;
     std::nth_element(background.begin(), background.begin() + 5, background.end());
     const float threshold = std::max(0.0064f * peak, std::min(6.25f * background[5], 0.25f * peak));
-    const std::ptrdiff_t earliest = std::max(start - 9, -index);
+    const std::int64_t earliest = std::max<std::int64_t>(start - 9, -index);
     while (start > earliest && frame[start - 1].power > threshold)
         --start;
     return start;
@@ -85,7 +86,7 @@ inline double sharpness(const OnsetFrame* start)
 /// The event around `frame`, which is frame number `index` and has 26 frames before it and 24 after it in memory. Its
 /// amplitudes, sqrt(2 P) with P the greatest power over 5.6 ms, are looked for before frame `nextEvent` of the sound
 /// and within 24 ms. The time is exact to a fraction of a frame where the sound sets in suddenly.
-[[nodiscard]] inline Onset measureOnset(const OnsetFrame* frame, std::ptrdiff_t index, std::ptrdiff_t nextEvent)
+[[nodiscard]] inline Onset measureOnset(const OnsetFrame* frame, std::int64_t index, std::int64_t nextEvent)
 {
     const std::ptrdiff_t offset = detail::attackStart(frame, index);
     const OnsetFrame* start = frame + offset;
@@ -98,7 +99,7 @@ inline double sharpness(const OnsetFrame* start)
     if (index + offset > 0)
         onset.time = (static_cast<double>(index + offset) + empty) / OnsetFrame::rate;
 
-    const std::ptrdiff_t end = std::min<std::ptrdiff_t>(22, nextEvent - index);
+    const auto end = static_cast<std::ptrdiff_t>(std::min<std::int64_t>(22, nextEvent - index));
     const std::ptrdiff_t count = std::max<std::ptrdiff_t>(end - offset + 1, 6);
     onset.amplitude =
         std::sqrt(2.0 * detail::greatestPower(start - 1, count, [](const OnsetFrame& f) { return f.power; }));

@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <numbers>
 
 namespace pacini
@@ -48,10 +49,10 @@ public:
 
     /// Declares that nothing before frame `next`, and 4 samples before it in any signal, will be read again. Returns
     /// the index before which the base signal is not needed.
-    std::ptrdiff_t forget(std::ptrdiff_t next)
+    std::int64_t forget(std::int64_t next)
     {
         // Each signal keeps what the next one and the coming frame read.
-        const std::ptrdiff_t baseBefore = std::min(lows[0].end() - 4, 8 * next);
+        const std::int64_t baseBefore = std::min(lows[0].end() - 4, 8 * next);
         lows[0].forget(std::min(lows[1].end() - 8, 8 * next));
         for (std::size_t i = 0; i < halves.size(); ++i)
         {
@@ -73,9 +74,9 @@ private:
     /// complement; with `step` 2 the edge is at an eighth of the rate instead of a quarter.
     static void split(const Signal& from, std::ptrdiff_t step, Signal& lowTo, Signal& highTo)
     {
-        const std::ptrdiff_t begin = lowTo.end();
-        const std::ptrdiff_t count = from.end() - 3 * step - begin;
-        if (count <= 0)
+        const std::int64_t begin = lowTo.end();
+        const std::ptrdiff_t count = lowTo.missingTo(from.end() - 3 * step);
+        if (count == 0)
             return;
         const float* x = from.at(begin);
         const float* l1 = x - step;
@@ -95,9 +96,9 @@ private:
 
     static void decimate(const Signal& from, Signal& to)
     {
-        const std::ptrdiff_t begin = to.end();
-        const std::ptrdiff_t count = (from.end() + 1) / 2 - begin;
-        if (count <= 0)
+        const std::int64_t begin = to.end();
+        const std::ptrdiff_t count = to.missingTo((from.end() + 1) / 2);
+        if (count == 0)
             return;
         float* y = to.extend(count);
         const float* x = from.at(2 * begin);
@@ -108,9 +109,9 @@ private:
     /// The lowest band without DC: a one-pole high-pass at 6 Hz.
     void removeDrift()
     {
-        const std::ptrdiff_t begin = rest.end();
-        const std::ptrdiff_t count = lows.back().end() - begin;
-        if (count <= 0)
+        const std::int64_t begin = rest.end();
+        const std::ptrdiff_t count = rest.missingTo(lows.back().end());
+        if (count == 0)
             return;
         float* y = rest.extend(count);
         const float* x = lows.back().at(begin);

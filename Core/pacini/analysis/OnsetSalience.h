@@ -52,9 +52,9 @@ public:
     void extend(const SlidingBuffer<OnsetFrame>& frames, SlidingBuffer<float>& salience)
     {
         extendLoudness(frames);
-        const std::ptrdiff_t begin = salience.end();
-        const std::ptrdiff_t count = frames.end() - lookAhead - begin;
-        if (count <= 0)
+        const std::int64_t begin = salience.end();
+        const std::ptrdiff_t count = salience.missingTo(frames.end() - lookAhead);
+        if (count == 0)
             return;
         float* out = salience.extend(count);
         for (std::ptrdiff_t i = 0; i < count; ++i)
@@ -96,9 +96,9 @@ private:
 
     void extendLoudness(const SlidingBuffer<OnsetFrame>& frames)
     {
-        const std::ptrdiff_t begin = loudness.end();
-        const std::ptrdiff_t count = frames.end() - window + 1 - begin;
-        if (count <= 0)
+        const std::int64_t begin = loudness.end();
+        const std::ptrdiff_t count = loudness.missingTo(frames.end() - window + 1);
+        if (count == 0)
             return;
         Row* rows = loudness.extend(count);
         float* sums = sum.extend(count);
@@ -119,7 +119,7 @@ private:
     }
 
     /// The salience of frame k; called for every k in turn, because the masks run along.
-    float next(const SlidingBuffer<OnsetFrame>& frames, std::ptrdiff_t k)
+    float next(const SlidingBuffer<OnsetFrame>& frames, std::int64_t k)
     {
         const Row& now = *loudness.at(k);
         const Row& before = *loudness.at(k - window);
@@ -148,7 +148,7 @@ private:
         return std::max(bandsRise ? fromBands(k, hum) : 0.0f, totalRises ? fromTotal(frame, latest, hum) : 0.0f);
     }
 
-    [[nodiscard]] float fromBands(std::ptrdiff_t k, float hum) const
+    [[nodiscard]] float fromBands(std::int64_t k, float hum) const
     {
         const Row& now = *loudness.at(k);
         const Row& before = *loudness.at(k - window);
@@ -182,10 +182,10 @@ private:
 
     /// The same for a low tone under way, whose ticks (the edges of a saw wave at 20-60 Hz) are no events: near 1 where
     /// the lowest band of the last 50 ms, 6 dB up, reaches the power of the frame; falls with its cube.
-    [[nodiscard]] static float humAt(const SlidingBuffer<OnsetFrame>& frames, std::ptrdiff_t k)
+    [[nodiscard]] static float humAt(const SlidingBuffer<OnsetFrame>& frames, std::int64_t k)
     {
         const OnsetFrame* frame = frames.at(k);
-        const std::ptrdiff_t reach = std::min(humBefore, k);
+        const auto reach = static_cast<std::ptrdiff_t>(std::min<std::int64_t>(humBefore, k));
         float before = 0.0f;
         for (std::ptrdiff_t j = 1; j <= reach; ++j)
             before += frame[-j].bands[0];

@@ -11,6 +11,7 @@
 #include <pacini/analysis/OnsetFeatures.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <span>
 
@@ -53,7 +54,7 @@ public:
     {
         input.finish();
         analysis.push(input.channels());
-        const std::size_t values = analysis.envelopeFrames();
+        const std::int64_t values = analysis.envelopeFrames();
         const double peak = analysis.finish().peak;
         if (!heard)
             return {peak, 0.0, 0.0};

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <type_traits>
@@ -49,7 +50,7 @@ struct TransientDetectorParams
 /// An event: the frame (counted from reset) and the level |x| of its peak.
 struct DetectedTransient
 {
-    std::size_t frame = 0;
+    std::uint64_t frame = 0;
     double amplitude = 0.0;
     bool operator==(const DetectedTransient&) const = default;
 };
@@ -116,7 +117,7 @@ private:
 
     struct Window
     {
-        std::size_t begin = 0;
+        std::uint64_t begin = 0;
         bool running = true; ///< the score is still above the threshold
         DetectedTransient peak;
     };
@@ -141,7 +142,7 @@ private:
             if (level > window.peak.amplitude)
                 window.peak = {now, level};
 
-        const std::size_t earliestNext = open.empty() ? now + 1 : open.front().begin;
+        const std::uint64_t earliestNext = open.empty() ? now + 1 : open.front().begin;
         if (pending && pending->frame + distanceFrames <= earliestNext)
             emitPending(sink);
     }
@@ -177,7 +178,7 @@ private:
     FixedVector<Window, 32> open; ///< in order of their begin
     std::optional<DetectedTransient> pending;
     bool active = false;
-    std::size_t now = 0;
+    std::uint64_t now = 0;
 };
 
 /// The events of a whole signal in order of time; fs in Hz. Empty for an empty or silent signal.

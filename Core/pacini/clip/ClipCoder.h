@@ -10,6 +10,7 @@
 #include <pacini/clip/PackedCurves.h>
 #include <pacini/clip/PackedText.h>
 #include <pacini/clip/Quantiser.h>
+#include <pacini/foundation/SizeInMemory.h>
 
 #include <algorithm>
 #include <array>
@@ -45,7 +46,7 @@ public:
         : coder(coderToUse),
           params(packParams),
           grids(params),
-          maxPoints(std::min(limits::points, pointsPerByte * (inputBytes + 8)))
+          maxPoints(std::min(limits::points, sizeInMemory(std::uint64_t{pointsPerByte} * (inputBytes + 8))))
     {
     }
 
@@ -223,7 +224,7 @@ private:
 
     void codeBandFrequencies(std::vector<Band>& bands)
     {
-        const auto count = static_cast<std::size_t>(number(bands.size(), 12.0));
+        const std::size_t count = sizeInMemory(number(bands.size(), 12.0));
         if (count > limits::bands)
         {
             failed = true;
@@ -272,8 +273,7 @@ private:
 
     void codeTransients(Clip& clip)
     {
-        auto count = static_cast<std::size_t>(number(clip.transients.size(), 4.0));
-        count = std::min(count, maxPoints - points);
+        const std::size_t count = std::min(sizeInMemory(number(clip.transients.size(), 4.0)), maxPoints - points);
         AdaptiveNumber gaps(300.0);
         AdaptiveSignedNumber amplitudes(4.0), sharps(4.0);
         std::int64_t tick = 0, level = 0, sharp = 0;
@@ -299,7 +299,7 @@ private:
 
     void codeNoise(Clip& clip)
     {
-        const auto count = static_cast<std::size_t>(number(clip.noise.size(), 0.1));
+        const std::size_t count = sizeInMemory(number(clip.noise.size(), 0.1));
         if (count > limits::bands)
             failed = true;
         if (failed)
@@ -322,8 +322,7 @@ private:
     {
         ClipTexts<Coder> texts(coder);
         texts.codeClip(clip);
-        auto count = static_cast<std::size_t>(number(clip.markers.size(), 0.1));
-        count = std::min(count, maxPoints - points);
+        const std::size_t count = std::min(sizeInMemory(number(clip.markers.size(), 0.1)), maxPoints - points);
         AdaptiveNumber gaps(300.0);
         std::int64_t tick = 0;
         for (std::size_t i = 0; i < count; ++i)

@@ -4,6 +4,7 @@
 
 #include <pacini/foundation/DotProduct.h>
 #include <pacini/foundation/Result.h>
+#include <pacini/foundation/SizeInMemory.h>
 
 #include <algorithm>
 #include <array>
@@ -79,7 +80,7 @@ namespace detail
 [[nodiscard]] inline std::size_t resampledFrames(std::size_t inputs, std::int64_t inputRate,
                                                  std::int64_t outputRate) noexcept
 {
-    return static_cast<std::size_t>((static_cast<std::int64_t>(inputs) * outputRate + inputRate - 1) / inputRate);
+    return sizeInMemory((static_cast<std::int64_t>(inputs) * outputRate + inputRate - 1) / inputRate);
 }
 
 /// Converts between two integer rates by a polyphase FIR filter. It is the filter that

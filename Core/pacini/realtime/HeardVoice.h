@@ -14,6 +14,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <numbers>
 #include <span>
 
@@ -180,8 +181,8 @@ private:
     double felt = 0.0;                // level of the sinusoid
     double taken = 0.0;               // share
     double pitch = lowestPitch;
-    int alike = 0; // pairs of gaps so far
-    std::size_t sinceEvent = 0;
+    int alike = 0;                    // pairs of gaps so far
+    std::uint64_t sinceEvent = 0;     // control hops
     double gap = 0.0, strength = 0.0; // of the newest event
     double train = 0.0;               // 1 within an even train
 };

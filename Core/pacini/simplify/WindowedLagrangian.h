@@ -10,6 +10,7 @@
 #include <cassert>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace pacini
@@ -106,7 +107,7 @@ private:
         const DenseSamples samples{values, times, {}};
         const double wholeError = squaredError(samples, 0, samples.size() - 1);
         const double left = 2.0 + std::floor(rate * static_cast<double>(received)) - static_cast<double>(decided);
-        const auto allowed = static_cast<std::size_t>(std::max(left, 1.0)) + 1; // and the vertex already decided
+        const auto allowed = static_cast<std::uint64_t>(std::max(left, 1.0)) + 1; // and the vertex already decided
         // The first guess is on the cheap side: the search below only raises it. It stays 0 in silence.
         if (price <= 0.0)
             price = 1e-3 * wholeError / static_cast<double>(allowed);
@@ -137,8 +138,8 @@ private:
     LagrangianSegmenter segmenter;
     std::vector<double> times, values; ///< from the last vertex decided to the newest point
     KeptPoints plan;                   ///< the best path, as places in the window
-    std::size_t received = 0;
-    std::size_t decided = 0;
+    std::uint64_t received = 0;
+    std::uint64_t decided = 0;
     double price = 0.0; ///< per point, in squared value units
     double highestPrice = 0.0;
 };

@@ -8,6 +8,7 @@
 #include <pacini/filters/PolyphaseInterpolator.h>
 #include <pacini/foundation/Clamp.h>
 #include <pacini/foundation/DspBlock.h>
+#include <pacini/foundation/SizeInMemory.h>
 #include <pacini/foundation/Units.h>
 #include <pacini/synthesis/CarrierBank.h>
 #include <pacini/synthesis/DecoderParams.h>
@@ -210,7 +211,7 @@ public:
         {
             if (readyFrom == ready.size())
                 makeHop();
-            const auto left = static_cast<std::size_t>(endFrame - position) - done;
+            const std::size_t left = sizeInMemory(endFrame - position - static_cast<std::int64_t>(done));
             const std::size_t n = std::min({out.size() - done, ready.size() - readyFrom, left});
             std::copy_n(ready.begin() + static_cast<std::ptrdiff_t>(readyFrom), n,
                         out.begin() + static_cast<std::ptrdiff_t>(done));
@@ -239,7 +240,7 @@ public:
         {
             if (readyFrom == ready.size())
                 goOn(gains, done);
-            const auto left = static_cast<std::size_t>(endFrame - position) - done;
+            const std::size_t left = sizeInMemory(endFrame - position - static_cast<std::int64_t>(done));
             std::size_t n = std::min({out.size() - done, ready.size() - readyFrom, left});
             if (quiet)
             {

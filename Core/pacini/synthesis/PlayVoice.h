@@ -6,6 +6,7 @@
 #include <pacini/foundation/Clamp.h>
 #include <pacini/foundation/DspBlock.h>
 #include <pacini/foundation/Glide.h>
+#include <pacini/foundation/SizeInMemory.h>
 #include <pacini/foundation/Units.h>
 #include <pacini/synthesis/Decoder.h>
 #include <pacini/synthesis/DelayTap.h>
@@ -201,7 +202,7 @@ public:
     {
         if (now <= reached)
             return;
-        const auto frames = static_cast<std::size_t>(now - reached);
+        const std::size_t frames = sizeInMemory(now - reached);
         for (Glide& fader : faders)
             fader.jump(frames);
         for (RoleFaders& role : roles)
@@ -278,7 +279,7 @@ public:
     /// Adds what sounds in the block. A voice that is `lone` in a block that has been cleared may overwrite it. [audio]
     void mix(const PlannedPlay& play, const MixTarget& target, bool lone, MixBuffers& buffers) noexcept
     {
-        const auto from = static_cast<std::size_t>(std::max<std::int64_t>(start - target.now, 0));
+        const std::size_t from = sizeInMemory(start - target.now);
         if (from >= target.frames)
             return;
         const std::size_t n = target.frames - from;

@@ -3,6 +3,7 @@
 // The way from a scene to samples: adjusted, planned, played part by part.
 
 #include <pacini/foundation/Result.h>
+#include <pacini/foundation/SizeInMemory.h>
 #include <pacini/synthesis/CompilePlan.h>
 #include <pacini/synthesis/RenderParams.h>
 #include <pacini/synthesis/RenderPlan.h>
@@ -261,7 +262,7 @@ struct RenderedScene
 
     [[nodiscard]] std::span<const float> channel(std::size_t actuator) const noexcept
     {
-        const auto frames = static_cast<std::size_t>(report.frames);
+        const std::size_t frames = sizeInMemory(report.frames);
         return std::span(samples).subspan(actuator * frames, frames);
     }
 };
@@ -275,7 +276,11 @@ public:
 
     [[nodiscard]] Result<void> begin(const RenderPlan& plan, std::uint64_t frames) override
     {
-        length = static_cast<std::size_t>(frames);
+        // Four bytes each, and copies of them: never all of the memory that a machine can address.
+        constexpr std::size_t most = std::numeric_limits<std::size_t>::max() / 10;
+        if (frames > most / plan.actuators)
+            return Error{ErrorCode::tooLarge, "", "makes more samples than fit into memory; choose a lower sample rate"};
+        length = sizeInMemory(frames);
         samples.resize(plan.actuators * length);
         return {};
     }

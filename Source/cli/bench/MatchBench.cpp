@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -42,7 +43,7 @@ HeardTrack estimatedTrack(std::span<const float> mono, int sampleRate)
     features.finish();
     take();
     const double duration = static_cast<double>(mono.size()) / sampleRate;
-    level.finish(static_cast<std::size_t>(duration / BandAnalysisResult::envelopeStep) + 2);
+    level.finish(static_cast<std::int64_t>(duration / BandAnalysisResult::envelopeStep) + 2);
     const auto frames = level.found();
     // matchParts() takes 3 values of delay out, which the estimate has not.
     constexpr double delay = 3.0 / HeardTrack::rate;

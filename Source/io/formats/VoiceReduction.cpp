@@ -2,6 +2,7 @@
 
 #include "io/formats/RootCurve.h"
 
+#include <pacini/foundation/SizeInMemory.h>
 #include <pacini/simplify/AnchoredCurve.h>
 #include <pacini/simplify/HatBasis.h>
 #include <pacini/simplify/Refit.h>
@@ -155,7 +156,7 @@ std::vector<Transient> transientsOf(const std::vector<Transient>& events, const 
 
 std::size_t pointCount(double perSecond, double duration)
 {
-    return std::max<std::size_t>(2, static_cast<std::size_t>(std::floor(perSecond * duration)));
+    return std::clamp<std::size_t>(sizeInMemory(std::floor(perSecond * duration)), 2, limits::points);
 }
 
 constexpr double halfStep = 0.5 * leastAmplitude; // of 8 bits
@@ -262,8 +263,8 @@ std::vector<double> strengthOf(const SingleVoice& voice, double step, double bur
         const Transient& event = voice.events[i];
         const double length = burstLength(voice.events, i, burst);
         // The nearest step: the one that it falls into may begin almost a step too early.
-        const auto first = static_cast<std::size_t>(std::lround(event.time / step));
-        const auto last = std::max(first + 1, static_cast<std::size_t>(std::lround((event.time + length) / step)));
+        const auto first = static_cast<std::size_t>(std::llround(event.time / step));
+        const auto last = std::max(first + 1, static_cast<std::size_t>(std::llround((event.time + length) / step)));
         for (std::size_t n = first; n < std::min(last, strength.size()); ++n)
             strength[n] = std::hypot(strength[n], event.amplitude);
     }
@@ -273,7 +274,7 @@ std::vector<double> strengthOf(const SingleVoice& voice, double step, double bur
 Curve thinned(const Curve& curve, double pointsPerSecond, double duration)
 {
     SimplifyParams params;
-    params.count = static_cast<std::size_t>(std::ceil(pointsPerSecond * std::max(duration, 0.1))) + 1;
+    params.count = std::min(sizeInMemory(std::ceil(pointsPerSecond * std::max(duration, 0.1))), limits::points) + 1;
     const auto simple = simplify(curve, params);
     return simple ? *simple : curve;
 }

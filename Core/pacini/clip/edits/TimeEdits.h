@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
@@ -225,7 +226,7 @@ inline void joinCurves(Curve& a, const Curve& b, double at, double lengthOfB, do
     const int count = std::clamp(passes, 1, 10'000);
     if (clip.duration * count > limits::duration)
         return Error{ErrorCode::tooLarge, "duration", "would be longer than 24 hours"};
-    if (breakpointCount(clip) * static_cast<std::size_t>(count) > limits::points)
+    if (static_cast<std::uint64_t>(breakpointCount(clip)) * static_cast<std::uint64_t>(count) > limits::points)
         return Error{ErrorCode::tooLarge, "", "would have more than 50 million points"};
     Clip result = clip;
     for (int pass = 1; pass < count; ++pass)

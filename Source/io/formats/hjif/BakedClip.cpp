@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <span>
 #include <utility>
 
@@ -82,14 +84,14 @@ std::vector<double> levellingGain(const Clip& clip)
     std::vector<double> before(steps), gains(steps, 1.0);
     std::vector<double> re(hop), im(hop), wanted(hop);
     double last = 1.0;
-    for (std::size_t frame = 0; frame < steps * framesPerStep + latency; frame += hop)
+    for (std::uint64_t frame = 0; frame < std::uint64_t{steps} * framesPerStep + latency; frame += hop)
     {
         std::fill(re.begin(), re.end(), 0.0);
         std::fill(im.begin(), im.end(), 0.0);
         bank.process(re, im);
         for (std::size_t n = 0; n < hop; ++n)
             if ((frame + n) % framesPerStep == 0 && (frame + n) / framesPerStep < steps)
-                before[(frame + n) / framesPerStep] = std::hypot(re[n], im[n]);
+                before[static_cast<std::size_t>((frame + n) / framesPerStep)] = std::hypot(re[n], im[n]);
         leveller.process(std::array{LevelledPart{re, im}},
                          [&](std::size_t pass) -> std::span<const double>
                          {
@@ -101,10 +103,10 @@ std::vector<double> levellingGain(const Clip& clip)
                          });
         for (std::size_t n = 0; n < hop; ++n)
         {
-            const std::size_t at = frame + n;
+            const std::uint64_t at = frame + n;
             if (at < latency || (at - latency) % framesPerStep != 0 || (at - latency) / framesPerStep >= steps)
                 continue;
-            const std::size_t step = (at - latency) / framesPerStep;
+            const auto step = static_cast<std::size_t>((at - latency) / framesPerStep);
             // Where the sum vanishes for a moment the gain goes on as it was.
             if (before[step] > 1e-7)
                 last = std::hypot(re[n], im[n]) / before[step];

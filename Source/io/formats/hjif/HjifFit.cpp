@@ -1,10 +1,13 @@
 #include "io/formats/hjif/HjifFit.h"
 
+#include <pacini/foundation/SizeInMemory.h>
 #include <pacini/simplify/Lagrangian.h>
 #include <pacini/simplify/Refit.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <numbers>
 #include <utility>
 
@@ -147,7 +150,7 @@ void HjifFit::multiplyWaves(const Clip& clip)
     constexpr std::size_t perStep = 20; // samples: bands of up to 2 kHz
     constexpr double sample = step / perStep;
     const std::size_t n = clip.bands.size();
-    pairs.resize(count * n * n);
+    pairs.resize(sizeInMemory(std::uint64_t{count} * n * n));
     wanted.assign(n, std::vector<double>(count));
     std::vector<CurveReader> pitches, amplitudes;
     for (const Band& band : clip.bands)

@@ -5,6 +5,7 @@
 
 #include <pacini/evaluate/EventMatching.h>
 #include <pacini/evaluate/Hts.h>
+#include <pacini/foundation/SizeInMemory.h>
 #include <pacini/synthesis/Decoder.h>
 
 #include <algorithm>
@@ -27,7 +28,7 @@ std::vector<float> played(const Clip& clip, DecoderParams params)
 {
     params.sampleRate = rate;
     Decoder decoder(clip, params);
-    std::vector<float> samples(static_cast<std::size_t>(std::max<std::int64_t>(decoder.totalFrames(), 1)));
+    std::vector<float> samples(std::max<std::size_t>(sizeInMemory(decoder.totalFrames()), 1));
     decoder.process(samples);
     return samples;
 }

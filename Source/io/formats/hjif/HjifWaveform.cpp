@@ -4,11 +4,13 @@
 
 #include <pacini/analysis/Encoder.h>
 #include <pacini/filters/Resampler.h>
+#include <pacini/foundation/SizeInMemory.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <utility>
 
 namespace pacini
@@ -124,8 +126,8 @@ void HjifWaveform::addCurve(const HjifBand& band, std::span<const HjifPlaced> wa
             const double from = (position + keyframes[k - 1].position) / ticks * fs;
             const double to = (position + keyframes[k].position) / ticks * fs;
             const double y0 = keyframes[k - 1].amplitude.value_or(0.0), y1 = keyframes[k].amplitude.value_or(0.0);
-            const auto first = static_cast<std::size_t>(std::ceil(from));
-            const auto end = static_cast<std::size_t>(std::ceil(to));
+            const std::size_t first = sizeInMemory(std::ceil(from));
+            const std::size_t end = sizeInMemory(std::ceil(to));
             const std::span<float> sum = room(first, end - first, report, where);
             for (std::size_t i = 0; i < sum.size(); ++i)
             {

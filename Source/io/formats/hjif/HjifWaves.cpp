@@ -77,7 +77,7 @@ std::optional<Transient> hjifPulse(const HjifEffect& effect, double position, co
         return {};
     // Between two ticks lies the peak of a window of an odd number of them.
     const std::size_t steps = keyframes.size() - 1;
-    if (steps % 2 == 1 && std::lround(length * scale.ticks) == static_cast<long>(steps))
+    if (steps % 2 == 1 && std::llround(length * scale.ticks) == static_cast<long long>(steps))
         *peak /= hannAt(static_cast<double>(steps / 2) / static_cast<double>(steps));
     const bool alone = frequency * length < 2.5; // periods
     const double sharpness =
