@@ -124,6 +124,12 @@ pacini_result stale(const char* what)
     return fail(PACINI_STALE, std::string(what) + " is not in use (any more)");
 }
 
+pacini_result noMemory() noexcept
+{
+    lastError.assign("out of memory"); // short enough to be kept without an allocation
+    return PACINI_NO_MEMORY;
+}
+
 /// Runs what may allocate; nothing leaves it but a code.
 template <typename Work>
 pacini_result guarded(Work&& work) noexcept
@@ -134,8 +140,7 @@ pacini_result guarded(Work&& work) noexcept
     }
     catch (const std::bad_alloc&)
     {
-        lastError.clear();
-        return PACINI_NO_MEMORY;
+        return noMemory();
     }
     catch (const std::exception& error)
     {
@@ -145,11 +150,12 @@ pacini_result guarded(Work&& work) noexcept
         }
         catch (...)
         {
-            return PACINI_NO_MEMORY;
+            return noMemory();
         }
     }
     catch (...)
     {
+        lastError.clear();
         return PACINI_INTERNAL;
     }
 }
@@ -199,8 +205,11 @@ Result<std::shared_ptr<const LoadedClip>> loadClip(std::string_view bytes, std::
 pacini_result addClip(const std::shared_ptr<const LoadedClip>& clip, pacini_clip* handle)
 {
     const std::lock_guard lock(all().control);
-    *handle = all().clips.add(clip);
-    return *handle != 0 ? PACINI_OK : fail(PACINI_TOO_MANY, "a million clips are loaded: release some");
+    const pacini_clip added = all().clips.add(clip);
+    if (added == 0)
+        return fail(PACINI_TOO_MANY, "a million clips are loaded: release some");
+    *handle = added;
+    return PACINI_OK;
 }
 
 Result<std::optional<Profile>> profileOf(const char* text)
@@ -232,7 +241,6 @@ pacini_result createEngine(const pacini_engine_config* given, const Scene* scene
     pacini_engine_config_init(&config);
     if (handle == nullptr)
         return fail(PACINI_INVALID, "engine: is NULL");
-    *handle = 0;
     if (!readStruct(given, config))
         return fail(PACINI_INVALID, "config: call pacini_engine_config_init() first");
     if (config.actuator_count < 1 || config.actuator_count > PACINI_MAX_ACTUATORS)
@@ -241,6 +249,8 @@ pacini_result createEngine(const pacini_engine_config* given, const Scene* scene
         return fail(PACINI_INVALID, "pan_law: must be a pacini_pan_law");
     if (!(config.budget >= 0.0 && config.budget <= 1e6) || config.budget_frames < 1)
         return fail(PACINI_INVALID, "budget: must be 0 to 1e6 microseconds for 1 frame or more");
+    if (!(config.strength >= 0.0 && config.strength <= 1.0))
+        return fail(PACINI_INVALID, "strength: must be 0 to 1");
     EngineParams params;
     params.sampleRate = config.sample_rate;
     params.panLaw = static_cast<PanLaw>(config.pan_law);
@@ -302,6 +312,17 @@ pacini_result forEngines(Work&& work)
                 return result;
     }
     return PACINI_OK;
+}
+
+/// Lets all engines forget what they made of a clip, before its memory is another's. Under the lock.
+void forget(const LoadedClip* clip)
+{
+    static_cast<void>(forEngines(
+        [clip](Engine& engine)
+        {
+            engine.forget(clip);
+            return PACINI_OK;
+        }));
 }
 
 /// Calls work(engine) for one thread at a time.
@@ -513,14 +534,25 @@ pacini_result finish(const Result<void>& done)
     return done.error().where == "play" ? fail(PACINI_STALE, "play: has ended") : fail(done.error());
 }
 
-bool isControl(std::int32_t control)
+/// Calls work(seconds) for a fade or glide that is in range; `name` is the parameter's.
+template <typename Work>
+pacini_result within(const char* name, double seconds, Work&& work)
 {
-    return control >= PACINI_GAIN && control <= PACINI_NOISE;
+    if (!(seconds >= 0.0 && seconds <= 3600.0))
+        return fail(PACINI_INVALID, std::string(name) + ": must be 0 to 3600 s");
+    return finish(work(Seconds(seconds)));
 }
 
-Seconds glideOf(double seconds)
+/// Calls work(control, glide) for a control that there is and a glide in range. What the value may be the engine knows,
+/// but not that priorities are whole.
+template <typename Work>
+pacini_result setControl(std::int32_t control, double value, double glide, Work&& work)
 {
-    return Seconds(std::isfinite(seconds) ? seconds : 0.0);
+    if (control < PACINI_GAIN || control > PACINI_NOISE)
+        return fail(PACINI_INVALID, "control: must be a pacini_control");
+    if (control == PACINI_PRIORITY && value != std::floor(value))
+        return fail(PACINI_INVALID, "priority: must be a whole number");
+    return within("glide", glide, [&](Seconds seconds) { return work(static_cast<LiveControl>(control), seconds); });
 }
 } // namespace
 
@@ -577,7 +609,6 @@ extern "C"
             {
                 if (clip == nullptr)
                     return fail(PACINI_INVALID, "clip: is NULL");
-                *clip = 0;
                 if (bytes == nullptr || size == 0)
                     return fail(PACINI_INVALID, "bytes: there are none");
                 const auto loaded = loadClip({static_cast<const char*>(bytes), size}, "");
@@ -592,7 +623,6 @@ extern "C"
             {
                 if (clip == nullptr || path == nullptr)
                     return fail(PACINI_INVALID, clip == nullptr ? "clip: is NULL" : "path: is NULL");
-                *clip = 0;
                 const auto* const utf8 = reinterpret_cast<const char8_t*>(path);
                 auto read = readClip(std::filesystem::path(std::u8string_view(utf8)));
                 if (!read)
@@ -617,15 +647,26 @@ extern "C"
                 auto* const held = all().clips.find(clip);
                 if (held == nullptr)
                     return stale("clip");
+                // First all that can fail.
+                std::vector<std::pair<Engine*, std::vector<Engine::Replacement>>> made;
                 const auto done = forEngines(
                     [&](Engine& engine)
                     {
-                        const auto replaced = engine.replaceAll(held->get(), *loaded);
-                        return replaced ? PACINI_OK : fail(replaced.error());
+                        auto replacements = engine.makeReplacements(held->get(), *loaded);
+                        if (!replacements)
+                            return fail(replacements.error());
+                        made.emplace_back(&engine, std::move(replacements).value());
+                        return PACINI_OK;
                     });
-                if (done == PACINI_OK)
-                    *held = *loaded;
-                return done;
+                if (done != PACINI_OK)
+                {
+                    forget(loaded->get());
+                    return done;
+                }
+                for (auto& [engine, replacements] : made)
+                    engine->replaceAll(held->get(), *loaded, std::move(replacements));
+                *held = *loaded;
+                return PACINI_OK;
             });
     }
 
@@ -665,12 +706,7 @@ extern "C"
                 const auto* const held = all().clips.find(clip);
                 if (held == nullptr)
                     return stale("clip");
-                static_cast<void>(forEngines(
-                    [&](Engine& engine)
-                    {
-                        engine.forget(held->get());
-                        return PACINI_OK;
-                    }));
+                forget(held->get());
                 all().clips.remove(clip);
                 return PACINI_OK;
             });
@@ -733,8 +769,8 @@ extern "C"
 
     pacini_result pacini_render(pacini_engine engine, float* const* channels, uint32_t channel_count, uint32_t frames)
     {
-        if (channels == nullptr || channel_count == 0 || frames == 0)
-            return channel_count == 0 || frames == 0 ? PACINI_OK : PACINI_INVALID;
+        if (channels == nullptr && channel_count > 0)
+            return PACINI_INVALID;
         for (std::uint32_t c = 0; c < channel_count; ++c)
             if (channels[c] == nullptr)
                 return PACINI_INVALID;
@@ -756,15 +792,16 @@ extern "C"
         std::array<std::span<float>, PACINI_MAX_ACTUATORS> spans;
         for (std::uint32_t c = 0; c < played; ++c)
             spans[c] = std::span(channels[c], frames);
-        renderEngine(*use.get()->engine, std::span(spans).first(played));
+        if (frames > 0)
+            renderEngine(*use.get()->engine, std::span(spans).first(played));
         return PACINI_OK;
     }
 
     pacini_result pacini_render_interleaved(pacini_engine engine, float* samples, uint32_t channel_count,
                                             uint32_t frames)
     {
-        if (samples == nullptr || channel_count == 0 || frames == 0)
-            return channel_count == 0 || frames == 0 ? PACINI_OK : PACINI_INVALID;
+        if (samples == nullptr && channel_count > 0 && frames > 0)
+            return PACINI_INVALID;
         const EngineUse use = useEngine(engine);
         const std::size_t wanted = channel_count;
         std::fill_n(samples, wanted * frames, 0.0f);
@@ -834,8 +871,12 @@ extern "C"
     pacini_result pacini_engine_set_actuator_gain(pacini_engine engine, uint32_t actuator, double gain, double glide,
                                                   int64_t frame)
     {
-        return withEngine(engine, [&](EngineEntry& entry)
-                          { return finish(entry.engine->setActuatorGain(actuator, gain, glideOf(glide), frame)); });
+        return withEngine(engine,
+                          [&](EngineEntry& entry) {
+                              return within("glide", glide,
+                                            [&](Seconds s)
+                                            { return entry.engine->setActuatorGain(actuator, gain, s, frame); });
+                          });
     }
 
     void pacini_play_settings_init(pacini_play_settings* settings)
@@ -851,8 +892,6 @@ extern "C"
     pacini_result pacini_play_start(pacini_engine engine, pacini_clip clip, const pacini_play_settings* settings,
                                     pacini_play* play)
     {
-        if (play != nullptr)
-            *play = 0;
         return withEngine(
             engine,
             [&](EngineEntry& entry)
@@ -864,6 +903,8 @@ extern "C"
                 pacini_play_settings_init(&given);
                 if (!readStruct(settings, given))
                     return fail(PACINI_INVALID, "settings: call pacini_play_settings_init() first");
+                if (std::abs(static_cast<double>(given.priority)) > 1e9)
+                    return fail(PACINI_INVALID, "priority: must be -1e9 to 1e9");
                 PlaySettings wanted;
                 wanted.controls = {given.gain,  given.intensity,     given.pan,
                                    given.delay, given.transposition, given.speed};
@@ -891,28 +932,28 @@ extern "C"
         return withPlay(play,
                         [&](Engine& engine, PlayId id)
                         {
-                            if (!isControl(control))
-                                return fail(PACINI_INVALID, "control: must be a pacini_control");
-                            return finish(
-                                engine.set(id, static_cast<LiveControl>(control), value, glideOf(glide), frame));
+                            return setControl(control, value, glide,
+                                              [&](LiveControl wanted, Seconds seconds)
+                                              { return engine.set(id, wanted, value, seconds, frame); });
                         });
     }
 
     pacini_result pacini_play_stop(pacini_play play, double fade, int64_t frame)
     {
-        return withPlay(play, [&](Engine& engine, PlayId id) { return finish(engine.stop(id, glideOf(fade), frame)); });
+        return withPlay(play, [&](Engine& engine, PlayId id)
+                        { return within("fade", fade, [&](Seconds s) { return engine.stop(id, s, frame); }); });
     }
 
     pacini_result pacini_play_pause(pacini_play play, double fade, int64_t frame)
     {
-        return withPlay(play,
-                        [&](Engine& engine, PlayId id) { return finish(engine.pause(id, glideOf(fade), frame)); });
+        return withPlay(play, [&](Engine& engine, PlayId id)
+                        { return within("fade", fade, [&](Seconds s) { return engine.pause(id, s, frame); }); });
     }
 
     pacini_result pacini_play_resume(pacini_play play, double fade, int64_t frame)
     {
-        return withPlay(play,
-                        [&](Engine& engine, PlayId id) { return finish(engine.resume(id, glideOf(fade), frame)); });
+        return withPlay(play, [&](Engine& engine, PlayId id)
+                        { return within("fade", fade, [&](Seconds s) { return engine.resume(id, s, frame); }); });
     }
 
     pacini_result pacini_play_seek(pacini_play play, double position, int64_t frame)
@@ -947,17 +988,18 @@ extern "C"
         return withEngine(engine,
                           [&](EngineEntry& entry)
                           {
-                              if (!isControl(control))
-                                  return fail(PACINI_INVALID, "control: must be a pacini_control");
-                              return finish(entry.engine->setGroup(group, static_cast<LiveControl>(control), value,
-                                                                   glideOf(glide), frame));
+                              return setControl(control, value, glide,
+                                                [&](LiveControl wanted, Seconds seconds) {
+                                                    return entry.engine->setGroup(group, wanted, value, seconds, frame);
+                                                });
                           });
     }
 
     pacini_result pacini_group_stop(pacini_engine engine, uint32_t group, double fade, int64_t frame)
     {
-        return withEngine(engine, [&](EngineEntry& entry)
-                          { return finish(entry.engine->stopGroup(group, glideOf(fade), frame)); });
+        return withEngine(
+            engine, [&](EngineEntry& entry)
+            { return within("fade", fade, [&](Seconds s) { return entry.engine->stopGroup(group, s, frame); }); });
     }
 
     pacini_result pacini_controllers_find(pacini_controller* controllers, uint32_t capacity, uint32_t* count)
@@ -967,7 +1009,6 @@ extern "C"
             {
                 if (count == nullptr || (controllers == nullptr && capacity > 0))
                     return fail(PACINI_INVALID, count == nullptr ? "count: is NULL" : "controllers: is NULL");
-                *count = 0;
                 const auto now = devices::connectedControllers();
                 if (!now)
                     return fail(now.error());

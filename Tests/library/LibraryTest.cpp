@@ -9,11 +9,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <cstring>
 #include <fstream>
 #include <iterator>
 #include <limits>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace
@@ -194,7 +196,7 @@ TEST_CASE("Wrong arguments are told by name")
     const auto says = [&](const std::string& text)
     {
         CHECK(pacini_engine_create(&config, &engine) != PACINI_OK);
-        CHECK(engine == 0);
+        CHECK(engine == 1);
         CHECK(lastError().find(text) != std::string::npos);
         pacini_engine_config_init(&config);
     };
@@ -210,7 +212,7 @@ TEST_CASE("Wrong arguments are told by name")
     says("pacini_engine_config_init()");
     pacini_clip clip = 1;
     CHECK(pacini_clip_load("nonsense", 8, &clip) == PACINI_BAD_DATA);
-    CHECK(clip == 0);
+    CHECK(clip == 1);
     CHECK(pacini_clip_load(hum.data(), hum.size() / 2, &clip) == PACINI_BAD_DATA);
     CHECK(pacini_clip_load_file("there/is/none", &clip) == PACINI_IO);
     CHECK(lastError().find("there/is/none") != std::string::npos);
@@ -335,6 +337,342 @@ TEST_CASE("Controllers that are not there, and engines without one, are errors t
     CHECK(pacini_engine_detach(engine) == PACINI_STALE);
     CHECK(pacini_engine_get_attachment(engine, &info) == PACINI_STALE);
     CHECK(pacini_api_version() == 1002);
+}
+
+namespace
+{
+/// Random numbers by a fixed seed.
+struct Dice
+{
+    std::uint64_t state = 20261127;
+
+    std::uint64_t below(std::uint64_t most)
+    {
+        state ^= state << 13;
+        state ^= state >> 7;
+        state ^= state << 17;
+        return state % most;
+    }
+
+    /// A number that is not `low` to `high`.
+    double outside(double low, double high)
+    {
+        constexpr double infinite = std::numeric_limits<double>::infinity();
+        const std::array<double, 8> wrong{std::nan(""),
+                                          infinite,
+                                          -infinite,
+                                          1e300,
+                                          -1e300,
+                                          std::nextafter(low, -infinite),
+                                          std::nextafter(high, infinite),
+                                          below(2) == 0 ? low - 0.001 * static_cast<double>(1 + below(1000))
+                                                        : high * 1.5 + 1.0};
+        return wrong[below(wrong.size())];
+    }
+};
+
+/// A number of a struct, where it must be, and how errors call it.
+template <typename Struct>
+struct Field
+{
+    const char* name;
+    double Struct::*member;
+    double low, high;
+};
+
+constexpr std::array<Field<pacini_play_settings>, 11> settingFields{{
+    {"gain", &pacini_play_settings::gain, 0.0, 1000.0},
+    {"intensity", &pacini_play_settings::intensity, 0.0, 1.0},
+    {"pan", &pacini_play_settings::pan, 0.0, 1.0},
+    {"delay", &pacini_play_settings::delay, 0.0, 0.25},
+    {"transposition", &pacini_play_settings::transposition, -96.0, 96.0},
+    {"speed", &pacini_play_settings::speed, 0.01, 100.0},
+    {"from", &pacini_play_settings::from, 0.0, 86400.0},
+    {"loop", &pacini_play_settings::loop, -1.0, 1.0}, // as long as the clip
+    {"headroom", &pacini_play_settings::headroom, 0.0, 48.0},
+    {"fadeIn", &pacini_play_settings::fade_in, 0.0, 3600.0},
+    {"variation", &pacini_play_settings::variation, 0.0, 1.0},
+}};
+
+constexpr std::array<Field<pacini_engine_config>, 5> configFields{{
+    {"sampleRate", &pacini_engine_config::sample_rate, 2000.0, 768000.0},
+    {"panDelay", &pacini_engine_config::pan_delay, 0.0, 0.1},
+    {"longestDelay", &pacini_engine_config::longest_delay, 0.0, 1.0},
+    {"strength", &pacini_engine_config::strength, 0.0, 1.0},
+    {"budget", &pacini_engine_config::budget, 0.0, 1e6},
+}};
+
+struct Control
+{
+    const char* name;
+    double low, high;
+};
+
+/// By their numbers.
+constexpr std::array<Control, 10> controls{{{"gain", 0.0, 1000.0},
+                                            {"intensity", 0.0, 1.0},
+                                            {"pan", 0.0, 1.0},
+                                            {"delay", 0.0, 0.25},
+                                            {"transposition", -96.0, 96.0},
+                                            {"speed", 0.01, 100.0},
+                                            {"priority", -1e9, 1e9},
+                                            {"tones", 0.0, 1000.0},
+                                            {"events", 0.0, 1000.0},
+                                            {"noise", 0.0, 1000.0}}};
+
+/// What a failed call may not write to.
+constexpr std::uint64_t untouched = 0x1234567890ABCDEF;
+} // namespace
+
+TEST_CASE("A thousand calls with something wrong in each name it and change nothing")
+{
+    Dice dice;
+    const pacini_clip clip = loaded(hum);
+    // The same is played by both; only one gets the calls.
+    const std::array<pacini_engine, 2> engines{created(2), created(2)};
+    std::array<pacini_play, 2> plays{};
+    pacini_play_settings settings;
+    pacini_play_settings_init(&settings);
+    settings.loop = -1.0;
+    for (std::size_t i = 0; i < 2; ++i)
+        require(pacini_play_start(engines[i], clip, &settings, &plays[i]));
+    const pacini_engine engine = engines[0];
+    const pacini_play play = plays[0];
+    const pacini_engine gone = created();
+    require(pacini_engine_destroy(gone));
+
+    std::uint64_t handle = untouched;
+    std::array<int, 20> told{};
+    const auto fails = [&](std::size_t kind, pacini_result code, pacini_result result, const std::string& name)
+    {
+        INFO("call of kind " << kind << ": " << pacini_result_text(result) << ", " << lastError() << "; " << name);
+        REQUIRE(result == code);
+        REQUIRE(lastError().find(name) != std::string::npos);
+        REQUIRE(handle == untouched);
+        ++told[kind];
+    };
+    for (int i = 0; i < 1000; ++i)
+    {
+        const auto kind = static_cast<std::size_t>(dice.below(told.size()));
+        const auto c = static_cast<std::size_t>(dice.below(controls.size()));
+        const auto number = static_cast<std::int32_t>(c);
+        const auto frame = static_cast<std::int64_t>(dice.below(2) == 0 ? 0 : dice.below(1u << 30));
+        const double value = dice.outside(controls[c].low, controls[c].high), fine = controls[c].high;
+        const double fade = dice.outside(0.0, 3600.0);
+        const std::array<std::uint64_t, 5> strangers{0, gone, clip, untouched, ~std::uint64_t{0}};
+        const std::uint64_t stranger = strangers[dice.below(strangers.size())];
+        switch (kind)
+        {
+        case 0:
+            fails(kind, PACINI_INVALID, pacini_play_set(play, number, value, 0.0, frame), controls[c].name);
+            break;
+        case 1:
+            fails(kind, PACINI_INVALID, pacini_play_set(play, number, fine, fade, frame), "glide: must be 0 to 3600 s");
+            break;
+        case 2:
+            fails(kind, PACINI_INVALID, pacini_group_set(engine, 0, number, value, 0.0, frame), controls[c].name);
+            break;
+        case 3:
+            fails(kind, PACINI_INVALID, pacini_group_set(engine, 0, number, fine, fade, frame), "glide");
+            break;
+        case 4:
+            fails(kind, PACINI_INVALID, pacini_play_stop(play, fade, frame), "fade: must be 0 to 3600 s");
+            break;
+        case 5:
+            fails(kind, PACINI_INVALID, pacini_play_pause(play, fade, frame), "fade");
+            break;
+        case 6:
+            fails(kind, PACINI_INVALID, pacini_play_resume(play, fade, frame), "fade");
+            break;
+        case 7:
+            fails(kind, PACINI_INVALID, pacini_group_stop(engine, 0, fade, frame), "fade");
+            break;
+        case 8:
+            fails(kind, PACINI_INVALID, pacini_play_seek(play, dice.outside(0.0, 86400.0), frame), "position");
+            break;
+        case 9:
+            fails(kind, PACINI_INVALID, pacini_engine_set_actuator_gain(engine, 1, dice.outside(0.0, 1.0), 0.0, frame),
+                  "value");
+            fails(kind, PACINI_INVALID, pacini_engine_set_actuator_gain(engine, 1, 0.5, fade, frame), "glide");
+            fails(kind, PACINI_INVALID, pacini_engine_set_actuator_gain(engine, 2, 0.5, 0.0, frame), "actuator");
+            break;
+        case 10:
+            fails(kind, PACINI_INVALID, pacini_engine_set_budget(engine, dice.outside(0.0, 1e6), 512, 1), "budget");
+            fails(kind, PACINI_INVALID, pacini_engine_set_budget(engine, 1.0, 0, 1), "budget");
+            break;
+        case 11:
+        {
+            const auto& field = settingFields[dice.below(settingFields.size())];
+            pacini_play_settings wrong = settings;
+            wrong.*field.member = dice.outside(field.low, field.high);
+            fails(kind, PACINI_INVALID, pacini_play_start(engine, clip, &wrong, &handle), field.name);
+            break;
+        }
+        case 12:
+        {
+            const auto& field = configFields[dice.below(configFields.size())];
+            pacini_engine_config config;
+            pacini_engine_config_init(&config);
+            config.*field.member = dice.outside(field.low, field.high);
+            fails(kind, PACINI_INVALID, pacini_engine_create(&config, &handle), field.name);
+            pacini_engine_config_init(&config);
+            config.actuator_count = 2;
+            (dice.below(2) == 0 ? config.actuators[1].gain : config.actuators[1].delay) = dice.outside(0.0, 1.0);
+            fails(kind, PACINI_INVALID, pacini_engine_create(&config, &handle), "actuators[1].");
+            break;
+        }
+        case 13:
+        {
+            pacini_engine_config config;
+            pacini_engine_config_init(&config);
+            const std::array<std::uint32_t, 3> wrong{0, 1'000'001, ~0u};
+            const std::uint32_t count = wrong[dice.below(3)];
+            const std::array<std::pair<std::uint32_t*, const char*>, 3> counts{
+                {{&config.actuator_count, "actuator_count"},
+                 {&config.max_plays, "maxPlays"},
+                 {&config.max_commands, "maxCommands"}}};
+            const auto& [member, name] = counts[dice.below(3)];
+            *member = count;
+            fails(kind, PACINI_INVALID, pacini_engine_create(&config, &handle), name);
+            pacini_engine_config_init(&config);
+            config.budget_frames = 0;
+            fails(kind, PACINI_INVALID, pacini_engine_create(&config, &handle), "budget");
+            pacini_engine_config_init(&config);
+            config.pan_law = dice.below(2) == 0 ? -1 : 3;
+            fails(kind, PACINI_INVALID, pacini_engine_create(&config, &handle), "pan_law");
+            pacini_engine_config_init(&config);
+            config.struct_size =
+                static_cast<std::uint32_t>(dice.below(2) == 0 ? dice.below(4) : 4097 + dice.below(1u << 31));
+            fails(kind, PACINI_INVALID, pacini_engine_create(&config, &handle), "pacini_engine_config_init()");
+            fails(kind, PACINI_IO, pacini_engine_create_scene(nullptr, "there/is/none", &handle), "there/is/none");
+            break;
+        }
+        case 14:
+        {
+            const std::size_t some = 1 + static_cast<std::size_t>(dice.below(hum.size() - 2));
+            fails(kind, PACINI_BAD_DATA, pacini_clip_load(hum.data(), some, &handle), "");
+            fails(kind, PACINI_BAD_DATA, pacini_clip_reload(clip, hum.data(), some), "");
+            fails(kind, PACINI_INVALID, pacini_clip_load(hum.data(), 0, &handle), "bytes");
+            fails(kind, PACINI_INVALID, pacini_clip_load(hum.data(), hum.size(), nullptr), "clip");
+            fails(kind, PACINI_IO, pacini_clip_load_file("there/is/none", &handle), "there/is/none");
+            break;
+        }
+        case 15:
+        {
+            fails(kind, PACINI_STALE, pacini_play_start(stranger, clip, nullptr, &handle), "engine");
+            if (stranger != clip)
+                fails(kind, PACINI_STALE, pacini_play_start(engine, stranger, nullptr, &handle), "clip");
+            fails(kind, PACINI_STALE, pacini_play_set(stranger, number, fine, 0.0, frame), "play");
+            fails(kind, PACINI_STALE, pacini_engine_attach(engine, stranger, nullptr), "controller");
+            if (stranger != clip)
+                fails(kind, PACINI_STALE, pacini_clip_reload(stranger, hum.data(), hum.size()), "clip");
+            float* none = nullptr;
+            CHECK(pacini_render(stranger, &none, 0, 8) == PACINI_STALE);
+            CHECK(pacini_render(stranger, nullptr, 0, 0) == PACINI_STALE);
+            CHECK(pacini_render_interleaved(stranger, nullptr, 0, 0) == PACINI_STALE);
+            CHECK(pacini_render(engine, &none, 1, 8) == PACINI_INVALID);
+            CHECK(pacini_render_interleaved(engine, nullptr, 1, 8) == PACINI_INVALID);
+            break;
+        }
+        case 16:
+        {
+            const std::int32_t none = dice.below(2) == 0 ? -1 : PACINI_NOISE + 1;
+            fails(kind, PACINI_INVALID, pacini_play_set(play, none, 0.5, 0.0, frame), "control");
+            fails(kind, PACINI_INVALID, pacini_group_set(engine, 0, none, 0.5, 0.0, frame), "control");
+            fails(kind, PACINI_INVALID, pacini_play_set(play, PACINI_PRIORITY, 0.5, 0.0, frame), "whole");
+            const auto group = static_cast<std::uint32_t>(32 + dice.below(1u << 31));
+            fails(kind, PACINI_INVALID, pacini_group_set(engine, group, number, fine, 0.0, frame), "group");
+            fails(kind, PACINI_INVALID, pacini_group_stop(engine, group, 0.0, frame), "group");
+            pacini_play_settings wrong = settings;
+            wrong.group = group;
+            fails(kind, PACINI_INVALID, pacini_play_start(engine, clip, &wrong, &handle), "group");
+            wrong = settings;
+            wrong.priority = std::numeric_limits<std::int32_t>::min();
+            fails(kind, PACINI_INVALID, pacini_play_start(engine, clip, &wrong, &handle), "priority");
+            break;
+        }
+        case 17:
+        {
+            pacini_play_info info;
+            std::memset(&info, 0x5A, sizeof info);
+            info.struct_size = dice.below(2) == 0 ? 0 : 5000;
+            const pacini_play_info before = info;
+            fails(kind, PACINI_INVALID, pacini_play_get_info(play, &info), "init");
+            fails(kind, PACINI_STALE, pacini_play_get_info(stranger, &info), "play");
+            CHECK(std::memcmp(&info, &before, sizeof info) == 0);
+            fails(kind, PACINI_INVALID, pacini_engine_get_info(engine, nullptr), "init");
+            fails(kind, PACINI_INVALID, pacini_clip_get_info(clip, nullptr), "init");
+            break;
+        }
+        case 18:
+        {
+            std::uint32_t count = 77;
+            fails(kind, PACINI_INVALID, pacini_controllers_find(nullptr, 1, &count), "controllers");
+            CHECK(count == 77);
+            fails(kind, PACINI_INVALID, pacini_engine_detach(engine), "no controller");
+            break;
+        }
+        default:
+        {
+            std::array<std::vector<float>, 2> heard{rendered(engines[0], 100), rendered(engines[1], 100)};
+            REQUIRE(heard[0] == heard[1]);
+            ++told[kind];
+        }
+        }
+    }
+    CHECK(*std::min_element(told.begin(), told.end()) > 10);
+    CHECK(rendered(engines[0], 8000) == rendered(engines[1], 8000));
+    CHECK(infoOf(plays[0]).position == infoOf(plays[1]).position);
+    for (const pacini_engine each : engines)
+        require(pacini_engine_destroy(each));
+    require(pacini_clip_release(clip));
+}
+
+TEST_CASE("A command for which there is no room leaves the play and the clip as they were, in every engine")
+{
+    const pacini_clip clip = loaded(hum);
+    pacini_engine_config config;
+    pacini_engine_config_init(&config);
+    config.sample_rate = 8000.0;
+    config.max_commands = 16;
+    std::array<pacini_engine, 2> engines{};
+    std::array<pacini_play, 2> plays{};
+    pacini_play_settings settings;
+    pacini_play_settings_init(&settings);
+    settings.loop = -1.0;
+    for (std::size_t i = 0; i < 2; ++i)
+    {
+        require(pacini_engine_create(&config, &engines[i]));
+        require(pacini_play_start(engines[i], clip, &settings, &plays[i]));
+        rendered(engines[i], 400);
+    }
+    int sent = 0;
+    while (pacini_play_set(plays[1], PACINI_PAN, 0.5, 0.0, 0) == PACINI_OK)
+        ++sent;
+    REQUIRE(sent >= 16);
+    CHECK(pacini_play_set(plays[1], PACINI_GAIN, 0.0, 0.0, 0) == PACINI_TOO_MANY);
+    CHECK(pacini_clip_reload(clip, faintHum.data(), faintHum.size()) == PACINI_TOO_MANY);
+    CHECK(lastError().find("commands") != std::string::npos);
+    pacini_clip_info info;
+    pacini_clip_info_init(&info);
+    require(pacini_clip_get_info(clip, &info));
+    CHECK(std::string(info.name) == "hum");
+    for (std::size_t i = 0; i < 2; ++i)
+    {
+        rendered(engines[i], 400);
+        CHECK(largest(rendered(engines[i], 1000)) > 0.4f);
+        require(pacini_play_seek(plays[i], 0.0, 0)); // it is made anew, with what was set
+        rendered(engines[i], 400);
+        CHECK(largest(rendered(engines[i], 1000)) > 0.4f);
+    }
+    require(pacini_clip_reload(clip, faintHum.data(), faintHum.size()));
+    for (const pacini_engine engine : engines)
+    {
+        rendered(engine, 400);
+        CHECK(largest(rendered(engine, 1000)) == Approx(0.1).margin(0.02));
+        require(pacini_engine_destroy(engine));
+    }
+    require(pacini_clip_release(clip));
 }
 
 TEST_CASE("Structs of version 1 never grow: their init functions would write beyond those of older programs")

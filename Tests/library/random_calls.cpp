@@ -1,6 +1,6 @@
 // Calls libpacini at random: `random_calls COUNT [SEED]` makes COUNT sequences of calls in random order, with stale and
-// invented handles, NaN, infinities and huge sizes. Nothing may crash, and what is rendered is finite and within full
-// drive.
+// invented handles, NaN, infinities and huge sizes. Nothing may crash, what fails writes no handle and says why, and
+// what is rendered is finite and within full drive.
 
 #include <pacini.h>
 
@@ -89,6 +89,18 @@ struct Handles
     }
 };
 
+constexpr std::uint64_t untouched = 0x1234567890ABCDEF;
+
+/// Whether a call gave a handle, or else left the caller's alone and said why.
+bool gaveOrSaid(pacini_result result, std::uint64_t made)
+{
+    const bool well =
+        result == PACINI_OK ? made != untouched && made != 0 : made == untouched && pacini_last_error(nullptr, 0) > 1;
+    if (!well)
+        std::printf("%s, and the handle is %llx\n", pacini_result_text(result), static_cast<unsigned long long>(made));
+    return well;
+}
+
 bool rendersWell(std::uint64_t engine)
 {
     std::array<float, 3 * 300> samples;
@@ -111,7 +123,7 @@ bool sequence(Handles& handles)
     const std::uint64_t calls = next() % 30;
     for (std::uint64_t i = 0; i < calls; ++i)
     {
-        std::uint64_t made = 0;
+        std::uint64_t made = untouched;
         const std::uint64_t engine = handles.of(engines), clip = handles.of(clips), play = handles.of(plays);
         const double x = number(), y = number();
         const auto frame = static_cast<std::int64_t>(next() % 4 == 0 ? next() : 0);
@@ -119,9 +131,14 @@ bool sequence(Handles& handles)
         switch (next() % 19)
         {
         case 0:
-            if (next() % 3 == 0)
-                pacini_clip_load(clipText.data(), next() % 4 != 0 ? clipText.size() : next() % clipText.size(), &made);
-            handles.add(clips, made);
+            if (next() % 3 != 0)
+                break;
+            if (!gaveOrSaid(pacini_clip_load(clipText.data(),
+                                             next() % 4 != 0 ? clipText.size() : next() % clipText.size(), &made),
+                            made))
+                return false;
+            if (made != untouched)
+                handles.add(clips, made);
             break;
         case 1:
         {
@@ -139,8 +156,10 @@ bool sequence(Handles& handles)
             config.actuators[1].delay = next() % 8 == 0 ? number() : 0.01;
             config.longest_delay = next() % 8 == 0 ? number() : 0.1;
             config.budget = next() % 4 == 0 ? number() : 0.0;
-            pacini_engine_create(&config, &made);
-            handles.add(engines, made);
+            if (!gaveOrSaid(pacini_engine_create(&config, &made), made))
+                return false;
+            if (made != untouched)
+                handles.add(engines, made);
             break;
         }
         case 2:
@@ -160,8 +179,11 @@ bool sequence(Handles& handles)
             settings.frame = frame;
             if (next() % 32 == 0)
                 settings.struct_size = static_cast<std::uint32_t>(next());
-            pacini_play_start(engine, clip, next() % 4 == 0 ? nullptr : &settings, &made);
-            started += made != 0 ? 1 : 0;
+            if (!gaveOrSaid(pacini_play_start(engine, clip, next() % 4 == 0 ? nullptr : &settings, &made), made))
+                return false;
+            if (made == untouched)
+                break;
+            ++started;
             handles.add(plays, made);
             break;
         }

@@ -138,8 +138,10 @@ public:
             return there;
         if (auto valid = checkValue(control, value); !valid)
             return valid;
-        remember(slots[play.slot], control, value);
-        return send(LiveCommand::Kind::set, play, control, value, glide, frame);
+        auto done = send(LiveCommand::Kind::set, play, control, value, glide, frame);
+        if (done)
+            remember(slots[play.slot], control, value);
+        return done;
     }
 
     /// As set(), for all plays of a group. Its gain and the levels of its roles are faders of their own, which plays to
@@ -183,11 +185,14 @@ public:
         return send(LiveCommand::Kind::resume, play, {}, 0.0, fade, frame);
     }
 
-    /// Goes on at second `position` of the clip: what played fades into it.
+    /// Goes on at second `position` of the clip, 0 to a day, behind its end for one that is to end: what played fades
+    /// into it.
     Result<void> seek(PlayId play, double position, std::int64_t frame = 0)
     {
         if (auto there = check(play); !there)
             return there;
+        if (!(position >= 0.0 && position <= limits::duration))
+            return Error{ErrorCode::invalidArgument, "position", "must be 0 s or more, and a day at most"};
         return exchange(play, slots[play.slot].clip, position, frame);
     }
 
@@ -196,14 +201,7 @@ public:
     {
         if (auto there = check(play); !there)
             return there;
-        Slot& slot = slots[play.slot];
-        if (slot.settings.loop > clip->duration())
-            slot.settings.loop = clip->duration();
-        const double position = slot.position.load(std::memory_order_relaxed);
-        if (auto done = exchange(play, clip, std::min(position, clip->duration()), frame); !done)
-            return done;
-        slot.clip = clip;
-        return {};
+        return exchange(play, clip, slots[play.slot].position.load(std::memory_order_relaxed), frame);
     }
 
     /// The same, sample by sample in time: the play is at second `position` of its clip at frame `time.at`, which may
@@ -212,25 +210,46 @@ public:
     {
         if (auto there = check(play); !there)
             return there;
-        Slot& slot = slots[play.slot];
-        if (slot.settings.loop > clip->duration())
-            slot.settings.loop = clip->duration();
-        if (auto done = exchange(play, clip, std::min(position, clip->duration()), time.at, time); !done)
-            return done;
-        slot.clip = clip;
-        return {};
+        return exchange(play, clip, position, time.at, time);
     }
 
-    /// Replaces a clip in all that plays of it.
-    Result<void> replaceAll(const LoadedClip* old, const std::shared_ptr<const LoadedClip>& clip)
+    /// Another content of a play, which was made and waits to be handed over.
+    struct Replacement
+    {
+        PlayId play;
+        PlaySettings settings; ///< with which it goes on
+        std::unique_ptr<PlayContent> content;
+    };
+
+    /// What takes the place of a clip in all that plays of it, for replaceAll(). Until then nothing changes. Errors: as
+    /// replace(), for any of them.
+    [[nodiscard]] Result<std::vector<Replacement>> makeReplacements(const LoadedClip* old,
+                                                                    const std::shared_ptr<const LoadedClip>& clip)
     {
         collect();
+        std::vector<Replacement> made;
         for (std::uint32_t i = 0; i < slots.size(); ++i)
-            if (slots[i].used && slots[i].clip.get() == old)
-                if (auto done = replace({i, slots[i].generation.load(std::memory_order_relaxed)}, clip); !done)
-                    return done;
+        {
+            if (!slots[i].used || slots[i].clip.get() != old)
+                continue;
+            auto one = makeReplacement({i, slots[i].generation.load(std::memory_order_relaxed)}, clip,
+                                       slots[i].position.load(std::memory_order_relaxed));
+            if (!one)
+                return one.error();
+            made.push_back(std::move(one).value());
+        }
+        if (auto room = checkRoom(made.size()); !room)
+            return room.error();
+        return made;
+    }
+
+    /// Replaces a clip in all that plays of it by what makeReplacements() made since the last command.
+    void replaceAll(const LoadedClip* old, const std::shared_ptr<const LoadedClip>& clip,
+                    std::vector<Replacement>&& made)
+    {
+        for (Replacement& one : made)
+            handOver(std::move(one), clip, 0);
         maker.forget(old);
-        return {};
     }
 
     /// Gain of an actuator behind its protection, 0 to 1.
@@ -410,9 +429,9 @@ private:
         return {};
     }
 
-    [[nodiscard]] Result<void> checkRoom() const
+    [[nodiscard]] Result<void> checkRoom(std::size_t wanted = 1) const
     {
-        if (commands.room() == 0)
+        if (commands.room() < wanted)
             return Error{ErrorCode::tooLarge, "commands", "too many wait: is the engine rendered?"};
         return {};
     }
@@ -558,21 +577,41 @@ private:
     {
         if (auto room = checkRoom(); !room)
             return room;
-        PlaySettings settings = slots[play.slot].settings;
-        settings.from = position;
-        auto content = maker.make(clip, settings);
+        auto made = makeReplacement(play, clip, position);
+        if (!made)
+            return made.error();
+        if (time)
+            frame = advance(*made->content, *time);
+        handOver(std::move(made).value(), clip, frame);
+        return {};
+    }
+
+    /// A loop is as long as the clip at most, and the place within it.
+    Result<Replacement> makeReplacement(PlayId play, const std::shared_ptr<const LoadedClip>& clip, double position)
+    {
+        Replacement made{play, slots[play.slot].settings, nullptr};
+        made.settings.loop = std::min(made.settings.loop, clip->duration());
+        made.settings.from = clip == slots[play.slot].clip ? position : std::min(position, clip->duration());
+        auto content = maker.make(clip, made.settings);
         if (!content)
             return content.error();
-        if (time)
-            frame = advance(**content, *time);
+        made.content = std::move(content).value();
+        return made;
+    }
+
+    /// There is room.
+    void handOver(Replacement made, const std::shared_ptr<const LoadedClip>& clip, std::int64_t frame)
+    {
         LiveCommand command;
         command.kind = LiveCommand::Kind::replace;
-        command.slot = play.slot;
-        command.generation = play.generation;
+        command.slot = made.play.slot;
+        command.generation = made.play.generation;
         command.glide = framesOfGlide(Seconds(swapSeconds), fs);
-        command.content = content->release();
+        command.content = made.content.release();
         push(command, frame);
-        return {};
+        Slot& slot = slots[made.play.slot];
+        slot.settings.loop = made.settings.loop;
+        slot.clip = clip;
     }
 
     Result<void> send(LiveCommand::Kind kind, PlayId play, LiveControl control, double value, Seconds glide,

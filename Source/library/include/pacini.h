@@ -28,8 +28,10 @@
  * STRUCTS begin with their size, which their init function sets. They never grow within a major version: what is added
  * comes as functions and structs of its own, so that programs built against an older pacini.h go on.
  *
- * ERRORS: every function that returns pacini_result changes nothing when it fails; pacini_last_error() then says why in
- * words, for the thread that called.
+ * ERRORS: every function that returns pacini_result changes nothing when it fails, neither here nor what it was given
+ * to write to; pacini_last_error() then says why in words, for the thread that called. pacini_render() and
+ * pacini_render_interleaved() say no words, and write silence as it is told there. A number that is out of its range,
+ * infinite or NaN is PACINI_INVALID. Fades and glides are 0 to 3600 s.
  */
 #ifndef PACINI_H
 #define PACINI_H
@@ -154,8 +156,8 @@ extern "C"
         double strength;        /* 0 (as flat as can be) to 1 (as strong as can be) */
         uint32_t max_plays;     /* at a time, 1 to 10000 */
         uint32_t max_commands;  /* that wait, 16 to 1000000 */
-        double budget;          /* microseconds that a block of `budget_frames` may take, by prediction; 0: all */
-        uint32_t budget_frames; /* frames of that block */
+        double budget;          /* microseconds, 0 to 1e6, that a block may take, by prediction; 0: all */
+        uint32_t budget_frames; /* frames of that block, 1 or more */
         uint32_t budget_voices; /* plays that sound at a time; 0: all */
     } pacini_engine_config;
 
@@ -217,7 +219,7 @@ extern "C"
         PACINI_DELAY = 3,         /* s, 0 to pacini_engine_config.longest_delay */
         PACINI_TRANSPOSITION = 4, /* semitones, -96 to 96; steps */
         PACINI_SPEED = 5,         /* 0.01 to 100, pitches stay; steps */
-        PACINI_PRIORITY = 6,      /* whole numbers; 0 is kept longest; steps */
+        PACINI_PRIORITY = 6,      /* whole numbers, -1e9 to 1e9, usually from 0 on: the least is kept longest; steps */
 
         /* Levels of the roles of the clip, linear, 0 to 1000; a play begins with 1. Since 1.2. */
         PACINI_TONES = 7,  /* the bands */
@@ -231,10 +233,10 @@ extern "C"
         uint32_t group;                                           /* 0 to 31 */
         int64_t frame;                                            /* at which it begins */
         double gain, intensity, pan, delay, transposition, speed; /* as the controls */
-        double from;                                              /* s of the clip at which it begins */
+        double from;                                              /* s of the clip at which it begins, 0 to 86400 */
         double loop;      /* s of the clip that are repeated, 0.005 or more; 0: play once; -1: the whole clip */
         uint32_t passes;  /* of a loop; 0: until it is stopped */
-        int32_t priority; /* 0 is kept longest */
+        int32_t priority; /* as the control */
         double headroom;  /* semitones by which it may be transposed up later without loss, 0 to 48 */
         double fade_in;   /* s */
         double variation; /* 0 to 1: amplitudes vary at random, from pass to pass */
@@ -261,7 +263,7 @@ extern "C"
     PACINI_API pacini_result pacini_play_pause(pacini_play play, double fade, int64_t frame);
     PACINI_API pacini_result pacini_play_resume(pacini_play play, double fade, int64_t frame);
 
-    /* Goes on at another second of the clip. [any thread but audio] */
+    /* Goes on at another second of the clip, 0 to 86400. [any thread but audio] */
     PACINI_API pacini_result pacini_play_seek(pacini_play play, double position, int64_t frame);
 
     typedef enum pacini_play_state

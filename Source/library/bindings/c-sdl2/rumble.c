@@ -34,7 +34,8 @@ void rumble_update(rumble* r, double seconds)
     const double step = 1.0 - SDL_exp(-2.0 * 3.14159265358979 * corner / RATE);
     double heavy = 0.0, light = 0.0;
     int frames;
-    r->time = SDL_min(0.25, r->time + seconds); /* behind a long pause it does not catch up */
+    if (seconds > 0.0)
+        r->time = SDL_min(0.25, r->time + seconds); /* behind a long pause it does not catch up */
     frames = (int)(r->time * RATE);
     r->time -= (double)frames / RATE;
     while (frames > 0)

@@ -88,6 +88,9 @@ func every_function():
 	fails("there is no 'volume'", play.set_control("volume", 1))
 	fails("there is no 'lop'", engine.play(clip, {"lop": 1}))
 	fails("loop", engine.play(clip, {"loop": 5}))
+	for group in [-1, 32, 1 << 32]: # not those that it becomes in 32 bits
+		fails("group: must be 0 to 31", engine.play(clip, {"group": group}))
+	fails("fade: must be 0 to 3600 s", engine.stop_group(0, -1))
 	fails("'lra-176' is no profile", pacini.engine({"actuators": [{"profile": "lra-176"}]}))
 	var many = []
 	many.resize(17)

@@ -4,6 +4,7 @@
  */
 #include "rumble.h"
 
+#include <math.h>
 #include <stdio.h>
 
 static Uint16 heavy, light;
@@ -51,6 +52,8 @@ int main(int argc, char** argv)
         printf("update %d %d\n", heavy, light);
     }
     pacini_play_start(r.engine, clip, NULL, NULL);
+    rumble_update(&r, (double)NAN); /* a clock that went wrong: nothing passes */
+    rumble_update(&r, -3600.0);
     rumble_update(&r, 0.1);
     printf("again %d %d\n", heavy, light);
     rumble_close(&r);

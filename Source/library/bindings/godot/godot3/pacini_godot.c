@@ -116,13 +116,27 @@ static int is_given(const void* arguments, int at)
     return type != GODOT_NIL;
 }
 
-/* A number where one is given; what was there stays where null is. */
-#define GIVEN(arguments, at, to, type)                                                                                 \
+/* A real number where one is given; what was there stays where null is. */
+#define GIVEN(arguments, at, to)                                                                                       \
     do                                                                                                                 \
     {                                                                                                                  \
         if (is_given(arguments, at))                                                                                   \
-            (to) = (type)to_real(arguments, at);                                                                       \
+            (to) = to_real(arguments, at);                                                                             \
     } while (0)
+
+/* The same for whole numbers. What the type cannot hold becomes its largest, which the library refuses. */
+#define GIVEN_WHOLE(arguments, at, to, type, least, most)                                                              \
+    do                                                                                                                 \
+    {                                                                                                                  \
+        if (is_given(arguments, at))                                                                                   \
+        {                                                                                                              \
+            const int64_t whole = to_int(arguments, at);                                                               \
+            (to) = whole < (least) || whole > (most) ? (type)(most) : (type)whole;                                     \
+        }                                                                                                              \
+    } while (0)
+#define GIVEN_COUNT(arguments, at, to) GIVEN_WHOLE(arguments, at, to, uint32_t, 0, (int64_t)UINT32_MAX)
+#define GIVEN_INT(arguments, at, to) GIVEN_WHOLE(arguments, at, to, int32_t, INT32_MIN, INT32_MAX)
+#define GIVEN_LONG(arguments, at, to, type) GIVEN_WHOLE(arguments, at, to, type, INT64_MIN, INT64_MAX)
 
 /* UTF-8 of a text; let go of it with forget(). */
 typedef struct utf8_text
@@ -223,17 +237,17 @@ EXPORT godot_variant pacini_godot_engine_create(const void* arguments)
     utf8_text texts[PACINI_MAX_ACTUATORS];
     int a, actuators = (count(arguments) - FIRST) / 3;
     pacini_engine_config_init(&config);
-    GIVEN(arguments, 1, config.sample_rate, double);
-    GIVEN(arguments, 2, config.pan_law, int32_t);
-    GIVEN(arguments, 3, config.protect, int32_t);
-    GIVEN(arguments, 4, config.pan_delay, double);
-    GIVEN(arguments, 5, config.longest_delay, double);
-    GIVEN(arguments, 6, config.strength, double);
-    GIVEN(arguments, 7, config.max_plays, uint32_t);
-    GIVEN(arguments, 8, config.max_commands, uint32_t);
-    GIVEN(arguments, 9, config.budget, double);
-    GIVEN(arguments, 10, config.budget_frames, uint32_t);
-    GIVEN(arguments, 11, config.budget_voices, uint32_t);
+    GIVEN(arguments, 1, config.sample_rate);
+    GIVEN_INT(arguments, 2, config.pan_law);
+    GIVEN_INT(arguments, 3, config.protect);
+    GIVEN(arguments, 4, config.pan_delay);
+    GIVEN(arguments, 5, config.longest_delay);
+    GIVEN(arguments, 6, config.strength);
+    GIVEN_COUNT(arguments, 7, config.max_plays);
+    GIVEN_COUNT(arguments, 8, config.max_commands);
+    GIVEN(arguments, 9, config.budget);
+    GIVEN_COUNT(arguments, 10, config.budget_frames);
+    GIVEN_COUNT(arguments, 11, config.budget_voices);
     config.actuator_count = (uint32_t)actuators;
     if (actuators > PACINI_MAX_ACTUATORS)
         actuators = 0; /* the library says that these are too many */
@@ -241,8 +255,8 @@ EXPORT godot_variant pacini_godot_engine_create(const void* arguments)
     {
         texts[a] = to_text(arguments, FIRST + 3 * a);
         config.actuators[a].profile = texts[a].text; /* empty: none */
-        GIVEN(arguments, FIRST + 3 * a + 1, config.actuators[a].gain, double);
-        GIVEN(arguments, FIRST + 3 * a + 2, config.actuators[a].delay, double);
+        GIVEN(arguments, FIRST + 3 * a + 1, config.actuators[a].gain);
+        GIVEN(arguments, FIRST + 3 * a + 2, config.actuators[a].delay);
     }
     if (is_given(arguments, 0))
     {
@@ -375,22 +389,22 @@ EXPORT godot_variant pacini_godot_play_start(const void* arguments)
     pacini_play play = 0;
     pacini_result result;
     pacini_play_settings_init(&settings);
-    GIVEN(arguments, 2, settings.group, uint32_t);
-    GIVEN(arguments, 3, settings.frame, int64_t);
-    GIVEN(arguments, 4, settings.gain, double);
-    GIVEN(arguments, 5, settings.intensity, double);
-    GIVEN(arguments, 6, settings.pan, double);
-    GIVEN(arguments, 7, settings.delay, double);
-    GIVEN(arguments, 8, settings.transposition, double);
-    GIVEN(arguments, 9, settings.speed, double);
-    GIVEN(arguments, 10, settings.from, double);
-    GIVEN(arguments, 11, settings.loop, double);
-    GIVEN(arguments, 12, settings.passes, uint32_t);
-    GIVEN(arguments, 13, settings.priority, int32_t);
-    GIVEN(arguments, 14, settings.headroom, double);
-    GIVEN(arguments, 15, settings.fade_in, double);
-    GIVEN(arguments, 16, settings.variation, double);
-    GIVEN(arguments, 17, settings.seed, uint64_t);
+    GIVEN_COUNT(arguments, 2, settings.group);
+    GIVEN_LONG(arguments, 3, settings.frame, int64_t);
+    GIVEN(arguments, 4, settings.gain);
+    GIVEN(arguments, 5, settings.intensity);
+    GIVEN(arguments, 6, settings.pan);
+    GIVEN(arguments, 7, settings.delay);
+    GIVEN(arguments, 8, settings.transposition);
+    GIVEN(arguments, 9, settings.speed);
+    GIVEN(arguments, 10, settings.from);
+    GIVEN(arguments, 11, settings.loop);
+    GIVEN_COUNT(arguments, 12, settings.passes);
+    GIVEN_INT(arguments, 13, settings.priority);
+    GIVEN(arguments, 14, settings.headroom);
+    GIVEN(arguments, 15, settings.fade_in);
+    GIVEN(arguments, 16, settings.variation);
+    GIVEN_LONG(arguments, 17, settings.seed, uint64_t);
     result =
         pacini_play_start((pacini_engine)to_int(arguments, 0), (pacini_clip)to_int(arguments, 1), &settings, &play);
     return of_handle(result, play);

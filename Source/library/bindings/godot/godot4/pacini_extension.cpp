@@ -96,10 +96,9 @@ public:
 
     ~PaciniEngine() override { close(); }
 
-    /// A profile for each actuator, empty for the drive signal as it is.
+    /// A profile for each actuator, empty for the drive signal as it is. When it fails, what was open stays.
     bool open(const PackedStringArray& profiles, double sample_rate)
     {
-        close();
         pacini_engine_config config;
         pacini_engine_config_init(&config);
         config.sample_rate = sample_rate;
@@ -109,7 +108,12 @@ public:
             texts.push_back(profiles[i].utf8());
         for (std::size_t i = 0; i < texts.size(); ++i)
             config.actuators[i].profile = texts[i].get_data();
-        return succeeded(pacini_engine_create(&config, &handle));
+        pacini_engine made = 0;
+        if (!succeeded(pacini_engine_create(&config, &made)))
+            return false;
+        close();
+        handle = made;
+        return true;
     }
 
     void close()
