@@ -66,12 +66,12 @@ Result<MonoSound> readMono(const fs::path& path, const AudioReadOptions& options
 
 } // namespace
 
-CompareJob::CompareJob(const CompareSettings& wanted) : settings(wanted) {}
+CompareJob::CompareJob(const CompareSettings& wanted) : settings(wanted), comparer(UnsoundFrames::silence) {}
 
 std::variant<CompareResult, InputFailure> CompareJob::run(const ComparePair& pair,
                                                           const std::function<void(double)>& progress)
 {
-    // The judge counts what is not finite as silence after resampling, so it must come through.
+    // What no sound has counts as silence after resampling, so it must come through; the command warns of it.
     const AudioReadOptions reading{
         .allowTruncated = settings.allowTruncated, .keepNan = true, .lowestSampleRate = lowestResamplerRate};
     Stopwatch work;

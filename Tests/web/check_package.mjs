@@ -109,11 +109,21 @@ try {
   if (sceneDrive) check('a scene is rendered', false, sceneDrive.message)
 
   // What is wrong.
+  const broken = (value) => {
+    const samples = Float32Array.from(Array.isArray(sound.samples) ? sound.samples[0] : sound.samples)
+    samples[1000] = value
+    return { samples, sampleRate: sound.sampleRate }
+  }
+  check('samples that are no numbers count as silence where that is asked for',
+    (await compare(sound, broken(1e30), { allowNan: true })).notFinite === 1)
   const wrong = [
     ['no rate', () => encode({ samples: new Float32Array(10) }), 'sampleRate'],
     ['no samples', () => encode({ samples: 'x', sampleRate: 48000 }), 'samples'],
     ['not a number', () => encode({ samples: new Float32Array([0, NaN]), sampleRate: 48000 }), 'frame 1, channel 0'],
     ['an absurd number', () => encode({ samples: new Float32Array([0, 1e30]), sampleRate: 48000 }), 'frame 1, channel 0'],
+    ['a comparison with what is not a number', () => compare(sound, broken(NaN)), 'candidate[1000]'],
+    ['a comparison of what is not a number', () => compare(broken(Infinity), sound), 'reference[1000]'],
+    ['a comparison with what is no sound', () => compare(sound, broken(1e30)), 'candidate[1000]'],
     ['an unknown method', () => encode(sound, { method: 'x' }), 'method'],
     ['an option out of range', () => encode(sound, { bands: 33 }), 'bands'],
     ['an option of another method', () => encode(sound, { method: 'decomposition', bands: 4 }), 'bands'],

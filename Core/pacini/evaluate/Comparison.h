@@ -9,6 +9,7 @@
 #include <pacini/evaluate/match/MatchLag.h>
 #include <pacini/evaluate/match/MatchParts.h>
 #include <pacini/filters/Resampler.h>
+#include <pacini/foundation/DspBlock.h>
 #include <pacini/foundation/Result.h>
 
 #include <algorithm>
@@ -16,8 +17,10 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -30,7 +33,7 @@ struct Comparison
 {
     double duration = 0.0;          ///< s of the reference
     double candidateDuration = 0.0; ///< s
-    std::uint64_t notFinite = 0;    ///< frames of both sounds that were NaN or infinite
+    std::uint64_t notFinite = 0;    ///< frames of both sounds that were NaN, infinite or beyond limits::sample
     HtsScore hts;
     double ceiling = 0.0; ///< HTS of the reference itself, played as it is
     HtsScore htsFidelity;
@@ -104,17 +107,31 @@ inline constexpr std::array<ComparisonFigure, 13> comparisonFigures{{
     {"f1Within10ms", detail::scored<&Comparison::eventsNarrow>},
 }};
 
+/// Treatment of frames that no sound has: NaN, infinite, or beyond limits::sample.
+enum class UnsoundFrames
+{
+    refuse,
+    silence, ///< they count as silence, with all that a filter makes of them; Comparison::notFinite tells how many
+};
+
 /// Compares one pair after another; keeps transforms between them: setReference(), setCandidate(), compare(). Samples
 /// are mono, at 2 to 768 kHz. One thread at a time; allocates.
 class Comparer
 {
 public:
-    /// Begins a pair. Errors: a rate that is not 2 to 768 kHz (invalidArgument).
-    [[nodiscard]] Result<void> setReference(std::span<const float> mono, int sampleRate)
+    explicit Comparer(UnsoundFrames treatment = UnsoundFrames::refuse) : unsound(treatment) {}
+
+    /// Begins a pair. Errors: a rate that is not 2 to 768 kHz (invalidArgument), a frame that no sound has (notFinite,
+    /// with its place).
+    [[nodiscard]] Result<void> setReference(std::span<const float> sound, int sampleRate)
     {
         if (auto valid = checkResamplerRate(sampleRate); !valid)
             return valid;
         found = {};
+        const auto checked = soundFrames(sound, "reference");
+        if (!checked)
+            return checked.error();
+        const std::span<const float> mono = *checked;
         found.duration = durationOf(mono, sampleRate);
         judge.emplace(signalAnalysisLength(mono.size(), sampleRate));
         if (auto judged = analyze(mono, sampleRate, source, source.itself); !judged)
@@ -131,10 +148,14 @@ public:
     }
 
     /// After setReference(). Errors: as there.
-    [[nodiscard]] Result<void> setCandidate(std::span<const float> mono, int sampleRate)
+    [[nodiscard]] Result<void> setCandidate(std::span<const float> sound, int sampleRate)
     {
         if (auto valid = checkResamplerRate(sampleRate); !valid)
             return valid;
+        const auto checked = soundFrames(sound, "candidate");
+        if (!checked)
+            return checked.error();
+        const std::span<const float> mono = *checked;
         found.candidateDuration = durationOf(mono, sampleRate);
         return analyze(mono, sampleRate, target, target.hts);
     }
@@ -179,12 +200,32 @@ private:
         return static_cast<double>(mono.size()) / sampleRate;
     }
 
+    /// The frames as they are measured. Valid until the next call.
+    [[nodiscard]] Result<std::span<const float>> soundFrames(std::span<const float> sound, const char* name)
+    {
+        if (areWithinLimit(sound))
+            return sound;
+        marked.assign(sound.begin(), sound.end());
+        for (std::size_t i = 0; i < marked.size(); ++i)
+        {
+            const float frame = marked[i];
+            if (std::abs(frame) <= limits::sample)
+                continue;
+            if (unsound == UnsoundFrames::refuse)
+                return Error{ErrorCode::notFinite, std::string(name) + "[" + std::to_string(i) + "]",
+                             std::isnan(frame)   ? "is NaN"
+                             : std::isinf(frame) ? "is infinite"
+                                                 : "is far beyond full scale"};
+            marked[i] = std::numeric_limits<float>::quiet_NaN();
+            ++found.notFinite;
+        }
+        return std::span<const float>(marked);
+    }
+
     [[nodiscard]] Result<void> analyze(std::span<const float> mono, int sampleRate, Features& features,
                                        HtsFeatures& asCandidate)
     {
         features = {};
-        found.notFinite += static_cast<std::uint64_t>(
-            std::count_if(mono.begin(), mono.end(), [](float v) { return !std::isfinite(v); }));
         auto judged = signalFeatures(*judge, mono, sampleRate);
         if (!judged)
             return judged.error();
@@ -203,6 +244,8 @@ private:
     HtsAnalyzer hts;
     TouchAnalyzer touch;
     std::optional<SignalAnalyzer> judge;
+    UnsoundFrames unsound;
+    std::vector<float> marked;
     Features source, target;
     Comparison found;
 };

@@ -49,9 +49,10 @@ Result<void> compareSounds(Call& call)
 {
     const double rate = call.number("sampleRate", 0.0, 2000.0, 768000.0);
     const double candidateRate = call.number("candidateRate", rate, 2000.0, 768000.0);
+    const bool allowNan = call.truth("allowNan", false);
     if (call.reader.error)
         return {};
-    Comparer comparer;
+    Comparer comparer(allowNan ? UnsoundFrames::silence : UnsoundFrames::refuse);
     if (auto done = comparer.setReference(call.samples(0), static_cast<int>(rate)); !done)
         return done.error();
     if (auto done = comparer.setCandidate(call.samples(1), static_cast<int>(candidateRate)); !done)

@@ -151,8 +151,13 @@ export interface Rendered {
 export function render(clip: ClipInput, options?: RenderOptions): Promise<Rendered>
 export function felt(clip: ClipInput, options: FeltOptions): Promise<Rendered>
 
+export interface CompareOptions extends Stoppable {
+  /** Samples that are no numbers, or far beyond full scale, count as silence (`notFinite` tells how many), and are no error. */
+  allowNan?: boolean
+}
+
 /** All measures, by their names; null where one says nothing. */
-export function compare(sound: Sound, candidate: Sound, options?: Stoppable): Promise<Record<string, unknown>>
+export function compare(sound: Sound, candidate: Sound, options?: CompareOptions): Promise<Record<string, unknown>>
 
 export function profileNames(): string[]
 export function profileInfo(profile: ProfileInput, options?: Stoppable): Promise<{ name: string, low: number, high: number, dynamicRange: number, felt: boolean }>

@@ -147,10 +147,11 @@ export const render = (clip, options = {}) => rendered(clip, options, {})
 /** The acceleration that is felt of it: m/s2 over `fullScale` (100). */
 export const felt = (clip, options = {}) => rendered(clip, options, { felt: true })
 
-/** How close a haptic signal is to its sound, by all measures. */
-export const compare = async (sound, candidate, { signal } = {}) => {
+/** How close a haptic signal is to its sound, by all measures. With `allowNan` what is no number counts as silence. */
+export const compare = async (sound, candidate, { allowNan = false, signal } = {}) => {
   const module = await ready('research', signal)
-  return module.call('compare', { sampleRate: soundOf(sound).sampleRate, candidateRate: soundOf(candidate).sampleRate },
+  return module.call('compare',
+    { sampleRate: soundOf(sound).sampleRate, candidateRate: soundOf(candidate).sampleRate, allowNan },
     [monoOf(sound), monoOf(candidate)]).value
 }
 
