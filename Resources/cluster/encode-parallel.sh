@@ -12,9 +12,9 @@ pacini=${PACINI:-pacini}
 mkdir -p "$clips"
 # One thread a job: the jobs are what runs at once. A job that failed does not stop the others.
 code=0
-seq "$shards" | parallel --will-cite ${NODES:+--sshloginfile "$NODES" --workdir .} --joblog "$clips/jobs.log" \
+seq "$shards" | parallel --will-cite ${NODES:+--sshloginfile "$NODES" --workdir .} --joblog "$clips/run.jobs.log" \
     "$pacini" encode "$sounds" -o "$clips" --format packed -q -j 1 ${ENCODE:-} \
     --shard "{}/$shards" --manifest "$clips/run.manifest.json" || code=$?
-"$pacini" manifest merge "$clips"/run.manifest.*-of-"$shards".json -o "$clips/run.manifest.json"
+"$pacini" manifest merge "$clips"/run.manifest.*-of-"$shards".json -o "$clips/run.manifest.json" || code=$?
 "$pacini" manifest check "$clips/run.manifest.json" || code=$?
 exit $code

@@ -54,6 +54,15 @@ Result<std::vector<bool>> inputsOfShard(const std::vector<fs::path>& inputs, con
     return filesOfShard(sizes, *shard);
 }
 
+std::vector<ManifestShard> manifestShards(const std::vector<bool>& inShard, const std::string& text)
+{
+    const auto shard = parseShard(text);
+    if (!shard)
+        return {};
+    const auto files = static_cast<std::size_t>(std::count(inShard.begin(), inShard.end(), true));
+    return {{*shard, files, inShard.size()}};
+}
+
 fs::path manifestOfShard(const fs::path& manifest, const std::string& text)
 {
     const auto shard = parseShard(text);
@@ -108,7 +117,13 @@ Result<std::vector<bool>> Batch::start(const std::vector<BatchFile>& files, bool
     before.command = command->get_name();
     if (!retry || before.arguments.empty())
         before.arguments = lastingArguments(*command);
-    if (const auto started = growing.start(manifest, before); !started)
+    if (!retry)
+        before.shards = manifestShards(*inShard, shardText);
+    Manifest begun = before;
+    for (std::size_t i = 0; i < files.size(); ++i)
+        if (chosen[i] && !files[i].left)
+            begun.expect(files[i].key);
+    if (const auto started = growing.start(manifest, begun); !started)
         return Error{started.error().code, manifest.string(), started.error().message};
     file = manifest;
     return chosen;
@@ -137,6 +152,12 @@ void Batch::add(const std::string& key, const BatchOutcome& outcome)
         return;
     ManifestEntry entry = entryOf(outcome);
     const ManifestEntry* earlier = before.find(key);
+    // What failed now made nothing: what is there is of before.
+    if (!outcome.error.empty() && earlier != nullptr)
+    {
+        entry = *earlier;
+        entry.error = outcome.error;
+    }
     // How long it took stays known where nothing was done again.
     if (outcome.upToDate && earlier != nullptr && earlier->error.empty() && earlier->outputs == entry.outputs)
         return;

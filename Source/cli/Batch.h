@@ -23,7 +23,8 @@ namespace pacini::cli
 struct BatchFile
 {
     std::filesystem::path input;
-    std::string key; ///< what the manifest calls it
+    std::string key;   ///< what the manifest calls it
+    bool left = false; ///< is not worked on, as -n says: has no entry
 };
 
 /// What a run did to one file.
@@ -42,6 +43,9 @@ CLI::Option* addShard(CLI::App& command, std::string& text);
 /// Which of the inputs are in the shard that `text` names; all of them where it is empty. Errors: invalidArgument.
 [[nodiscard]] Result<std::vector<bool>> inputsOfShard(const std::vector<std::filesystem::path>& inputs,
                                                       const std::string& text);
+
+/// What a manifest says of the shard that `text` names, with the files that are in it; nothing where `text` is empty.
+[[nodiscard]] std::vector<ManifestShard> manifestShards(const std::vector<bool>& inShard, const std::string& text);
 
 /// The manifest of the shard that `text` names, beside those of the others: run.manifest.2-of-8.json. `manifest` itself
 /// where `text` is empty or no shard.
@@ -74,7 +78,7 @@ public:
     {
         std::vector<BatchFile> files;
         for (const auto& task : tasks)
-            files.push_back({task.input, task.key});
+            files.push_back({task.input, task.key, task.skipped});
         const auto chosen = start(files, dryRun);
         if (!chosen)
             return chosen.error();

@@ -222,11 +222,13 @@ Exit CompareCommand::run(Console& console)
         tasks.push_back({pair, {}, {}});
     std::vector<BatchFile> files;
     for (const ComparePair& pair : paired->pairs)
-        files.push_back({pair.reference, pair.name.generic_string()});
+        files.push_back({pair.reference, pair.name.generic_string(), false});
     const auto chosen = batch.start(files, false);
     if (!chosen)
         return console.fail("", chosen.error());
     keepChosen(tasks, *chosen);
+    for (const PairFailure& failure : paired->failures)
+        batch.add(failure.name, {{}, 0.0, {}, failure.error.text(), false});
     const auto nameOf = [&](std::size_t i)
     {
         return tasks[i].pair.name.string();

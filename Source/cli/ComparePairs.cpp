@@ -66,7 +66,8 @@ Result<ComparePairs> pairFiles(const std::string& reference, const std::string& 
     const InputFiles candidates = findInputs({candidate}, audioExtensions());
     const InputFiles clips = events.empty() ? InputFiles{} : findInputs({events}, clipFileExtensions());
     for (const InputFiles* found : {&references, &candidates, &clips})
-        result.failures.insert(result.failures.end(), found->failures.begin(), found->failures.end());
+        for (const InputFailure& failure : found->failures)
+            result.failures.push_back({failure, failure.path.generic_string()});
     const FilesByStem candidatesByStem = byStem(candidates);
     const FilesByStem clipsByStem = byStem(clips);
     std::set<std::string> used;
@@ -79,7 +80,8 @@ Result<ComparePairs> pairFiles(const std::string& reference, const std::string& 
         if (match && clip)
             result.pairs.push_back({file.relative, file.path, *match, *clip});
         else
-            result.failures.push_back({file.path, match ? clip.error() : match.error()});
+            result.failures.push_back(
+                {{file.path, match ? clip.error() : match.error()}, file.relative.generic_string()});
     }
     for (const InputFile& file : candidates.files)
         if (!used.contains(stemOf(file)))

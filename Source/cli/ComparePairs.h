@@ -23,10 +23,16 @@ struct ComparePair
     std::filesystem::path events;
 };
 
+/// A file that has no pair; `name` as of a pair.
+struct PairFailure : InputFailure
+{
+    std::string name;
+};
+
 struct ComparePairs
 {
     std::vector<ComparePair> pairs;
-    std::vector<InputFailure> failures;          ///< references without a counterpart, unreadable folders
+    std::vector<PairFailure> failures;           ///< references without a counterpart, unreadable folders
     std::vector<std::filesystem::path> leftOver; ///< candidates without a reference
 };
 

@@ -371,8 +371,12 @@ Exit ConvertCommand::convertClips(Console& console)
         return console.fail(record.string(), {ErrorCode::invalidData, "",
                                               "exists and is no record of conversions; name another with --manifest"});
     GrowingManifest growing;
-    if (const auto started = growing.start(dryRun ? std::filesystem::path() : record, before.value_or(Manifest()));
-        !started)
+    Manifest begun = before.value_or(Manifest());
+    begun.shards = manifestShards(*inShard, shard);
+    for (const ConvertTask& task : tasks)
+        if (!task.skipped)
+            begun.expect(task.key);
+    if (const auto started = growing.start(dryRun ? std::filesystem::path() : record, begun); !started)
         return console.fail(record.string(), started.error());
     const auto nameOf = [&](std::size_t i)
     {

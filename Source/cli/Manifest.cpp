@@ -9,8 +9,10 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
+#include <map>
 #include <sstream>
 #include <system_error>
+#include <utility>
 
 namespace pacini::cli
 {
@@ -56,6 +58,21 @@ ManifestEntry entryOf(const nlohmann::json& json)
     return entry;
 }
 
+/// The shards that a manifest is of; nothing where they are none. Throws what JSON throws.
+std::optional<std::vector<ManifestShard>> shardsIn(const nlohmann::json& tree)
+{
+    std::vector<ManifestShard> shards;
+    if (const auto list = tree.find("shards"); list != tree.end())
+        for (const auto& one : *list)
+        {
+            const auto shard = parseShard(one.at("shard").get<std::string>());
+            if (!shard)
+                return std::nullopt;
+            shards.push_back({*shard, one.at("files").get<std::size_t>(), one.at("of").get<std::size_t>()});
+        }
+    return shards;
+}
+
 /// All before the entries.
 std::string firstLine(const Manifest& manifest)
 {
@@ -63,6 +80,13 @@ std::string firstLine(const Manifest& manifest)
     if (!manifest.command.empty())
         text += fmt::format("\"command\": {}, \"arguments\": {}, ", onOneLine(manifest.command),
                             onOneLine(manifest.arguments));
+    if (!manifest.shards.empty())
+    {
+        Json shards = Json::array();
+        for (const ManifestShard& one : manifest.shards)
+            shards.push_back({{"shard", nameOf(one.shard)}, {"files", one.files}, {"of", one.all}});
+        text += fmt::format("\"shards\": {}, ", onOneLine(shards));
+    }
     return text + "\"files\": [";
 }
 
@@ -74,6 +98,10 @@ std::optional<Manifest> manifestIn(const nlohmann::json& tree)
     Manifest manifest;
     manifest.command = tree.value("command", "");
     manifest.arguments = tree.value("arguments", std::vector<std::string>());
+    auto shards = shardsIn(tree);
+    if (!shards)
+        return std::nullopt;
+    manifest.shards = std::move(*shards);
     for (const auto& file : tree.at("files"))
         manifest.entries[file.at("input").get<std::string>()] = entryOf(file);
     return manifest;
@@ -109,6 +137,58 @@ const ManifestEntry* Manifest::find(const std::string& input) const
 {
     const auto entry = entries.find(input);
     return entry == entries.end() ? nullptr : &entry->second;
+}
+
+void Manifest::expect(const std::string& input)
+{
+    ManifestEntry entry;
+    entry.error = "was not reached before the run ended";
+    entries.try_emplace(input, std::move(entry));
+}
+
+void ShardUnion::add(const std::vector<ManifestShard>& more)
+{
+    whole = whole || more.empty();
+    for (const ManifestShard& one : more)
+    {
+        std::erase_if(shards, [&](const ManifestShard& other) { return other.shard == one.shard; });
+        shards.push_back(one);
+    }
+}
+
+MissingShards ShardUnion::missing() const
+{
+    if (whole)
+        return {};
+    std::map<unsigned, std::map<unsigned, const ManifestShard*>> divisions; // by count, then number
+    for (const ManifestShard& one : shards)
+        divisions[one.shard.count][one.shard.number] = &one;
+    std::optional<MissingShards> least;
+    for (const auto& [count, present] : divisions)
+    {
+        MissingShards missing;
+        std::size_t made = 0, all = 0;
+        for (const auto& [number, one] : present)
+        {
+            made += one->files;
+            all = std::max(all, one->all);
+        }
+        missing.files = all - std::min(made, all);
+        if (present.size() == count)
+            return {};
+        constexpr unsigned named = 8;
+        unsigned lacking = 0;
+        for (unsigned number = 1; number <= count && lacking < named; ++number)
+            if (!present.contains(number))
+                missing.names += (lacking++ == 0 ? "" : ", ") + nameOf(Shard{number, count});
+        const std::size_t rest = count - present.size() - lacking;
+        missing.names = (lacking + rest == 1 ? "shard " : "shards ") + missing.names;
+        if (rest > 0)
+            missing.names += fmt::format(" and {} more", rest);
+        if (!least || missing.files < least->files)
+            least = std::move(missing);
+    }
+    return least.value_or(MissingShards());
 }
 
 std::optional<Manifest> readManifest(const std::filesystem::path& path)

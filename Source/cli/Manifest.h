@@ -3,6 +3,7 @@
 // Manifest of a run over many files: which inputs became which outputs, and which failed, so that a later run does only
 // what is left.
 
+#include "cli/Shard.h"
 #include "io/FileHandle.h"
 #include "io/formats/ClipFormat.h"
 
@@ -48,17 +49,51 @@ struct ManifestEntry
     bool operator==(const ManifestEntry&) const = default;
 };
 
+/// A shard of a run and how many files it has.
+struct ManifestShard
+{
+    Shard shard;
+    std::size_t files = 0;
+    std::size_t all = 0; ///< of all shards together
+    bool operator==(const ManifestShard&) const = default;
+};
+
 /// What was done to many files.
 struct Manifest
 {
     std::string command;                          ///< such as "encode"; empty for a conversion
     std::vector<std::string> arguments;           ///< of the command, for another run over the same files
+    std::vector<ManifestShard> shards;            ///< that it is of; empty for all of a run
     std::map<std::string, ManifestEntry> entries; ///< by the input's path below the folder that was named, with /
 
     /// The entry of an input; null when there is none.
     [[nodiscard]] const ManifestEntry* find(const std::string& input) const;
 
+    /// Gives an input that has no entry one with an error, which stands until the input is done.
+    void expect(const std::string& input);
+
     bool operator==(const Manifest&) const = default;
+};
+
+/// What of a run no shard made.
+struct MissingShards
+{
+    std::string names;     ///< "shard 2/3", or several; empty for none
+    std::size_t files = 0; ///< that they have
+};
+
+/// The shards of a run that several manifests are of together.
+struct ShardUnion
+{
+    std::vector<ManifestShard> shards;
+    bool whole = false; ///< one of them is of all of the run
+
+    /// Adds those of a manifest.
+    void add(const std::vector<ManifestShard>& more);
+
+    /// Shards of several divisions make the run whole if those of any one do; otherwise the one that lacks the fewest
+    /// files counts.
+    [[nodiscard]] MissingShards missing() const;
 };
 
 /// The manifest in a file, as far as it goes: a run that was killed left one without an end. None when the file is

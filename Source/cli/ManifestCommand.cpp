@@ -2,6 +2,7 @@
 
 #include "cli/CommandGroup.h"
 #include "cli/Counted.h"
+#include "cli/InputFiles.h"
 #include "cli/Manifest.h"
 #include "cli/Options.h"
 #include "cli/Overwrite.h"
@@ -13,6 +14,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -38,6 +40,28 @@ std::optional<Manifest> openManifest(Console& console, const std::string& path)
                                                          "and compare with --manifest"
                                                        : "does not exist"});
     return manifest;
+}
+
+/// Says which shards are in no manifest.
+Error notMade(const MissingShards& missing)
+{
+    return {ErrorCode::invalidData, "",
+            fmt::format("{} {} in none of the manifests: nobody made {}", missing.names,
+                        missing.names.starts_with("shards") ? "are" : "is", counted(missing.files, "file", "files"))};
+}
+
+/// The name of the run that a manifest is of: shards of one run, beside each other, have the same.
+std::string runOf(const fs::path& path, const Manifest& manifest)
+{
+    std::string stem = path.stem().string();
+    if (manifest.shards.size() == 1)
+    {
+        const Shard& shard = manifest.shards.front().shard;
+        const std::string ending = fmt::format(".{}-of-{}", shard.number, shard.count);
+        if (stem.ends_with(ending))
+            stem.resize(stem.size() - ending.size());
+    }
+    return sameFileKey(path.parent_path() / stem).generic_string();
 }
 
 /// What is wrong with an output, "" for nothing.
@@ -72,6 +96,7 @@ public:
     Exit run(Console& console) override
     {
         Manifest merged;
+        ShardUnion made;
         for (const std::string& input : inputs)
         {
             const auto one = openManifest(console, input);
@@ -88,8 +113,12 @@ public:
             }
             else if (one->arguments != merged.arguments)
                 console.warning(input, "was made with other options than " + inputs.front());
+            made.add(one->shards);
             add(merged, *one, input);
         }
+        const MissingShards missing = made.missing();
+        if (!missing.names.empty())
+            merged.shards = made.shards;
         if (overwriting.keepsAll() && isOccupied(output))
         {
             console.note(fmt::format("{} exists and was left", printable(output)));
@@ -104,9 +133,16 @@ public:
         std::size_t failed = 0;
         for (const auto& [name, entry] : merged.entries)
             failed += entry.error.empty() ? 0u : 1u;
-        console.addToReport({{"output", output}, {"files", merged.entries.size()}, {"failed", failed}});
+        console.addToReport({{"output", output},
+                             {"files", merged.entries.size()},
+                             {"failed", failed},
+                             {"missingShards", missing.names},
+                             {"notMade", missing.files}});
         console.wrote(output, fmt::format("{}, {} failed", counted(merged.entries.size(), "file", "files"), failed));
-        return Exit::ok;
+        if (missing.names.empty())
+            return Exit::ok;
+        console.error(output, notMade(missing));
+        return Exit::failed;
     }
 
 private:
@@ -140,7 +176,8 @@ class CheckSubcommand : public Command
 public:
     CLI::App* declare(CLI::App& app) override
     {
-        auto* command = app.add_subcommand("check", "Say which files failed, are missing or were changed since");
+        auto* command = app.add_subcommand(
+            "check", "Say which files failed, are missing or were changed since, and which shards nobody made");
         addOption(*command, "inputs", inputs, "Manifests; the outputs are where they were from there", "MANIFEST")
             ->required();
         command->footer("Example:\n  pacini manifest check clips/run.manifest.json");
@@ -149,12 +186,14 @@ public:
 
     Exit run(Console& console) override
     {
-        std::size_t files = 0, failed = 0, faulty = 0;
+        std::size_t files = 0, failed = 0, faulty = 0, lost = 0;
+        std::map<std::string, std::pair<std::string, ShardUnion>> runs; // with the first manifest of each
         for (const std::string& input : inputs)
         {
             const auto manifest = openManifest(console, input);
             if (!manifest)
                 return Exit::failed;
+            runs.try_emplace(runOf(input, *manifest), input, ShardUnion()).first->second.second.add(manifest->shards);
             for (const auto& [name, entry] : manifest->entries)
             {
                 ++files;
@@ -174,10 +213,19 @@ public:
                 console.error(name, {ErrorCode::invalidData, "", fault});
             }
         }
-        console.addToReport({{"files", files}, {"failed", failed}, {"missingOrChanged", faulty}});
-        console.note(fmt::format("{}: {} as recorded, {} failed, {} missing or changed",
-                                 counted(files, "file", "files"), files - failed - faulty, failed, faulty));
-        return failed + faulty > 0 ? Exit::failed : Exit::ok;
+        bool whole = true;
+        for (const auto& [name, run] : runs)
+            if (const MissingShards missing = run.second.missing(); !missing.names.empty())
+            {
+                whole = false;
+                lost += missing.files;
+                console.error(run.first, notMade(missing));
+            }
+        console.addToReport({{"files", files}, {"failed", failed}, {"missingOrChanged", faulty}, {"notMade", lost}});
+        console.note(fmt::format("{}: {} as recorded, {} failed, {} missing or changed{}",
+                                 counted(files, "file", "files"), files - failed - faulty, failed, faulty,
+                                 lost > 0 ? fmt::format("; nobody made {} more", lost) : ""));
+        return failed + faulty > 0 || !whole ? Exit::failed : Exit::ok;
     }
 
 private:

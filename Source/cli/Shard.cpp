@@ -14,6 +14,11 @@
 namespace pacini::cli
 {
 
+std::string nameOf(const Shard& shard)
+{
+    return fmt::format("{}/{}", shard.number, shard.count);
+}
+
 Result<Shard> parseShard(std::string_view text)
 {
     const std::size_t slash = text.find('/');

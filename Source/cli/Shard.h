@@ -17,9 +17,13 @@ struct Shard
 {
     unsigned number = 1;
     unsigned count = 1;
+    bool operator==(const Shard&) const = default;
 };
 
 inline constexpr unsigned mostShards = 1'000'000;
+
+/// Such as "2/8".
+[[nodiscard]] std::string nameOf(const Shard& shard);
 
 /// The shard that "2/8" names. Errors: invalidArgument.
 [[nodiscard]] Result<Shard> parseShard(std::string_view text);

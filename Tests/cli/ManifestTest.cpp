@@ -5,6 +5,7 @@
 
 #include <initializer_list>
 #include <string>
+#include <vector>
 
 using namespace pacini;
 using namespace pacini::cli;
@@ -89,4 +90,52 @@ TEST_CASE("What is no manifest is told from none", "[cli]")
         put(folder / "file", text);
         CHECK_FALSE(readManifest(folder / "file").has_value());
     }
+}
+
+TEST_CASE("A manifest remembers its shards, and expects what was not reached", "[cli]")
+{
+    const TempFolder folder;
+    const auto path = folder / "run.manifest.json";
+    Manifest begun = manifestOf({"old"});
+    begun.shards = {{{1, 3}, 2, 5}};
+    begun.expect("old");
+    begun.expect("new");
+    {
+        GrowingManifest growing;
+        REQUIRE(growing.start(path, begun).ok());
+    } // as if killed
+    const auto read = readManifest(path);
+    REQUIRE(read.has_value());
+    CHECK(*read == begun);
+    CHECK(read->find("old")->error.empty());
+    CHECK(read->find("new")->error == "was not reached before the run ended");
+    for (const char* wrong : {R"("4/3")", R"("a")", "3"})
+    {
+        std::string text = manifestText(begun);
+        text.replace(text.find(R"("1/3")"), 5, wrong);
+        put(path, text);
+        CHECK_FALSE(readManifest(path).has_value());
+    }
+}
+
+TEST_CASE("Shards of one division make a run whole; of several incomplete ones the fullest tells what is missing",
+          "[cli]")
+{
+    const auto missing = [](const std::vector<std::vector<ManifestShard>>& manifests)
+    {
+        ShardUnion made;
+        for (const auto& one : manifests)
+            made.add(one);
+        return made.missing();
+    };
+    const ManifestShard first{{1, 3}, 4, 12}, second{{2, 3}, 5, 12}, third{{3, 3}, 3, 12}, half{{1, 2}, 7, 12};
+    CHECK(missing({{first}, {second}, {third}}).names.empty());
+    CHECK(missing({{first}, {}}).names.empty()); // the other one is of all of it
+    CHECK(missing({{first}, {third}}).names == "shard 2/3");
+    CHECK(missing({{first}, {third}, {first}}).files == 5);
+    CHECK(missing({{first}, {half}}).names == "shard 2/2");
+    CHECK(missing({{first}, {half}}).files == 5);
+    CHECK(missing({{first, third}, {half}, {second}}).names.empty());
+    CHECK(missing({{{{500, 1000}, 1, 900}}}).names ==
+          "shards 1/1000, 2/1000, 3/1000, 4/1000, 5/1000, 6/1000, 7/1000, 8/1000 and 991 more");
 }

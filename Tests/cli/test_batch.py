@@ -52,6 +52,74 @@ class Batch(CommandTest):
         report = self.report("manifest", "check", "parts/run.manifest.json")
         self.assertEqual((report["files"], report["failed"], report["missingOrChanged"]), (12, 0, 0))
 
+    def test_what_no_shard_made_is_counted(self):
+        self.sounds()
+        line = ["encode", "in", "-o", "out", "--format", "packed", "--manifest", "run.manifest.json"]
+        sizes = {}
+        for shard in (1, 3):
+            sizes[shard] = len(self.report(*line, "--shard", f"{shard}/3")["files"])
+        parts = ["run.manifest.1-of-3.json", "run.manifest.3-of-3.json"]
+        missing = 12 - sizes[1] - sizes[3]
+        says = f"shard 2/3 is in none of the manifests: nobody made {missing} files"
+        self.fails(1, ["manifest", "merge", *parts, "-o", "run.manifest.json"], says)
+        self.assertEqual(len(self.entries("run.manifest.json")), 12 - missing)  # what there is is merged all the same
+        for manifests in (["run.manifest.json"], parts, parts[:1] + ["run.manifest.json"]):
+            done = self.fails(1, ["manifest", "check", *manifests, "--json"], says)
+            self.assertEqual(json.loads(done.stdout)["notMade"], missing)
+        self.fails(1, ["manifest", "check", parts[1]], "shards 1/3, 2/3 are in none of the manifests")
+        # The merged one knows what is missing: the last shard completes it.
+        self.succeeds(*line, "--shard", "2/3")
+        self.succeeds("manifest", "merge", "run.manifest.json", "run.manifest.2-of-3.json", "-o", "run.manifest.json")
+        report = self.report("manifest", "check", "run.manifest.json")
+        self.assertEqual((report["files"], report["notMade"]), (12, 0))
+        # So does another division, and a run over everything.
+        for shard in (1, 2):
+            self.succeeds(*line, "--shard", f"{shard}/2")
+        self.succeeds("manifest", "merge", parts[0], "run.manifest.1-of-2.json", "run.manifest.2-of-2.json", "-o",
+                      "two.manifest.json")
+        self.succeeds("manifest", "check", "two.manifest.json")
+        self.fails(1, ["manifest", "merge", *parts, "-o", "run.manifest.json"], says)
+        self.succeeds(*line)
+        self.succeeds("manifest", "check", "run.manifest.json")
+        self.succeeds("manifest", "check", "run.manifest.json", parts[0])
+
+    def test_conversions_renders_and_comparisons_count_what_nobody_made_too(self):
+        self.sounds(6)
+        self.succeeds("encode", "in", "-o", "clips", "--format", "packed")
+        self.succeeds("render", "clips", "-o", "drives")
+        for line, manifest in ((["convert", "clips", "haptic", "--format", "haptic"], "haptic/pacini.manifest"),
+                               (["render", "clips", "-o", "more", "--manifest", "r.manifest.json"], "r.manifest"),
+                               (["compare", "in", "drives", "--manifest", "c.manifest.json"], "c.manifest")):
+            self.succeeds(*line, "--shard", "2/2")
+            self.fails(1, ["manifest", "merge", f"{manifest}.2-of-2.json", "-o", f"{line[0]}.manifest.json"],
+                       "shard 1/2 is in none of the manifests")
+            self.fails(1, ["manifest", "check", f"{line[0]}.manifest.json"], "shard 1/2")
+        os.remove(self.folder / "drives/001.wav")
+        self.fails(1, ["compare", "in", "drives", "--manifest", "all.manifest.json"], "in/001.wav")
+        self.fails(1, ["manifest", "check", "all.manifest.json"], "001.wav: has no counterpart")
+
+    def test_what_is_known_of_a_file_stays_when_it_fails(self):
+        self.sounds(2)
+        line = ["encode", "in", "-o", "out", "--format", "packed", "--manifest", "run.manifest.json"]
+        self.succeeds(*line)
+        before = self.entries("run.manifest.json")["001.wav"]
+        sound = (self.folder / "in/001.wav").read_bytes()
+        self.put("in/001.wav", sound[:60])
+        self.fails(1, line, "in/001.wav")
+        failed = self.entries("run.manifest.json")["001.wav"]
+        self.assertTrue(failed.pop("error"))
+        self.assertEqual(failed, before)
+        self.fails(1, ["manifest", "check", "run.manifest.json"], "001.wav")
+        self.put("in/001.wav", sound)
+        self.succeeds("manifest", "retry", "run.manifest.json")
+        self.succeeds("manifest", "check", "run.manifest.json")
+
+    def test_what_was_left_as_it_was_is_nobodys_fault(self):
+        self.sounds(3)
+        self.succeeds("encode", "in", "-o", "out", "--format", "packed")
+        self.succeeds("encode", "in", "-o", "out", "--format", "packed", "-n", "--manifest", "run.manifest.json")
+        self.succeeds("manifest", "check", "run.manifest.json")
+
     def test_a_manifest_that_moves_when_merged_still_finds_its_files(self):
         self.sounds(2)
         self.succeeds("encode", "in", "-o", "clips/", "--manifest", "records/run.manifest.json")
@@ -88,11 +156,16 @@ class Batch(CommandTest):
         process = subprocess.Popen([COMMAND, *line], cwd=self.folder, stdout=subprocess.DEVNULL)
         manifest = self.folder / "run.manifest.json"
         until = time.monotonic() + 60
-        while not manifest.exists() or manifest.read_bytes().count(b"\n") < 10:
+        while not manifest.exists() or manifest.read_bytes().count(b'"sha256"') < 10:
             self.assertLess(time.monotonic(), until)
             self.assertIsNone(process.poll(), "ended too early")
         process.kill()
         process.wait()
+        # What it did not come to is known by name.
+        self.assertEqual(len(self.entries("run.manifest.json")), 60)
+        done = self.run_command("manifest", "check", "run.manifest.json")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn(b"was not reached before the run ended", done.stderr)
         fresh = 0
         for shard in (2, 1, 3):
             fresh += sum(f["upToDate"] for f in self.report(*line, "--shard", f"{shard}/3")["files"])
