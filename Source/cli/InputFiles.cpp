@@ -4,6 +4,7 @@
 #include "io/AtomicFile.h"
 #include "io/ClipFile.h"
 #include "io/FileExtension.h"
+#include "io/Overwrite.h"
 
 #include <algorithm>
 #include <set>
@@ -150,21 +151,6 @@ Result<void> checkOutput(const InputFiles& inputs, const std::string& output, bo
         return wrong("is named like a file, but there is more than one input; name a folder, or write -o " + output +
                      "/ if it is one");
     return {};
-}
-
-fs::path sameFileKey(const fs::path& path)
-{
-    // The folder's links are resolved, the file's own are not: two links to one file are two results.
-    std::error_code error;
-    const fs::path folder = fs::weakly_canonical(fs::absolute(path, error).parent_path(), error);
-    return error ? path.lexically_normal() : folder / path.filename();
-}
-
-fs::path realPlace(const fs::path& path)
-{
-    std::error_code error;
-    const fs::path place = fs::weakly_canonical(fs::absolute(path, error), error);
-    return error || place.empty() ? sameFileKey(path) : place;
 }
 
 } // namespace pacini::cli

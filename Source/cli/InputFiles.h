@@ -65,10 +65,4 @@ struct OutputPlace
 /// Errors: invalidArgument, with what to do.
 [[nodiscard]] Result<void> checkOutput(const InputFiles& inputs, const std::string& output, bool json);
 
-/// The same for all ways of naming one file, whether it exists or not.
-[[nodiscard]] std::filesystem::path sameFileKey(const std::filesystem::path& path);
-
-/// Where a file really is, with its own links resolved too, as far as they can be.
-[[nodiscard]] std::filesystem::path realPlace(const std::filesystem::path& path);
-
 } // namespace pacini::cli

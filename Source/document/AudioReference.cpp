@@ -2,6 +2,7 @@
 
 #include "io/AtomicFile.h"
 #include "io/InputFile.h"
+#include "io/Overwrite.h"
 
 #include <fmt/format.h>
 
@@ -93,6 +94,11 @@ std::string contentHash(std::string_view bytes)
     ContentHash hash;
     hash.add(bytes);
     return hash.text();
+}
+
+bool isFileOf(const AudioReference& reference, const fs::path& path)
+{
+    return isSameFile(reference.path, path) || sameContent(path, reference);
 }
 
 Result<DescribedAudio> describeAudio(const fs::path& path, bool embed)

@@ -42,6 +42,9 @@ struct AudioReference
 /// collide, which is enough to find a sound again.
 [[nodiscard]] std::string contentHash(std::string_view bytes);
 
+/// Whether `path` is the file of a sound: in its place, or elsewhere with its content.
+[[nodiscard]] bool isFileOf(const AudioReference& reference, const std::filesystem::path& path);
+
 /// Reads a sound and says what it is. The samples come along, so that it is read once. Errors: those of readAudio().
 struct DescribedAudio
 {

@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <optional>
 #include <set>
+#include <utility>
 
 namespace pacini
 {
@@ -24,9 +26,45 @@ Result<const ClipFormat*> formatOf(const ExportChoice& choice)
     return Error{ErrorCode::invalidArgument, "format", "'" + choice.format + "' is not known"};
 }
 
-Result<void> writeRendered(const Clip& clip, const ExportParams& wanted, const std::filesystem::path& path)
+/// Files of one clip that are ready to be written.
+struct Prepared
 {
+    std::string clip;
+    std::filesystem::path path;           ///< of the main file
+    std::optional<ExportedClip> exported; ///< none: the drive signal, which is made when it is written
+
+    [[nodiscard]] std::vector<std::filesystem::path> files() const
+    {
+        if (!exported)
+            return {path};
+        std::vector<std::filesystem::path> all;
+        for (const ExportedFile& file : exported->files)
+            all.push_back(file.suffix.empty() ? path : exportPath(path, file.suffix));
+        return all;
+    }
+};
+
+Result<Prepared> prepare(const Clip& clip, std::filesystem::path path, const ClipFormat& format,
+                         const ExportParams& params)
+{
+    Prepared made{clip.name, std::move(path), {}};
+    if (!format.isWritten())
+        return made;
+    auto exported = format.write(clip, params);
+    if (!exported)
+        return exported.error();
+    made.exported = std::move(*exported);
+    return made;
+}
+
+Result<std::vector<std::filesystem::path>> writeRendered(const Clip& clip, const ExportParams& wanted,
+                                                         const std::filesystem::path& path, Replaceable replaceable)
+{
+    const auto existing = mayOverwrite(path, FileOrigin{}, replaceable);
+    if (!existing)
+        return existing.error();
     AudioWriteParams params;
+    params.existing = *existing;
     params.sampleRate = wanted.sampleRate                  ? *wanted.sampleRate
                         : clip.source.sampleRate >= 2000.0 ? static_cast<int>(std::lround(clip.source.sampleRate))
                                                            : usualRate;
@@ -36,7 +74,34 @@ Result<void> writeRendered(const Clip& clip, const ExportParams& wanted, const s
     params.expectedFrames = samples->size();
     if (auto written = writeAudio(path, *samples, params); !written)
         return written.error();
-    return {};
+    return std::vector{path};
+}
+
+/// With `clip` in front where there are several.
+Error ofClip(Error error, const std::string& clip, bool several)
+{
+    if (several)
+        error.where = clip + (error.where.empty() ? "" : ": " + error.where);
+    return error;
+}
+
+/// The place of each clip: names that several share get numbers.
+std::vector<std::filesystem::path> placesOf(const std::vector<std::shared_ptr<const Clip>>& clips,
+                                            const ExportChoice& choice, const ClipFormat& format)
+{
+    std::vector<std::filesystem::path> places;
+    std::set<std::string> taken;
+    for (const auto& clip : clips)
+    {
+        auto name = exportName(*clip, format);
+        if (clips.size() == 1 && !choice.file.empty())
+            name = choice.file.string();
+        const auto first = std::filesystem::path(name);
+        for (int number = 2; !taken.insert(name).second; ++number)
+            name = first.stem().string() + "-" + std::to_string(number).append(format.extension);
+        places.push_back(choice.folder / name);
+    }
+    return places;
 }
 } // namespace
 
@@ -86,49 +151,61 @@ Result<std::vector<FormatLoss>> exportLosses(const Clip& clip, const ExportChoic
     return std::move(exported->losses);
 }
 
+Result<std::vector<StandingFile>> filesInTheWay(const std::vector<std::shared_ptr<const Clip>>& clips,
+                                                const ExportChoice& choice)
+{
+    const auto format = formatOf(choice);
+    if (!format)
+        return format.error();
+    const auto places = placesOf(clips, choice, **format);
+    std::vector<std::filesystem::path> all;
+    for (std::size_t i = 0; i < clips.size(); ++i)
+    {
+        const auto made = prepare(*clips[i], places[i], **format, choice.params);
+        if (!made)
+            return ofClip(made.error(), clips[i]->name, clips.size() > 1);
+        const auto files = made->files();
+        all.insert(all.end(), files.begin(), files.end());
+    }
+    return filesInTheWay(all, choice.needed);
+}
+
 Result<std::vector<ExportReport>> exportClips(const std::vector<std::shared_ptr<const Clip>>& clips,
                                               const ExportChoice& choice)
 {
-    const auto found = formatOf(choice);
-    if (!found)
-        return found.error();
-    const ClipFormat& format = **found;
+    const auto format = formatOf(choice);
+    if (!format)
+        return format.error();
+    const auto places = placesOf(clips, choice, **format);
     std::vector<ExportReport> reports;
-    std::set<std::string> taken;
-    for (const auto& clip : clips)
+    for (std::size_t i = 0; i < clips.size(); ++i)
     {
-        auto name = exportName(*clip, format);
-        if (clips.size() == 1 && !choice.file.empty())
-            name = choice.file.string();
-        const auto first = std::filesystem::path(name);
-        for (int number = 2; !taken.insert(name).second; ++number)
-            name = first.stem().string() + "-" + std::to_string(number).append(format.extension);
-        const auto path = choice.folder / name;
-        const auto failed = [&](Error error)
+        const auto write = [&]() -> Result<ExportReport>
         {
-            if (clips.size() > 1)
-                error.where = clip->name + (error.where.empty() ? "" : ": " + error.where);
-            return error;
+            auto made = prepare(*clips[i], places[i], **format, choice.params);
+            if (!made)
+                return made.error();
+            if (const auto others = filesInTheWay(made->files(), choice.needed); !others)
+                return others.error();
+            if (!made->exported)
+            {
+                auto files = writeRendered(*clips[i], choice.params, made->path, choice.replaceable);
+                if (!files)
+                    return files.error();
+                return ExportReport{made->clip, std::move(*files), {}};
+            }
+            const auto existing = mayOverwrite(made->path, *made->exported, choice.replaceable);
+            if (!existing)
+                return existing.error();
+            auto files = writeExport(made->path, *made->exported, *existing);
+            if (!files)
+                return files.error();
+            return ExportReport{made->clip, std::move(*files), std::move(made->exported->losses)};
         };
-        ExportReport report{clip->name, {}, {}};
-        if (!format.isWritten())
-        {
-            if (auto written = writeRendered(*clip, choice.params, path); !written)
-                return failed(written.error());
-            report.files.push_back(path);
-        }
-        else
-        {
-            auto exported = format.write(*clip, choice.params);
-            if (!exported)
-                return failed(exported.error());
-            auto written = writeExport(path, *exported);
-            if (!written)
-                return failed(written.error());
-            report.files = std::move(written).value();
-            report.losses = std::move(exported->losses);
-        }
-        reports.push_back(std::move(report));
+        auto report = write();
+        if (!report)
+            return ofClip(report.error(), clips[i]->name, clips.size() > 1);
+        reports.push_back(std::move(*report));
     }
     return reports;
 }

@@ -2,6 +2,7 @@
 
 // Batch export: clips of a project into a folder, in one format.
 
+#include "document/FilesInTheWay.h"
 #include "io/formats/ClipFormat.h"
 
 #include <pacini/clip/Clip.h>
@@ -21,8 +22,10 @@ struct ExportChoice
 {
     std::string format = "json"; ///< name of one of exportFormats()
     ExportParams params; ///< the rate of the drive signal is that of the clip's sound where none is given, or 8 kHz
-    std::filesystem::path folder; ///< existing
-    std::filesystem::path file;   ///< of a single clip, in `folder`; empty: the clip's name
+    std::filesystem::path folder;               ///< existing
+    std::filesystem::path file;                 ///< of a single clip, in `folder`; empty: the clip's name
+    ProjectFileSet needed;                      ///< never replaced
+    Replaceable replaceable = Replaceable::own; ///< `named` once the user has been asked
 };
 
 struct ExportReport
@@ -39,8 +42,14 @@ struct ExportReport
 /// What exporting would lose, without writing anything. Errors: those of the format. [worker]
 [[nodiscard]] Result<std::vector<FormatLoss>> exportLosses(const Clip& clip, const ExportChoice& choice);
 
+/// What stands at the places of the files that exportClips() would write. Errors: those of the format and of
+/// filesInTheWay(). [worker]
+[[nodiscard]] Result<std::vector<StandingFile>> filesInTheWay(const std::vector<std::shared_ptr<const Clip>>& clips,
+                                                              const ExportChoice& choice);
+
 /// Writes every clip; names that several clips share get numbers. Errors: invalidArgument (no such format), those of
-/// the format and of writing, with the clip's name where there are several; what was written before stays. [worker]
+/// the format, of filesInTheWay(), of mayOverwrite() and of writing, with the clip's name where there are several; what
+/// was written before stays. [worker]
 [[nodiscard]] Result<std::vector<ExportReport>> exportClips(const std::vector<std::shared_ptr<const Clip>>& clips,
                                                             const ExportChoice& choice);
 

@@ -2,6 +2,7 @@
 
 #include "io/FileExtension.h"
 #include "io/InputFile.h"
+#include "io/Overwrite.h"
 #include "io/ReadWarnings.h"
 #include "io/SceneFile.h"
 #include "io/formats/ImportReport.h"
@@ -232,19 +233,35 @@ Result<std::size_t> writeClip(const fs::path& path, Clip clip, const ClipFormat&
 
 Result<std::vector<fs::path>> writeExport(const fs::path& main, const ExportedClip& exported, Existing existing)
 {
-    std::vector<fs::path> files;
+    const auto placeOf = [&main](const ExportedFile& file)
+    {
+        return file.suffix.empty() ? main : exportPath(main, file.suffix);
+    };
+    const auto atOther = [&](const ExportedFile& file, Error error)
+    {
+        const std::string name = placeOf(file).filename().string();
+        error.where = file.suffix.empty() ? error.where : name + (error.where.empty() ? "" : ": " + error.where);
+        return error;
+    };
+    // Before the first is written: all of them, or none.
+    std::vector<Existing> ways;
     for (const ExportedFile& file : exported.files)
     {
-        const auto path = file.suffix.empty() ? main : exportPath(main, file.suffix);
-        const auto written = writeFileAtomically(path, file.bytes, file.suffix.empty() ? existing : Existing::replace);
-        if (!written)
-        {
-            Error error = written.error();
-            if (!file.suffix.empty())
-                error.where = path.filename().string() + (error.where.empty() ? "" : ": " + error.where);
-            return error;
-        }
-        files.push_back(path);
+        ways.push_back(existing);
+        if (existing == Existing::replace || file.suffix.empty())
+            continue;
+        const auto way = mayOverwrite(placeOf(file), file.bytes, Replaceable::own);
+        if (!way)
+            return atOther(file, {way.error().code, "", way.error().message});
+        ways.back() = *way;
+    }
+    std::vector<fs::path> files;
+    for (std::size_t i = 0; i < exported.files.size(); ++i)
+    {
+        const ExportedFile& file = exported.files[i];
+        if (const auto written = writeFileAtomically(placeOf(file), file.bytes, ways[i]); !written)
+            return atOther(file, written.error());
+        files.push_back(placeOf(file));
     }
     return files;
 }

@@ -68,8 +68,9 @@ struct ClipReadParams
 [[nodiscard]] Result<std::size_t> writeClip(const std::filesystem::path& path, Clip clip, const ClipFormat& format,
                                             Existing existing = Existing::replace);
 
-/// Writes all files of an export whose main file is to be `main` and returns their paths; `existing` is about that one.
-/// Errors: as in AtomicFile, with the name of the file where it is not the main one.
+/// Writes all files of an export whose main file is to be `main` and returns their paths; of the others none that holds
+/// something else is replaced where `existing` is `keep`. Errors: as in AtomicFile, with the name of the file where it
+/// is not the main one.
 [[nodiscard]] Result<std::vector<std::filesystem::path>>
 writeExport(const std::filesystem::path& main, const ExportedClip& exported, Existing existing = Existing::replace);
 

@@ -57,6 +57,7 @@ TEST_CASE("The drive signal of an export is the one that is rendered with the sa
         choice.format = "wav";
         choice.folder = folder.path();
         choice.file = "hum.wav";
+        choice.replaceable = Replaceable::named;
         choice.params.sampleRate = 8000;
         choice.params.profile = profile;
         choice.params.strength = strength;
@@ -75,5 +76,72 @@ TEST_CASE("The drive signal of an export is the one that is rendered with the sa
         REQUIRE(writeAudio(folder / "rendered.wav", rendered, {.sampleRate = 8000}));
         CHECK(bytesOf(folder / "hum.wav") == bytesOf(folder / "rendered.wav"));
         CHECK(std::exchange(before, bytesOf(folder / "hum.wav")) != bytesOf(folder / "hum.wav"));
+    }
+}
+
+TEST_CASE("An export replaces nothing before the user was asked, and a sound of the project never", "[document]")
+{
+    const TempFolder folder;
+    Clip clip;
+    clip.name = "hum";
+    clip.duration = 0.5;
+    clip.bands = {{100.0, 150.0, 220.0, 0, {{0.0, 0.5}, {0.5, 0.5}}, {}}};
+    const std::vector<std::shared_ptr<const Clip>> clips{std::make_shared<const Clip>(clip)};
+    for (const ClipFormat& format : exportFormats())
+    {
+        CAPTURE(format.name);
+        ExportChoice choice;
+        choice.format = std::string(format.name);
+        choice.folder = folder.path() / std::string(format.name);
+        choice.file = "hum" + std::string(format.extension);
+        std::filesystem::create_directory(choice.folder);
+        const auto free = filesInTheWay(clips, choice);
+        REQUIRE(free);
+        CHECK(free->empty());
+        const auto made = exportClips(clips, choice);
+        REQUIRE(made);
+        // Each of its files is in the way now, whichever it is, and what is in it stays without being asked for.
+        for (const auto& file : made->front().files)
+        {
+            CAPTURE(file);
+            for (const auto& other : made->front().files)
+                std::filesystem::remove(other);
+            put(file, "hers");
+            const auto standing = filesInTheWay(clips, choice);
+            REQUIRE(standing);
+            REQUIRE(standing->size() == 1);
+            CHECK(standing->front().path == file);
+            CHECK(standing->front().kind == FileKind::other);
+            CHECK_FALSE(exportClips(clips, choice));
+            CHECK(bytesOf(file) == "hers");
+            ExportChoice asked = choice;
+            asked.replaceable = Replaceable::named;
+            CHECK(exportClips(clips, asked));
+            CHECK(bytesOf(file) != "hers");
+        }
+        // A sound of the project: in its place, by a link, or moved with its content.
+        AudioReference sound;
+        sound.path = made->front().files.front();
+        put(sound.path, "the recording");
+        choice.replaceable = Replaceable::any;
+        choice.needed.sounds = {sound};
+        const auto refused = exportClips(clips, choice);
+        REQUIRE_FALSE(refused);
+        CHECK(refused.error().text().find("is a sound of this project") != std::string::npos);
+        CHECK(bytesOf(sound.path) == "the recording");
+        std::filesystem::create_symlink(sound.path, choice.folder / "link.wav");
+        choice.needed.sounds[0].path = choice.folder / "link.wav";
+        CHECK_FALSE(exportClips(clips, choice));
+        choice.needed.sounds[0].path = "/moved/away.wav";
+        choice.needed.sounds[0].bytes = 13;
+        choice.needed.sounds[0].hash = contentHash("the recording");
+        CHECK_FALSE(filesInTheWay(clips, choice));
+        CHECK_FALSE(exportClips(clips, choice));
+        CHECK(bytesOf(sound.path) == "the recording");
+        // Nor the project itself.
+        choice.needed = {{}, sound.path};
+        CHECK_FALSE(exportClips(clips, choice));
+        choice.needed = {};
+        CHECK(exportClips(clips, choice));
     }
 }

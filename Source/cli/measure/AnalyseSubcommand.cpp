@@ -8,6 +8,7 @@
 #include "cli/plot/ResponseFigure.h"
 #include "io/AtomicFile.h"
 #include "io/FileExtension.h"
+#include "io/Overwrite.h"
 #include "io/ProfileFile.h"
 #include "io/ResponseTable.h"
 

@@ -80,7 +80,7 @@ void drawFigure(Canvas& canvas, const Figure& figure, const FigureStyle& style)
 }
 
 Result<std::size_t> writeFigure(const std::filesystem::path& path, const Figure& figure, const FigureStyle& style,
-                                cli::Replaceable replaceable)
+                                Replaceable replaceable)
 {
     return writePicture(
         path, style.size, figure.title, [&](Canvas& canvas) { drawFigure(canvas, figure, style); }, replaceable);

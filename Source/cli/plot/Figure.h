@@ -35,7 +35,6 @@ void drawFigure(Canvas& canvas, const Figure& figure, const FigureStyle& style);
 
 /// Draws the figure into a file; returns its size in bytes. Errors as in writePicture.
 [[nodiscard]] Result<std::size_t> writeFigure(const std::filesystem::path& path, const Figure& figure,
-                                              const FigureStyle& style,
-                                              cli::Replaceable replaceable = cli::Replaceable::named);
+                                              const FigureStyle& style, Replaceable replaceable = Replaceable::named);
 
 } // namespace pacini::plot

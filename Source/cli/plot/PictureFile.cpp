@@ -39,7 +39,7 @@ std::optional<PictureFormat> pictureFormatOf(const std::filesystem::path& path)
 }
 
 Result<std::size_t> writePicture(const std::filesystem::path& path, PictureSize size, const std::string& title,
-                                 const std::function<void(Canvas&)>& draw, cli::Replaceable replaceable)
+                                 const std::function<void(Canvas&)>& draw, Replaceable replaceable)
 {
     const auto format = pictureFormatOf(path);
     if (!format)

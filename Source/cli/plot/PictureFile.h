@@ -33,6 +33,6 @@ struct PictureSize
 /// invalidArgument for another extension, tooLarge, io as in AtomicFile and when what is there is not to be replaced.
 [[nodiscard]] Result<std::size_t> writePicture(const std::filesystem::path& path, PictureSize size,
                                                const std::string& title, const std::function<void(Canvas&)>& draw,
-                                               cli::Replaceable replaceable = cli::Replaceable::named);
+                                               Replaceable replaceable = Replaceable::named);
 
 } // namespace pacini::plot

@@ -1,0 +1,79 @@
+#pragma once
+
+// Overwrite policy: which existing files may be replaced by results, and what a file is that stands in the way.
+//
+// A file that the user named is replaced, unless it is an input or what that was made from; windows ask first. Any
+// other is replaced only when it was made by Pacini from the same input and is still as it was made.
+
+#include "io/AtomicFile.h"
+#include "io/FileOrigin.h"
+#include "io/formats/ClipFormat.h"
+
+#include <pacini/foundation/Result.h>
+
+#include <filesystem>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace pacini
+{
+
+/// Permission to replace a file that stands at the place of one result.
+enum class Replaceable
+{
+    own,   ///< what Pacini made from the same input
+    named, ///< the file that the user named, and was asked about where there is a window
+    any,   ///< everything
+};
+
+/// Whether something stands at `path` that could be lost; a stream has nothing to lose.
+[[nodiscard]] bool isOccupied(const std::filesystem::path& path);
+
+/// How a file with that origin may be written to `output`. Errors: io, with the place and why not: "exists, and ...".
+[[nodiscard]] Result<Existing> mayOverwrite(const std::filesystem::path& output, const FileOrigin& origin,
+                                            Replaceable allowed);
+
+/// The same for a file of a format that has no room for its origin: what is there already must be the same `bytes`.
+[[nodiscard]] Result<Existing> mayOverwrite(const std::filesystem::path& output, std::string_view bytes,
+                                            Replaceable allowed);
+
+/// The same for all files of an export whose main file is `main`; how that one may be written.
+[[nodiscard]] Result<Existing> mayOverwrite(const std::filesystem::path& main, const ExportedClip& exported,
+                                            Replaceable allowed);
+
+/// What a file is, for a question.
+enum class FileKind
+{
+    sound,
+    madeSound, ///< one that Pacini has made
+    clip,
+    scene,
+    profile,
+    project,
+    folder,
+    other
+};
+
+/// By its content. [worker]
+[[nodiscard]] FileKind kindOf(const std::filesystem::path& path);
+
+struct StandingFile
+{
+    std::filesystem::path path;
+    FileKind kind = FileKind::other;
+};
+
+/// Those of `results` where a file stands that could be lost. [worker]
+[[nodiscard]] std::vector<StandingFile> standingAt(std::span<const std::filesystem::path> results);
+
+/// The same for all ways of naming one file, whether it exists or not.
+[[nodiscard]] std::filesystem::path sameFileKey(const std::filesystem::path& path);
+
+/// Where a file really is, with its own links resolved too, as far as they can be.
+[[nodiscard]] std::filesystem::path realPlace(const std::filesystem::path& path);
+
+/// Whether both are one file, also through links of any kind.
+[[nodiscard]] bool isSameFile(const std::filesystem::path& one, const std::filesystem::path& other);
+
+} // namespace pacini
