@@ -280,9 +280,10 @@ Result<void> EncodeCommand::checkFormat() const
 /// Comes back only where that is not possible.
 Error EncodeCommand::runOnCluster() const
 {
-    constexpr std::array known{
-        "inputs",  "output",  "method",      "format",     "bands",     "breakpoints",     "quantise", "low",  "high",
-        "spacing", "audible", "sensitivity", "keep-level", "allow-nan", "allow-truncated", "ray",      "quiet"};
+    constexpr std::array known{"inputs",      "output",      "method",     "format",    "bands",
+                               "breakpoints", "quantise",    "low",        "high",      "spacing",
+                               "audible",     "sensitivity", "keep-level", "allow-nan", "allow-truncated",
+                               "ray",         "quiet",       "overwrite"};
     if (output.empty() || isStream(output))
         return wrongUsage("--output", "is needed with --ray: name a folder for the clips");
     for (const CLI::Option* option : command->get_options())

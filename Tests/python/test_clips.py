@@ -144,7 +144,8 @@ class Clips(FolderTest):
         self.refuses("", "invalidData", pacini.Clip.from_bytes, b"nothing")
         self.refuses("duration", "invalidData", pacini.Clip.from_dict, {**self.clip.to_dict(), "duration": -1})
         self.refuses("quantise", "invalidArgument", self.clip.to_bytes, quantise=99)
-        self.clip.save(bad)
+        self.refuses(str(bad), "io", self.clip.save, bad)
+        self.clip.save(bad, overwrite=True)
         self.refuses(str(bad), "io", self.clip.save, bad, overwrite=False)
         with self.assertRaises(TypeError):
             self.clip.save(self.folder / "clip.json", colour="red")

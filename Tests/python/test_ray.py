@@ -99,12 +99,18 @@ class Cluster(FolderTest):
         folder, clips = self.sounds(20), self.folder / "clips"
         first = pacini_ray.encode(folder, clips)
         (clips / "000003.pacb").unlink()
-        (clips / "000004.pacb").write_bytes(b"short")
-        pacini.write_audio(folder / "000005.wav", knocks(0.5, seed=99), 48000)
+        (clips / "000004.pacb").write_bytes((clips / "000004.pacb").read_bytes()[:-1])
+        pacini.write_audio(folder / "000005.wav", knocks(0.5, seed=99), 48000, overwrite=True)
         done: list[float] = []
         before = {path.name: path.stat().st_mtime_ns for path in clips.glob("*.pacb")}
         again = pacini_ray.encode(folder, clips, progress=done.append)
         self.assertEqual(len(done), 3)
+        # What may be somebody's is left as it is, until it is said.
+        [row] = [row for row in again.to_pylist() if row["error"]]
+        self.assertEqual(row["where"], str(clips / "000004.pacb"))
+        self.assertIn("nothing in it says that Pacini made it", row["error"])
+        again = pacini_ray.encode(folder, clips, overwrite=True)
+        self.assertEqual(again["error"].null_count, 20)
         changed = {path.name for path in clips.glob("*.pacb") if path.stat().st_mtime_ns != before.get(path.name)}
         self.assertEqual(changed, {"000003.pacb", "000004.pacb", "000005.pacb"})
         self.assertEqual(again.num_rows, first.num_rows)
@@ -112,6 +118,68 @@ class Cluster(FolderTest):
         done.clear()
         pacini_ray.encode(folder, clips, bands=4, progress=done.append)
         self.assertEqual(len(done), 20)
+
+    def test_a_run_is_not_made_worse_by_the_next(self) -> None:
+        folder, clips = self.sounds(6), self.folder / "clips"
+        good = pacini_ray.encode(folder, clips, compare=True).to_pylist()
+        self.assertTrue(all(row["hts"] > 10 and not row["error"] for row in good))
+        before = (clips / "run.parquet").read_bytes()
+        # What would fail for every sound is told, and nothing is done.
+        for wrong in ({"bandz": 3}, {"bands": 1000}, {"method": "none"}, {"allow-nan": True}):
+            with self.assertRaises(pacini.Error):
+                pacini_ray.encode(folder, clips, compare=True, **wrong)
+        with self.assertRaisesRegex(pacini.Error, "bandz: is no option of pacini.encode.*did you mean bands"):
+            pacini_ray.encode(folder, clips, bandz=3)
+        self.assertEqual((clips / "run.parquet").read_bytes(), before)
+        # Nor does a run without measures lose them,
+        done: list[float] = []
+        self.assertEqual(pacini_ray.encode(folder, clips, progress=done.append).to_pylist(), good)
+        self.assertEqual(done, [])
+        # although a clip is made again, as long as it becomes the same;
+        (clips / "000002.pacb").unlink()
+        again = pacini_ray.encode(folder, clips).to_pylist()
+        self.assertEqual([row["hts"] for row in again], [row["hts"] for row in good])
+        # measures of what has changed are none.
+        pacini.write_audio(folder / "000003.wav", knocks(0.5, seed=99), 48000, overwrite=True)
+        again = pacini_ray.encode(folder, clips).to_pylist()
+        self.assertEqual([row["hts"] is None for row in again], [i == 3 for i in range(6)])
+        again = pacini_ray.encode(folder, clips, compare=True).to_pylist()
+        self.assertTrue(all(row["hts"] for row in again))
+        # A sound that fails keeps what is known of the clip that is there.
+        (folder / "000004.wav").write_bytes(b"RIFF no sound")
+        failed = pacini_ray.encode(folder, clips, compare=True).to_pylist()[4]
+        self.assertTrue(failed["error"])
+        self.assertEqual({**failed, "error": None, "where": None}, again[4])
+
+    def test_nothing_but_clips_of_its_own_is_replaced(self) -> None:
+        folder, clips = self.sounds(4), self.folder / "clips"
+        clips.mkdir()
+        (clips / "run.parquet").write_bytes(b"a table of somebody")
+        with self.assertRaisesRegex(pacini.Error, "is no table of pacini.ray"):
+            pacini_ray.encode(folder, clips)
+        self.assertEqual((clips / "run.parquet").read_bytes(), b"a table of somebody")
+        (clips / "run.parquet").unlink()
+        edited = pacini.encode(folder / "000000.wav")
+        edited.envelope = []
+        edited.save(clips / "000000.pacb")
+        pacini.encode(folder / "000001.wav").save(clips / "000001.pacb")  # as the command makes them
+        pacini.encode(folder / "000001.wav").save(clips / "000002.pacb")  # of another sound
+        before = {path.name: path.read_bytes() for path in clips.iterdir()}
+        rows = pacini_ray.encode(folder, clips, bands=4).to_pylist()
+        self.assertEqual([bool(row["error"]) for row in rows], [True, False, True, False])
+        self.assertIn("was edited since it was encoded", rows[0]["error"])
+        for name in ("000000.pacb", "000002.pacb"):
+            self.assertEqual((clips / name).read_bytes(), before[name])
+        # The same at a URL, and sounds are replaced by nothing.
+        rows = pacini_ray.encode(f"file://{folder}", f"file://{clips}", bands=5).to_pylist()
+        self.assertEqual([bool(row["error"]) for row in rows], [True, False, True, False])
+        rows = pacini_ray.encode(folder, clips, bands=4, overwrite=True).to_pylist()
+        self.assertEqual([row["error"] for row in rows], [None] * 4)
+        sounds = {path.name: path.read_bytes() for path in folder.iterdir()}
+        for output in (folder, f"{folder}/../{folder.name}"):
+            with self.assertRaisesRegex(pacini.Error, "would be replaced by the clip of"):
+                pacini_ray.encode(folder, output, format="wav16", overwrite=True)
+        self.assertEqual({path.name: path.read_bytes() for path in folder.iterdir()}, sounds)
 
     def test_workers_that_are_killed_cost_nothing(self) -> None:
         folder, clips = self.sounds(4000, 1.0), self.folder / "clips"

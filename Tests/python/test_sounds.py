@@ -1,8 +1,10 @@
 """Sounds in arrays of every kind, good and bad; threads, processes and Ctrl+C."""
 
+import dataclasses
 import multiprocessing
 import os
 import signal
+import struct
 import subprocess
 import sys
 import threading
@@ -19,6 +21,14 @@ RATE = 48000
 
 def encoded_bytes(seed):
     return pacini.encode(knocks(seed=seed), RATE).to_bytes()
+
+
+def write_floats(path, samples):
+    """A WAV file of float32 samples, whatever they are."""
+    data = samples.astype("<f4").tobytes()
+    form = struct.pack("<HHIIHH", 3, 1, RATE, 4 * RATE, 4, 32)
+    chunks = b"fmt " + struct.pack("<I", len(form)) + form + b"data" + struct.pack("<I", len(data)) + data
+    path.write_bytes(b"RIFF" + struct.pack("<I", 4 + len(chunks)) + b"WAVE" + chunks)
 
 
 class Arrays(FolderTest):
@@ -125,6 +135,72 @@ class Arrays(FolderTest):
         self.assertEqual(pacini.write_audio(self.folder / "b.wav", loud, RATE, encoding="pcm16"), 1)
         self.refuses("encoding", "invalidArgument", pacini.write_audio, self.folder / "c.wav", loud, RATE, encoding="8")
         self.assertEqual(sorted(path.name for path in self.folder.iterdir()), ["a.wav", "b.wav", "text.wav"])
+
+    def test_samples_that_are_no_sound_are_no_silence_for_comparisons(self):
+        sound = knocks(0.5)
+        whole = pacini.compare(sound, sound, RATE)
+        self.assertEqual(whole.not_finite, 0)
+        for value, says in (
+            (np.nan, "is NaN"),
+            (np.inf, "is infinite"),
+            (-np.inf, "is infinite"),
+            (1e30, "far beyond"),
+        ):
+            broken = sound.copy()
+            broken[100] = value
+            path = self.folder / f"{value}.wav"
+            write_floats(path, broken)
+            for arguments, where in (
+                ((sound, broken, RATE), "candidate[100]"),
+                ((broken, sound, RATE), "reference[100]"),
+                ((sound, broken.astype(np.float64), RATE), "candidate[100]"),
+                ((np.stack([sound, sound]), np.stack([sound, broken]), RATE), "candidate[100]"),
+                ((path, path), "reference[100]"),
+            ):
+                with self.subTest(f"{value} in {where}"), self.assertRaisesRegex(pacini.Error, says) as caught:
+                    pacini.compare(*arguments)
+                self.assertEqual((caught.exception.where, caught.exception.code), (where, "notFinite"))
+            taken = pacini.compare(sound, broken, RATE, allow_nan=True)
+            self.assertEqual(taken.not_finite, 1)
+            self.assertTrue(all(np.isfinite(x) for x in taken.values.values() if isinstance(x, float)))
+        self.refuses(
+            "candidate[7]", "notFinite", pacini.compare, sound, np.where(np.arange(24000) == 7, 1e300, 0.0), RATE
+        )
+        self.assertEqual(pacini.compare(sound, sound, RATE).values, whole.values)
+
+    def test_recordings_that_are_no_sound_are_not_measured(self):
+        sweep = pacini.measure.sweep(duration=1)
+        recording = pacini.measure.simulate(sweep)
+        broken = recording.samples.copy()
+        broken[1, 1000] = np.nan
+        self.refuses(
+            "channels[1][1000]",
+            "notFinite",
+            pacini.measure.analyse,
+            pacini.measure.Recording(broken, recording.sample_rate),
+            sweep,
+        )
+        played = sweep.signal.copy()
+        played[7] = np.inf
+        self.refuses("sound[7]", "notFinite", pacini.measure.simulate, dataclasses.replace(sweep, signal=played))
+
+    def test_many_files_go_on_after_one_whatever_it_is_called(self):
+        for name in ("a", "c"):
+            pacini.write_audio(self.folder / f"{name}.wav", knocks(0.2), RATE)
+        folder = os.fsencode(self.folder)
+        for name in (b"b\xff.wav", b"d\xff.wav"):
+            with open(folder + b"/" + name, "wb") as file:
+                file.write(b"junk" if name[0:1] == b"b" else (self.folder / "a.wav").read_bytes())
+        paths = [os.fsdecode(folder + b"/" + name) for name in sorted(os.listdir(folder))]
+        found = {path: clip for path, clip in pacini.encode_files(paths, threads=1)}
+        self.assertEqual([type(found[path]) for path in paths], [pacini.Clip, pacini.Error, pacini.Clip, pacini.Clip])
+        self.assertEqual(found[paths[1]].where, paths[1])
+
+    def test_options_that_are_none_are_told_before_the_first_file(self):
+        self.refuses("bandz", "invalidArgument", pacini.encode_files, ["none.wav"], bandz=3)
+        self.refuses("bands", "invalidData", pacini.encode_files, ["none.wav"], bands=1000)
+        with self.assertRaisesRegex(pacini.Error, "did you mean bands"):
+            pacini.encode_files([], bandz=3)
 
     def test_rendered_signals_have_the_type_that_is_asked_for(self):
         clip = pacini.encode(knocks(0.3), RATE)

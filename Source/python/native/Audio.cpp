@@ -1,10 +1,13 @@
 // Audio files: into arrays, and from them.
 
+#include "io/AtomicFile.h"
 #include "io/AudioReader.h"
 #include "io/AudioWriter.h"
+#include "python/native/Overwriting.h"
 #include "python/native/Support.h"
 
 #include <nanobind/stl/filesystem.h>
+#include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 
 #include <filesystem>
@@ -40,7 +43,7 @@ nb::object readFile(const std::filesystem::path& path, bool allowNan, bool allow
 
 /// The number of samples that were clipped.
 std::uint64_t writeFile(const std::filesystem::path& path, const SoundArray& array, int rate,
-                        const std::string& encoding)
+                        const std::string& encoding, Overwrite overwrite)
 {
     const SoundView sound = soundOf(array);
     AudioWriteParams params;
@@ -53,6 +56,7 @@ std::uint64_t writeFile(const std::filesystem::path& path, const SoundArray& arr
         params.encoding = SampleEncoding::pcm24;
     else if (encoding != "float32")
         raise({ErrorCode::invalidArgument, "encoding", "must be float32, pcm24 or pcm16"});
+    params.existing = mayWrite(path, FileKind::madeSound, overwrite);
     Watch watch{nb::none()};
     auto written = unlocked(
         [&]() -> Result<AudioWriteReport>
@@ -81,7 +85,12 @@ std::uint64_t writeFile(const std::filesystem::path& path, const SoundArray& arr
 void bindAudio(nb::module_& module)
 {
     module.def("read_audio", &readFile, "path"_a, "allow_nan"_a, "allow_truncated"_a, "keep_nan"_a);
-    module.def("write_audio", &writeFile, "path"_a, "sound"_a, "sample_rate"_a, "encoding"_a);
+    module.def(
+        "write_text",
+        [](const std::filesystem::path& path, const std::string& text)
+        { return take(unlocked([&] { return writeFileAtomically(path, text); })); },
+        "path"_a, "text"_a);
+    module.def("write_audio", &writeFile, "path"_a, "sound"_a, "sample_rate"_a, "encoding"_a, "overwrite"_a.none());
 }
 
 } // namespace pacini::python

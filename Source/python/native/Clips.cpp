@@ -1,9 +1,11 @@
 // Clips: what they hold, as arrays; edits; files of all formats.
 
 #include "io/ClipFile.h"
+#include "io/ClipSeal.h"
 #include "io/FileExtension.h"
 #include "io/formats/json/ClipJson.h"
 #include "python/native/ClipHandle.h"
+#include "python/native/Overwriting.h"
 #include "python/native/ProfileHandle.h"
 #include "python/native/Support.h"
 
@@ -525,11 +527,15 @@ void bindClip(nb::module_& module)
         .def(
             "save",
             [](const ClipHandle& self, const std::filesystem::path& path, const std::string& format,
-               const ExportOptions& options, int quantise, bool overwrite)
+               const ExportOptions& options, int quantise, Overwrite overwrite)
             {
                 const ExportedClip result = exported(self, format, options, quantise);
-                auto written =
-                    unlocked([&] { return writeExport(path, result, overwrite ? Existing::replace : Existing::keep); });
+                Existing existing = Existing::keep;
+                for (const ExportedFile& file : result.files)
+                    if (mayWrite(file.suffix.empty() ? path : exportPath(path, file.suffix), FileKind::clip, overwrite,
+                                 &self.clip()) == Existing::replace)
+                        existing = Existing::replace;
+                auto written = unlocked([&] { return writeExport(path, result, existing); });
                 if (!written)
                 {
                     Error error = written.error();
@@ -538,7 +544,13 @@ void bindClip(nb::module_& module)
                 }
                 return std::pair(std::move(*written), lossesOf(result));
             },
-            "path"_a, "format"_a, "options"_a, "quantise"_a, "overwrite"_a)
+            "path"_a, "format"_a, "options"_a, "quantise"_a, "overwrite"_a.none())
+        .def_prop_ro("seal",
+                     [](const ClipHandle& self)
+                     {
+                         const ClipSeal seal = sealOf(self.clip());
+                         return seal == ClipSeal::whole ? "whole" : seal == ClipSeal::broken ? "broken" : "missing";
+                     })
         .def(
             "__eq__", [](const ClipHandle& self, const ClipHandle& other) { return self.clip() == other.clip(); },
             nb::is_operator());

@@ -9,6 +9,7 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
+#include <array>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -71,21 +72,21 @@ void checkTimes(const char* where, const std::optional<std::vector<double>>& tim
             raise({ErrorCode::notFinite, std::string(where) + "[" + std::to_string(i) + "]", "must be a finite time"});
 }
 
-/// Keeps transforms between the comparisons of a thread.
-thread_local std::shared_ptr<Comparer> kept;
+/// Keep transforms between the comparisons of a thread, which refuse what no sound has, or take it as silence.
+thread_local std::array<std::shared_ptr<Comparer>, 2> kept;
 
 nb::dict compareSounds(const SoundArray& reference, int referenceRate, const SoundArray& candidate, int candidateRate,
                        std::optional<std::vector<double>> onsets, std::optional<std::vector<double>> events,
-                       std::vector<double> ambiguous)
+                       std::vector<double> ambiguous, bool allowNan)
 {
     MonoSound source = monoSound(reference, "sample_rate", referenceRate);
     MonoSound target = monoSound(candidate, "candidate_rate", candidateRate);
     checkTimes("onsets", onsets);
     checkTimes("events", events);
     checkTimes("ambiguous", ambiguous);
-    auto comparer = std::exchange(kept, nullptr);
+    auto comparer = std::exchange(kept[allowNan ? 1 : 0], nullptr);
     if (!comparer)
-        comparer = std::make_shared<Comparer>();
+        comparer = std::make_shared<Comparer>(allowNan ? UnsoundFrames::silence : UnsoundFrames::refuse);
     auto compared = abandonable(
         [comparer, source = std::move(source), target = std::move(target), onsets = std::move(onsets),
          events = std::move(events), ambiguous = std::move(ambiguous)]() -> Result<Comparison>
@@ -99,7 +100,10 @@ nb::dict compareSounds(const SoundArray& reference, int referenceRate, const Sou
                 scoreEvents(comparison, *onsets, events ? *events : comparer->onsets(), ambiguous);
             return comparison;
         });
-    kept = std::move(comparer);
+    kept[allowNan ? 1 : 0] = std::move(comparer);
+    if (!compared && compared.error().code == ErrorCode::notFinite)
+        raise({ErrorCode::notFinite, compared.error().where,
+               compared.error().message + "; repair the sound, or take such samples as silence with allow_nan"});
     DictSink sink;
     reportComparison(take(std::move(compared)), sink);
     return sink.dict;
@@ -109,7 +113,7 @@ nb::dict compareSounds(const SoundArray& reference, int referenceRate, const Sou
 void bindCompare(nb::module_& module)
 {
     module.def("compare", &compareSounds, "reference"_a, "reference_rate"_a, "candidate"_a, "candidate_rate"_a,
-               "onsets"_a.none(), "events"_a.none(), "ambiguous"_a);
+               "onsets"_a.none(), "events"_a.none(), "ambiguous"_a, "allow_nan"_a);
 }
 
 } // namespace pacini::python

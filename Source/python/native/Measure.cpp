@@ -25,6 +25,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -123,7 +124,13 @@ nb::object simulate(const SoundArray& array, double rate, const ProfileHandle& p
     rig.driftPpm = drift;
     rig.seed = seed + wearer;
     rig.sampleRate = rate;
-    auto recorded = abandonable([samples = monoOf(sound), rig] { return recordOnRig(samples, rig); });
+    std::vector<float> played = monoOf(sound);
+    if (const auto wrong = std::find_if(played.begin(), played.end(),
+                                        [](float sample) { return !areWithinLimit(std::span(&sample, 1)); });
+        wrong != played.end())
+        raise({ErrorCode::notFinite, "sound[" + std::to_string(wrong - played.begin()) + "]",
+               "is no number, or far beyond full scale"});
+    auto recorded = abandonable([samples = std::move(played), rig] { return recordOnRig(samples, rig); });
     const std::size_t channels = recorded.size();
     const std::size_t frames = recorded.front().size();
     std::vector<float> all;

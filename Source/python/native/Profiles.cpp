@@ -4,6 +4,7 @@
 #include "io/ProfileFile.h"
 #include "io/ProfileJson.h"
 #include "io/ShippedProfiles.h"
+#include "python/native/Overwriting.h"
 #include "python/native/ProfileHandle.h"
 #include "python/native/Support.h"
 
@@ -11,6 +12,7 @@
 
 #include <nanobind/operators.h>
 #include <nanobind/stl/filesystem.h>
+#include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
@@ -84,9 +86,13 @@ void bindProfile(nb::module_& module)
         .def("to_json", [](const ProfileHandle& self) { return profileJson(self.profile()); })
         .def(
             "save",
-            [](const ProfileHandle& self, const std::filesystem::path& path)
-            { return take(writeProfile(path, self.profile())); },
-            "path"_a)
+            [](const ProfileHandle& self, const std::filesystem::path& path, Overwrite overwrite)
+            {
+                const Existing existing = mayWrite(path, FileKind::profile, overwrite);
+                take(validate(self.profile()));
+                return take(writeFileAtomically(path, profileJson(self.profile()), existing));
+            },
+            "path"_a, "overwrite"_a.none())
         .def_prop_ro("name", [](const ProfileHandle& self) { return self.profile().name; })
         .def(
             "equalizer_response",

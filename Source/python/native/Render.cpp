@@ -4,6 +4,7 @@
 #include "io/SceneFile.h"
 #include "io/SceneJson.h"
 #include "python/native/ClipHandle.h"
+#include "python/native/Overwriting.h"
 #include "python/native/ProfileHandle.h"
 #include "python/native/SceneHandle.h"
 #include "python/native/Support.h"
@@ -198,9 +199,18 @@ void bindRender(nb::module_& module)
         .def("to_json", [](const SceneHandle& self) { return unlocked([&] { return writeSceneJson(self.scene()); }); })
         .def(
             "save",
-            [](const SceneHandle& self, const std::filesystem::path& path)
-            { return take(unlocked([&] { return writeScene(path, self.scene()); })); },
-            "path"_a)
+            [](const SceneHandle& self, const std::filesystem::path& path, Overwrite overwrite)
+            {
+                const Existing existing = mayWrite(path, FileKind::scene, overwrite);
+                return take(unlocked(
+                    [&]() -> Result<std::size_t>
+                    {
+                        if (auto valid = validate(self.scene()); !valid)
+                            return valid.error();
+                        return writeFileAtomically(path, writeSceneJson(self.scene()), existing);
+                    }));
+            },
+            "path"_a, "overwrite"_a.none())
         .def_prop_ro("name", [](const SceneHandle& self) { return self.scene().name; })
         .def_prop_ro("duration", [](const SceneHandle& self) { return self.scene().duration; })
         .def_prop_ro("actuators", [](const SceneHandle& self) { return self.scene().actuators; })

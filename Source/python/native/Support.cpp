@@ -45,8 +45,14 @@ std::string placeOf(std::size_t channels, std::size_t channel, std::size_t frame
 
 void raise(const Error& error)
 {
+    // Names of files need not be UTF-8: as Python has them.
+    const auto text = [](const std::string& bytes)
+    {
+        return nb::steal<nb::str>(
+            PyUnicode_DecodeUTF8(bytes.data(), static_cast<Py_ssize_t>(bytes.size()), "surrogateescape"));
+    };
     const nb::object type = nb::module_::import_("pacini._errors").attr("Error");
-    const nb::object value = type(error.message, error.where, std::string(errorCodeName(error.code)));
+    const nb::object value = type(text(error.message), text(error.where), std::string(errorCodeName(error.code)));
     PyErr_SetObject(type.ptr(), value.ptr());
     throw nb::python_error();
 }

@@ -317,12 +317,15 @@ class Clip:
         *,
         format: Optional[str] = None,
         quantise: Optional[int] = None,
-        overwrite: bool = True,
+        overwrite: Optional[bool] = None,
         **options: Any,
     ) -> list[Loss]:
         """Writes the clip, in the format of the extension unless `format` names one of :func:`pacini.formats`, and
         returns what that loses. The file is complete or not there. Options are those of the command, such as
-        ``points``, ``profile``, ``split`` and ``events``."""
+        ``points``, ``profile``, ``split`` and ``events``.
+
+        A clip that is there is replaced, and no file of another kind unless `overwrite` is True; with False nothing
+        is. The recording that the clip was made from never is."""
         name = format_for(path, format)
         _, losses = self._handle.save(os.fspath(path), name, export_options(options), quantise or 0, overwrite)
         return losses_of(losses)

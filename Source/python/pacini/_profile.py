@@ -6,7 +6,7 @@ import json
 import os
 import warnings
 from collections.abc import Sequence
-from typing import Any, Union
+from typing import Any, Optional, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -58,9 +58,10 @@ class Profile:
         content: dict[str, Any] = json.loads(self._handle.to_json())
         return content
 
-    def save(self, path: PathLike) -> None:
-        """Writes a profile file; it is complete or not there."""
-        self._handle.save(os.fspath(path))
+    def save(self, path: PathLike, *, overwrite: Optional[bool] = None) -> None:
+        """Writes a profile file; it is complete or not there. A profile that is there is replaced, and no file of
+        another kind unless `overwrite` is True; with False nothing is."""
+        self._handle.save(os.fspath(path), overwrite)
 
     @property
     def name(self) -> str:

@@ -71,9 +71,10 @@ class Scene:
             warnings.warn(f"{os.fspath(path)}: {message}", stacklevel=2)
         return cls._of(handle)
 
-    def save(self, path: PathLike) -> None:
-        """Writes a scene with its clips in it; the file is complete or not there."""
-        self._handle.save(os.fspath(path))
+    def save(self, path: PathLike, *, overwrite: Optional[bool] = None) -> None:
+        """Writes a scene with its clips in it; the file is complete or not there. A scene that is there is replaced,
+        and no file of another kind unless `overwrite` is True; with False nothing is."""
+        self._handle.save(os.fspath(path), overwrite)
 
     def to_dict(self) -> dict[str, Any]:
         """All that is in the scene, as in its file, with the clips."""

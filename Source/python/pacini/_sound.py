@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 import os
 import threading
 from collections.abc import Iterable, Iterator, Sequence
@@ -35,6 +36,32 @@ class Method:
 def methods() -> list[Method]:
     """The translation methods: Pacini's own, a2vt, and those that it can be compared with."""
     return [Method(*entry) for entry in _native.methods()]
+
+
+# Options of encoders, as they are when they are not given.
+_OPTIONS: dict[str, Any] = {
+    "method": "a2vt",
+    "bands": None,
+    "breakpoints": None,
+    "quantise": None,
+    "low": None,
+    "high": None,
+    "spacing": None,
+    "audible": None,
+    "sensitivity": None,
+    "keep_level": None,
+    "allow_nan": False,
+    "allow_truncated": False,
+}
+
+
+def check_options(options: dict[str, Any]) -> None:
+    """Raises what :func:`encode` would raise of every sound: for many of them this is known before the first."""
+    for name in options:
+        if name not in _OPTIONS:
+            near = difflib.get_close_matches(name, _OPTIONS, 1)
+            raise Error(f"is no option of pacini.encode(){f'; did you mean {near[0]}?' if near else ''}", name)
+    _native.EncoderHandle(**{**_OPTIONS, **options})
 
 
 class _Encoders(threading.local):
@@ -148,20 +175,7 @@ def translate(
 ) -> tuple[npt.NDArray[np.float32], int]:
     """The drive signal that a method makes of a sound, and its rate: for methods that make no clip, see
     :func:`methods`. The sound is given as to :func:`encode`."""
-    options: dict[str, Any] = {
-        "method": method,
-        "bands": None,
-        "breakpoints": None,
-        "quantise": None,
-        "low": None,
-        "high": None,
-        "spacing": None,
-        "audible": None,
-        "sensitivity": None,
-        "keep_level": None,
-        "allow_nan": allow_nan,
-        "allow_truncated": allow_truncated,
-    }
+    options = {**_OPTIONS, "method": method, "allow_nan": allow_nan, "allow_truncated": allow_truncated}
     signal, rate = _translated(sound, sample_rate, axis, "", "", progress, "signal", options)
     return signal, rate
 
@@ -170,7 +184,8 @@ def encode_files(
     paths: Iterable[PathLike], *, threads: Optional[int] = None, progress: Progress = None, **options: Any
 ) -> Iterator[tuple[PathLike, Union[Clip, Error]]]:
     """Encodes many files on several threads, and yields each with its clip, or with what is wrong with it, as they get
-    ready. Options are those of :func:`encode`."""
+    ready. Options are those of :func:`encode`; what is wrong with them is raised at once."""
+    check_options(options)
     todo = list(paths)
     workers = threads if threads is not None else os.cpu_count() or 1
     over = threading.Event()
@@ -428,6 +443,11 @@ class Comparison:
         return self._figure("f1Within10ms")
 
     @property
+    def not_finite(self) -> int:
+        """Samples of both that were no numbers, or far beyond full scale."""
+        return int(self.values["notFinite"])
+
+    @property
     def match_parts(self) -> Optional[dict[str, float]]:
         parts: Optional[dict[str, float]] = self.values["matchParts"]
         return parts
@@ -462,13 +482,16 @@ def compare(
     onsets: Optional[Sequence[float]] = None,
     events: Optional[Sequence[float]] = None,
     ambiguous: Sequence[float] = (),
+    allow_nan: bool = False,
     allow_truncated: bool = False,
 ) -> Comparison:
     """Measures how much of `reference`, a sound, is in `candidate`, a signal to be felt.
 
     Both are files, or samples as :func:`encode` takes them at `sample_rate` (`candidate_rate` where the other's is not
     the same); a clip or a scene is rendered as it is. `onsets` are when events of the sound are known to happen in s,
-    `events` those of the candidate (else they are found in it), `ambiguous` ones count neither way.
+    `events` those of the candidate (else they are found in it), `ambiguous` ones count neither way. Samples that are
+    no numbers or far beyond full scale are errors, or with `allow_nan` silence, and so are those around them that they
+    reach through filters; :attr:`Comparison.not_finite` tells how many there are.
     """
     source, source_rate = _read_for_comparison(reference, sample_rate, axis, "sample_rate", allow_truncated)
     if isinstance(candidate, (Clip, Scene)):
@@ -491,6 +514,7 @@ def compare(
             None if onsets is None else [float(t) for t in onsets],
             None if events is None else [float(t) for t in events],
             [float(t) for t in ambiguous],
+            allow_nan,
         )
     )
 
@@ -504,17 +528,29 @@ def read_audio(
 
 
 def write_audio(
-    path: PathLike, sound: FloatArray, sample_rate: float, *, axis: int = -1, encoding: str = "float32"
+    path: PathLike,
+    sound: FloatArray,
+    sample_rate: float,
+    *,
+    axis: int = -1,
+    encoding: str = "float32",
+    overwrite: Optional[bool] = None,
 ) -> int:
     """Writes a WAV or FLAC file (float32, pcm24 or pcm16) that is complete or not there. Returns how many samples were
-    beyond full scale and clipped."""
-    return _native.write_audio(os.fspath(path), as_sound(sound, axis), as_rate(sample_rate), encoding)
+    beyond full scale and clipped.
+
+    A sound that is there may be a recording: it is replaced only if `overwrite` is True, or if ``pacini`` marked it as
+    rendered and nobody changed it since; with False nothing is replaced."""
+    return _native.write_audio(os.fspath(path), as_sound(sound, axis), as_rate(sample_rate), encoding, overwrite)
 
 
 def convert(path: PathLike, output: PathLike, **options: Any) -> list[Any]:
     """Reads a clip of any format and writes it to another; returns what that loses. Options as of
     :meth:`Clip.save`."""
-    return Clip.load(path).save(output, **options)
+    clip = Clip.load(path)
+    if os.path.exists(output) and os.path.samefile(path, output):
+        raise Error("is input and output; name another output", os.fspath(output), "io")
+    return clip.save(output, **options)
 
 
 def lint(content: Union[Clip, PathLike], format: str, **options: Any) -> list[Any]:

@@ -41,14 +41,19 @@ class Sweep:
     gain: float
     equalized_for: str
 
-    def save(self, path: PathLike) -> None:
-        """Writes the sound, and its description beside it, as ``pacini measure sweep`` does."""
+    def save(self, path: PathLike, *, overwrite: bool = False) -> None:
+        """Writes the sound, and its description beside it, as ``pacini measure sweep`` does. Files that are there are
+        replaced only if `overwrite` is True."""
         from ._sound import write_audio
 
         text = os.fspath(path)
-        write_audio(text, self.signal, self.sample_rate, encoding="pcm24")
-        with open(os.path.splitext(text)[0] + ".json", "w", encoding="utf-8") as file:
-            file.write(self.description)
+        description = os.path.splitext(text)[0] + ".json"
+        if description == text:
+            raise Error("is named as its description is; name a sound", text)
+        if os.path.lexists(description) and not overwrite:
+            raise Error("exists; overwrite=True replaces it", description, "io")
+        write_audio(text, self.signal, self.sample_rate, encoding="pcm24", overwrite=overwrite)
+        _native.write_text(description, self.description)
 
 
 def sweep(

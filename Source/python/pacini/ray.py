@@ -14,6 +14,7 @@ On the command line: ``pacini encode sounds/ -o clips/ --ray auto``, which is
 from __future__ import annotations
 
 import argparse
+import contextlib
 import hashlib
 import importlib
 import json
@@ -23,7 +24,7 @@ import tempfile
 import time
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Optional, Union
 
 import pacini
@@ -31,6 +32,7 @@ import pacini
 from ._arrays import PathLike
 from ._errors import Error
 from ._progress import Progress, counted
+from ._sound import check_options
 
 SOUNDS = (".wav", ".flac", ".ogg", ".opus", ".mp3", ".aif", ".aiff", ".caf", ".w64", ".au")
 TABLE = "run.parquet"
@@ -59,12 +61,14 @@ _COLUMNS = {
 
 @dataclass(frozen=True)
 class _Item:
-    """A sound, where its clip goes, and how large and how old it is (0 where nobody knows)."""
+    """A sound, where its clip goes, how large and how old it is (0 where nobody knows), and the SHA-256 of the clip
+    that a run made of it before."""
 
     input: str
     output: str
     bytes: int = 0
     time: float = 0.0
+    made: Optional[str] = None
 
 
 @dataclass(frozen=True)
@@ -72,9 +76,11 @@ class _Settings:
     format: str
     options: dict[str, Any]
     compare: bool
+    overwrite: bool
 
     def text(self) -> str:
-        return json.dumps([pacini.__version__, self.format, self.options, self.compare], sort_keys=True)
+        """All that the bytes of a clip depend on, besides its sound."""
+        return json.dumps([pacini.__version__, self.format, self.options], sort_keys=True)
 
 
 def _module(name: str, needed_for: str) -> Any:
@@ -137,6 +143,34 @@ def _write(path: str, data: bytes) -> None:
         raise
 
 
+def _content(path: str) -> Optional[bytes]:
+    """Of a file; None where there is none."""
+    try:
+        if _is_url(path):
+            system, inside = _files(path)
+            return bytes(system.cat_file(inside))
+        with open(path, "rb") as file:
+            return file.read()
+    except FileNotFoundError:
+        return None
+
+
+def _check_replaced(item: _Item, data: bytes, settings: _Settings) -> None:
+    """Raises an error where something stands at the output that is not a run's own: as ``pacini encode`` does."""
+    if settings.overwrite:
+        return
+    there = _content(item.output)
+    if there is None or there == data or hashlib.sha256(there).hexdigest() == item.made:
+        return
+    reason = "exists, and nothing in it says that Pacini made it"
+    with contextlib.suppress(Error):
+        clip = pacini.Clip.from_bytes(there, extension=os.path.splitext(item.output)[1])
+        if clip._handle.seal == "whole" and clip.source.file == os.path.basename(item.input):
+            return
+        reason = "was edited since it was encoded" if clip._handle.seal == "broken" else "exists and may be edited"
+    raise Error(f"{reason}; overwrite=True replaces it", item.output, "io")
+
+
 def _encode_one(item: _Item, settings: _Settings) -> dict[str, Any]:
     started = time.perf_counter()
     row: dict[str, Any] = dict.fromkeys(_COLUMNS)
@@ -146,6 +180,7 @@ def _encode_one(item: _Item, settings: _Settings) -> dict[str, Any]:
         with _local(item.input) as sound:
             clip = pacini.encode(sound, **settings.options)
             data = clip.to_bytes(settings.format)
+            _check_replaced(item, data, settings)
             _write(item.output, data)
             row.update(bytes=len(data), sha256=hashlib.sha256(data).hexdigest(), duration=clip.duration)
             row.update(breakpoints=clip.breakpoints, events=len(clip.transients))
@@ -156,6 +191,8 @@ def _encode_one(item: _Item, settings: _Settings) -> dict[str, Any]:
         row.update(error=error.message, where=error.where)
     except OSError as error:
         row.update(error=str(error), where=item.output)
+    except Exception as error:  # one sound, not its batch
+        row.update(error=f"{type(error).__name__}: {error}", where=item.input)
     row["seconds"] = time.perf_counter() - started
     return row
 
@@ -200,7 +237,16 @@ def _items(sounds: Union[PathLike, Iterable[PathLike]], output: str, extension: 
         if target in items:
             raise Error(f"and {items[target].input} would both become {target}; rename one of them", path)
         items[target] = _Item(path, target, size, age)
+    inputs = {_place(item.input) for item in items.values()}
+    for item in items.values():
+        if _place(item.output) in inputs:
+            raise Error(f"would be replaced by the clip of {item.input}; name another folder", item.output)
     return list(items.values())
+
+
+def _place(path: str) -> str:
+    """The same for all ways of naming one file."""
+    return path if _is_url(path) else os.path.realpath(path)
 
 
 def _time_of(about: dict[str, Any]) -> float:
@@ -257,38 +303,67 @@ class _Record:
         self.rows: dict[str, dict[str, Any]] = {}
         self._new: list[dict[str, Any]] = []
         self._written = time.monotonic()
+        table = f"{self._folder}/{TABLE}"
+        if self._system.exists(table):
+            try:
+                self._read(table)
+            except (self._arrow.ArrowException, KeyError) as error:
+                raise Error("is no table of pacini.ray; move it away", f"{output}/{TABLE}", "invalidData") from error
         parts = self._parts()
-        for path in [f"{self._folder}/{TABLE}", *parts]:
-            if self._system.exists(path):
-                try:
-                    with self._system.open(path, "rb") as file:
-                        for row in self._parquet.read_table(file).to_pylist():
-                            self.rows[row["output"]] = row
-                except (OSError, self._arrow.ArrowException):
-                    continue  # a stop left it half written: its sounds are encoded again
+        for path in parts:
+            with contextlib.suppress(OSError, self._arrow.ArrowException, KeyError):
+                self._read(path)  # or a stop left it half written: its sounds are encoded again
         self._number = len(parts)
+
+    def _read(self, path: str) -> None:
+        with self._system.open(path, "rb") as file:
+            found = self._parquet.read_table(file).to_pylist()
+        self.rows.update({row["output"]: {**dict.fromkeys(_COLUMNS), **row} for row in found})
 
     def _parts(self) -> list[str]:
         folder = f"{self._folder}/{_PARTS}"
         return sorted(self._system.ls(folder, detail=False)) if self._system.exists(folder) else []
 
-    def is_done(self, item: _Item, settings: str) -> bool:
+    def made(self, item: _Item) -> _Item:
+        """The sound with what is known of its clip."""
         row = self.rows.get(item.output)
-        if row is None or row["error"] or row["settings"] != settings or row["input"] != item.input:
+        return item if row is None else replace(item, made=row["sha256"])
+
+    def is_done(self, item: _Item, settings: _Settings) -> bool:
+        row = self.rows.get(item.output)
+        if row is None or row["error"] or row["input"] != item.input:
+            return False
+        # Older tables have a fourth setting, whether it was compared.
+        if json.loads(row["settings"])[:3] != json.loads(settings.text()):
+            return False
+        if settings.compare and row["hts"] is None:
             return False
         if (row["input_bytes"], row["input_time"]) != (item.bytes, item.time):
             return False
         return bool(_about(item.output)[0] == row["bytes"])
 
     def add(self, rows: Sequence[dict[str, Any]]) -> None:
-        for row in rows:
-            self.rows[row["output"]] = row
-        self._new.extend(rows)
+        kept = [self._with_known(row) for row in rows]
+        self.rows.update({row["output"]: row for row in kept})
+        self._new.extend(kept)
         if time.monotonic() - self._written > _PART_SECONDS:
             self._write(f"{self._folder}/{_PARTS}/part-{self._number:06}.parquet", self._new)
             self._number += 1
             self._new = []
             self._written = time.monotonic()
+
+    def _with_known(self, row: dict[str, Any]) -> dict[str, Any]:
+        """A row with what an earlier one says of the clip that is still there: all of it after an error, the measures
+        where the clip and its sound are the same."""
+        before = self.rows.get(row["output"])
+        if before is None or before["input"] != row["input"]:
+            return row
+        if row["error"]:
+            return {**before, "error": row["error"], "where": row["where"]}
+        same = ("input_bytes", "input_time", "sha256")
+        if row["hts"] is None and all(row[name] == before[name] for name in same):
+            return {**row, "match": before["match"], "hts": before["hts"]}
+        return row
 
     def _write(self, path: str, rows: Sequence[dict[str, Any]]) -> Any:
         table = self._arrow.Table.from_pylist(list(rows), schema=self._schema)
@@ -316,6 +391,7 @@ def encode(
     format: str = "packed",
     address: Optional[str] = None,
     compare: bool = False,
+    overwrite: bool = False,
     batch: int = 32,
     retries: int = 3,
     progress: Progress = None,
@@ -325,12 +401,14 @@ def encode(
 
     `sounds` is a folder, a file or a list of files, `output` a folder; both may be URLs. `address` is the cluster's
     ("auto", "ray://host:10001"); None is one that this program is connected to already, or this machine alone. With
-    `compare` each clip is rendered and compared with its sound. `options` are those of :func:`pacini.encode`.
+    `compare` each clip is rendered and compared with its sound. `options` are those of :func:`pacini.encode`; what is
+    wrong with them is raised before anything is done. A file that is no clip of this sound as Pacini made it is
+    replaced only if `overwrite` is True; a sound never is.
 
     Rows have the size, SHA-256, duration, breakpoints and events of the clip, `match` and `hts` where they were asked
     for, the seconds of work, and `error` with `where` for a sound that could not be read; the others go on. The table
     is ``run.parquet`` in the output's folder, too. A run that was stopped is taken up by calling it again: what is up
-    to date is left alone.
+    to date is left alone, with its measures. A sound that fails keeps the figures of the clip that is still there.
 
     At most two batches of `batch` sounds wait for each processor, so that memory does not depend on the number of
     sounds. A worker that dies is replaced, and its batch is tried again, `retries` times; then its sounds are tried one
@@ -344,10 +422,12 @@ def encode(
     if format not in known:
         raise Error(f"is {format!r}; must be one of {', '.join(known)}", "format")
     target = os.fspath(output)
-    settings = _Settings(format, {name: value for name, value in options.items() if value is not None}, compare)
+    given = {name: value for name, value in options.items() if value is not None}
+    check_options(given)
+    settings = _Settings(format, given, compare, overwrite)
     items = _items(sounds, target, known[format].extension)
     record = _Record(target, arrow)
-    todo = [item for item in items if not record.is_done(item, settings.text())]
+    todo = [record.made(item) for item in items if not record.is_done(item, settings)]
     if todo:
         if not ray.is_initialized():
             ray.init(address=address, log_to_driver=False, include_dashboard=False)
@@ -402,6 +482,7 @@ def main(arguments: Optional[Sequence[str]] = None) -> int:
     parser.add_argument("--address", help="of the cluster, such as auto; default: this machine alone")
     parser.add_argument("--format", default="packed", help="of the clips (packed)")
     parser.add_argument("--compare", action="store_true", help="measure each clip: match and hts in the table")
+    parser.add_argument("--overwrite", action="store_true", help="replace what Pacini did not make as it is there")
     parser.add_argument("--batch", type=int, default=32, help="sounds that a worker gets at a time (32)")
     parser.add_argument("--retries", type=int, default=3, help="after the death of a worker (3)")
     parser.add_argument("-q", "--quiet", action="store_true", help="no progress")

@@ -1,0 +1,24 @@
+#pragma once
+
+// What of Python may be overwritten: the answer to a caller who named a file.
+
+#include "io/Overwrite.h"
+
+#include <pacini/clip/Clip.h>
+
+#include <filesystem>
+#include <optional>
+
+namespace pacini::python
+{
+
+/// What a caller said of files that exist: True replaces them, False leaves them, None replaces those of the same kind,
+/// and sounds only as Pacini made them.
+using Overwrite = std::optional<bool>;
+
+/// How a file of this kind may be written to `path`, which the caller named. The recording that `clip` was made from
+/// and folders are never replaced. Raises pacini.Error (io) where it may not. With the lock.
+[[nodiscard]] Existing mayWrite(const std::filesystem::path& path, FileKind kind, Overwrite overwrite,
+                                const Clip* clip = nullptr);
+
+} // namespace pacini::python
