@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Set-up of buttons and child components, as all windows do it.
+// Sliders, buttons and child components, as all windows have them.
 
 #include <juce_gui_basics/juce_gui_basics.h>
 
@@ -11,6 +11,21 @@
 
 namespace pacini::editor
 {
+
+/// A slider that leaves the wheel to the page that it is scrolled with: turning it there must not change a value.
+class Slider : public juce::Slider
+{
+public:
+    using juce::Slider::Slider;
+
+    void mouseWheelMove(const juce::MouseEvent& event, const juce::MouseWheelDetails& wheel) override
+    {
+        if (findParentComponentOfClass<juce::Viewport>() != nullptr)
+            juce::Component::mouseWheelMove(event, wheel); // NOLINT(bugprone-parent-virtual-call): to the parent
+        else
+            juce::Slider::mouseWheelMove(event, wheel);
+    }
+};
 
 inline void prepareButton(juce::Button& button, const juce::String& tooltip, std::function<void()> click)
 {

@@ -61,7 +61,6 @@ ParameterSlider::ParameterSlider(juce::AudioProcessorParameter& shown, Shape wan
     slider.setTitle(name);
     slider.setDescription(help);
     slider.setTooltip(withRange(parameter, help));
-    slider.setScrollWheelEnabled(true);
     slider.onDragStart = [this]
     {
         dragged = true;

@@ -3,6 +3,7 @@
 
 // Controls that show and set one parameter of a processor.
 
+#include "editor/Controls.h"
 #include "editor/Refreshed.h"
 
 #include <juce_audio_processors/juce_audio_processors.h>
@@ -34,7 +35,7 @@ private:
     juce::AudioProcessorParameter& parameter;
     Shape shape;
     juce::Label title;
-    juce::Slider slider;
+    Slider slider;
     bool dragged = false;
 };
 

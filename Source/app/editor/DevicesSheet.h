@@ -5,6 +5,7 @@
 
 #include "app/editor/ControllerOutput.h"
 #include "app/editor/PreviewDevices.h"
+#include "editor/Controls.h"
 #include "editor/clip/sheets/Sheet.h"
 
 #include <juce_audio_utils/juce_audio_utils.h>
@@ -35,7 +36,7 @@ private:
 
     juce::Label soundLabel, hapticLabel;
     juce::ComboBox soundChannel;
-    juce::Slider soundLevel, soundDelay;
+    editor::Slider soundLevel, soundDelay;
     juce::TextButton hapticButton;
     juce::Label controllerLabel, controllerNote;
     juce::ComboBox controllerChoice;

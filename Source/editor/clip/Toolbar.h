@@ -3,6 +3,7 @@
 
 // Toolbar: transport, zoom, actuator and clip, always in sight.
 
+#include "editor/Controls.h"
 #include "editor/clip/commands/Command.h"
 #include "editor/clip/session/Transport.h"
 
@@ -37,7 +38,7 @@ private:
     juce::ToggleButton loopButton;
     juce::Label time, clipLabel, heardLabel, profileLabel, strengthLabel;
     juce::ComboBox clips, heard, profile;
-    juce::Slider strength;
+    Slider strength;
     Subscriptions subscriptions;
 };
 

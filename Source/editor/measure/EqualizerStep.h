@@ -3,6 +3,7 @@
 
 // Equaliser step of the measure page: the fit that flattens the response.
 
+#include "editor/Controls.h"
 #include "editor/ResponsePlot.h"
 #include "editor/measure/MeasurementController.h"
 #include "editor/measure/StepParts.h"
@@ -18,7 +19,7 @@ public:
     void paint(juce::Graphics& g) override;
     void resized() override;
     Named<juce::ComboBox> sections;
-    Named<juce::Slider> boost, low, high;
+    Named<Slider> boost, low, high;
     [[nodiscard]] const ResponsePlot& responsePlot() const noexcept { return plot; }
 
 private:

@@ -3,6 +3,7 @@
 
 // Set-up step of the measure page: rig, connections and sweep.
 
+#include "editor/Controls.h"
 #include "editor/measure/InputMeter.h"
 #include "editor/measure/MeasurementController.h"
 #include "editor/measure/StepParts.h"
@@ -36,10 +37,10 @@ private:
     std::array<Named<juce::ComboBox>, inputs> input;
     InputMeters meters;
     juce::ToggleButton calibrated;
-    juce::Slider fullScale;
+    Slider fullScale;
     juce::ToggleButton tone;
     juce::TextButton devices;
-    Named<juce::Slider> level, low, high, duration, repeats;
+    Named<Slider> level, low, high, duration, repeats;
     FactTable facts{"The sweep"};
     juce::TextButton saveSweep, openRecording;
     NoteBox notes{"Notes"};

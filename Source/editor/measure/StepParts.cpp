@@ -16,7 +16,6 @@ void prepareSlider(juce::Slider& slider, double least, double most, double step,
     slider.setRange(least, most, step);
     slider.setNumDecimalPlacesToDisplay(decimals);
     slider.setTextValueSuffix(unit.isEmpty() ? unit : " " + unit);
-    slider.setScrollWheelEnabled(false);
 }
 
 juce::String numberText(double value, int decimals)

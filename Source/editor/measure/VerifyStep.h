@@ -3,6 +3,7 @@
 
 // Verify step of the measure page: a sweep through the equaliser proves it.
 
+#include "editor/Controls.h"
 #include "editor/ResponsePlot.h"
 #include "editor/measure/MeasurementController.h"
 #include "editor/measure/StepParts.h"
@@ -33,7 +34,7 @@ private:
     MeasurementController& controller;
     StepServices& services;
     InputMeters meters; ///< of all axes
-    Named<juce::Slider> tolerance;
+    Named<Slider> tolerance;
     juce::TextButton saveSweep, openRecording, again;
     FactTable facts{"How flat it is"};
     NoteBox notes{"Notes on the verification"};

@@ -83,11 +83,11 @@ std::unique_ptr<juce::AccessibilityHandler> Paragraph::createAccessibilityHandle
 namespace
 {
 /// A scale with what its ends mean.
-class ScaleSlider final : public juce::Slider
+class ScaleSlider final : public Slider
 {
 public:
     ScaleSlider(const study::RatingScale& scale, const juce::String& language)
-        : juce::Slider(juce::Slider::LinearHorizontal, juce::Slider::NoTextBox),
+        : Slider(juce::Slider::LinearHorizontal, juce::Slider::NoTextBox),
           low(toText(study::inLanguage(scale.lowLabel, language.toStdString()))),
           high(toText(study::inLanguage(scale.highLabel, language.toStdString())))
     {

@@ -3,6 +3,7 @@
 
 // Analysis panel: encoder parameters of the clip, and the hand edits that found no place over the analysis.
 
+#include "editor/Controls.h"
 #include "editor/clip/panels/UnfittingList.h"
 #include "editor/clip/session/ProjectSounds.h"
 
@@ -36,7 +37,7 @@ private:
     struct Knob
     {
         juce::Label name;
-        juce::Slider slider;
+        Slider slider;
     };
     enum Which : std::size_t
     {

@@ -4,6 +4,7 @@
 // Inspector panel: the selection in numbers, and edits of stretches: level, fades, simplifying.
 
 #include "editor/ClipChip.h"
+#include "editor/Controls.h"
 #include "editor/clip/session/ClipSelection.h"
 
 #include <juce_gui_basics/juce_gui_basics.h>
@@ -35,7 +36,7 @@ private:
     juce::Rectangle<int> selectionCard, levelCard, simplifyCard, factsCard;
     juce::Label scopeText, timeLabel, timeField, valueLabel, valueField, sharpLabel, sharpField;
     juce::Label gainLabel, keepLabel, cost, facts;
-    juce::Slider gain, keep;
+    Slider gain, keep;
     juce::TextButton fadeInButton, fadeOutButton, reverseButton;
     ClipChip chip;
     Gesture gesture = 0;

@@ -3,6 +3,7 @@
 
 // Play panel: what is changed live while a clip plays.
 
+#include "editor/Controls.h"
 #include "editor/clip/session/Transport.h"
 
 #include <juce_gui_basics/juce_gui_basics.h>
@@ -23,7 +24,7 @@ private:
     struct Row
     {
         juce::Label label;
-        juce::Slider slider;
+        Slider slider;
     };
 
     void prepare(Row& row, const juce::String& name, const juce::String& help, juce::Range<double> range, double step,

@@ -2,6 +2,7 @@
 #include "editor/clip/sheets/OperationSheet.h"
 
 #include "document/EditLayer.h"
+#include "editor/Controls.h"
 #include "editor/Text.h"
 #include "editor/Theme.h"
 #include "editor/Translation.h"
@@ -164,7 +165,7 @@ private:
     }
 
     juce::Label name, unit;
-    juce::Slider slider;
+    Slider slider;
     juce::TextEditor number;
     juce::ComboBox choice;
 };

@@ -3,6 +3,7 @@
 
 // Dialog for the haptic outputs: how many there are, and channel, actuator, gain, delay and place of each.
 
+#include "editor/Controls.h"
 #include "editor/clip/session/HapticOutputs.h"
 #include "editor/clip/sheets/Sheet.h"
 
@@ -25,7 +26,7 @@ private:
     {
         juce::Label number;
         juce::ComboBox channel, actuator;
-        juce::Slider gain, delay, place;
+        Slider gain, delay, place;
     };
 
     void layOut(juce::Rectangle<int> area) override;
