@@ -1,24 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/AudioDevices.h"
 
+#include "app/ChannelPlaces.h"
 #include "app/OpenDevice.h"
 
 #include <algorithm>
 
 namespace pacini::app
 {
-
-namespace
-{
-std::array<int, 256> placesOf(const juce::BigInteger& active)
-{
-    std::array<int, 256> places{};
-    int count = 0;
-    for (int channel = 0; channel < 256; ++channel)
-        places[static_cast<std::size_t>(channel)] = active[channel] ? count++ : -1;
-    return places;
-}
-} // namespace
 
 AudioDevices::AudioDevices(plugin::PluginProcessor& wanted) : processor(wanted) {}
 
@@ -100,8 +89,8 @@ Result<void> AudioDevices::play(const juce::File& wanted)
 void AudioDevices::audioDeviceAboutToStart(juce::AudioIODevice* device)
 {
     const double rate = device->getCurrentSampleRate();
-    inputPlaces = placesOf(device->getActiveInputChannels());
-    outputPlaces = placesOf(device->getActiveOutputChannels());
+    inputPlaces = channelPlaces(device->getActiveInputChannels());
+    outputPlaces = channelPlaces(device->getActiveOutputChannels());
     test.prepare(rate);
     processor.setRateAndBufferSizeDetails(rate, pieceFrames);
     processor.prepareToPlay(rate, pieceFrames);
@@ -183,14 +172,20 @@ void AudioDevices::audioDeviceIOCallbackWithContext(const float* const* in, int 
     for (int c = 0; c < outs; ++c)
         if (out[c])
             juce::FloatVectorOperations::clear(out[c], frames);
+    const auto outputOf = [&](int channel) -> float*
+    {
+        const int place = channel < 0 || channel >= maxChannels ? -1 : outputPlaces[static_cast<std::size_t>(channel)];
+        return place >= 0 && place < outs ? out[place] : nullptr;
+    };
     const auto add = [&](int from, int channel, int done, int n)
     {
-        if (channel < 0 || channel >= maxChannels)
-            return;
-        const int place = outputPlaces[static_cast<std::size_t>(channel)];
-        if (place >= 0 && place < outs && out[place])
-            juce::FloatVectorOperations::add(out[place] + done, buffer.getReadPointer(from), n);
+        if (float* const to = outputOf(channel))
+            juce::FloatVectorOperations::add(to + done, buffer.getReadPointer(from), n);
     };
+    unsigned connected = 0;
+    for (std::size_t c = 0; c < now.hapticOutputs.size(); ++c)
+        connected |= outputOf(now.hapticOutputs[c]) != nullptr ? 1u << c : 0u;
+    processor.setConnected(connected);
     for (int done = 0; done < frames; done += pieceFrames)
     {
         const int n = std::min(pieceFrames, frames - done);

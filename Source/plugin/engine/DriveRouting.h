@@ -41,14 +41,15 @@ public:
     }
 
     /// `main` holds the sound, as late as the drives; all of one length, with a drive for each of `haptic` and one at
-    /// least. `drives` are scratch afterwards.
+    /// least. `drives` are afterwards what goes out: faded, and silent where nothing plays them.
     void process(std::span<const std::span<float>> main, std::span<const std::span<float>> haptic,
                  std::span<const std::span<float>> drives) noexcept
     {
         if (active.atRest() && active.value() == 0.0f)
         {
-            for (const auto& channel : haptic)
-                std::fill(channel.begin(), channel.end(), 0.0f);
+            for (const auto& channels : {haptic, drives})
+                for (const auto& channel : channels)
+                    std::fill(channel.begin(), channel.end(), 0.0f);
             return;
         }
         const GainRamp gain = active;
@@ -84,6 +85,27 @@ public:
                                std::plus<>());
             break;
         }
+        for (std::size_t c = haptic.size(); c < drives.size(); ++c)
+            if (!isInMain(c, main.size()))
+                std::fill(drives[c].begin(), drives[c].end(), 0.0f);
+    }
+
+    /// Whether the main output has a drive.
+    [[nodiscard]] bool isInMain(std::size_t drive, std::size_t mainChannels) const noexcept
+    {
+        switch (mode)
+        {
+        case OutputMode::separate:
+            break;
+        case OutputMode::replaceMain:
+            return drive < mainChannels;
+        case OutputMode::monoAndHaptic:
+        case OutputMode::rightHaptic:
+            return drive == 0 && mainChannels >= 2;
+        case OutputMode::addToChannel:
+            return drive < count && chosen + drive < mainChannels;
+        }
+        return false;
     }
 
 private:

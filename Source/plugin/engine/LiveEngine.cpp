@@ -175,7 +175,7 @@ void LiveEngine::piece(std::span<const std::span<float>> main, std::span<const s
         left = main[0], right = main[1];
     row.process(std::span(from).first(channels), left, right, std::span(to).first(channels));
     routing.process(main, haptic, std::span(to).first(channels));
-    meterPeaks(frames);
+    meterPeaks(main.size(), frames);
 }
 
 /// A channel that is to play another voice fades out before it does.
@@ -214,10 +214,14 @@ void LiveEngine::translate(std::span<const float> in) noexcept
     }
 }
 
-void LiveEngine::meterPeaks(std::size_t frames) noexcept
+/// What goes out.
+void LiveEngine::meterPeaks(std::size_t mainChannels, std::size_t frames) noexcept
 {
+    const unsigned haptics = connected.load(std::memory_order_relaxed);
     for (std::size_t c = 0; c < channels; ++c)
     {
+        if ((haptics >> c & 1u) == 0 && !routing.isInMain(c, mainChannels))
+            continue;
         const float peak = largestMagnitude(std::span(drives[c]).first(frames));
         if (peak > peaks[c].load(std::memory_order_relaxed))
             peaks[c].store(peak, std::memory_order_relaxed);

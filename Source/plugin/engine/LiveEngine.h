@@ -80,7 +80,9 @@ public:
 
     /// Of the translation that a channel plays.
     [[nodiscard]] TranslatorMeterReading readMeters(std::size_t channel = 0) const noexcept;
-    /// The largest sample of a channel since the last call, 0 where there is no such channel. [message]
+    /// Which haptic channels lead to an output, a bit for each; at first all: a host does not tell. [any]
+    void setConnected(unsigned haptics) noexcept { connected.store(haptics, std::memory_order_relaxed); }
+    /// The largest sample of a channel that went out since the last call, 0 where there is no such channel. [message]
     [[nodiscard]] float takePeak(std::size_t channel) noexcept
     {
         return peaks[channel].exchange(0.0f, std::memory_order_relaxed);
@@ -110,7 +112,7 @@ private:
     void prepareVoice(Voice& voice) const;
     void followSources() noexcept;
     void translate(std::span<const float> in) noexcept;
-    void meterPeaks(std::size_t frames) noexcept;
+    void meterPeaks(std::size_t mainChannels, std::size_t frames) noexcept;
 
     std::atomic<double> fs{48000.0};
     std::array<Voice, maxHapticChannels> voices;
@@ -128,6 +130,7 @@ private:
     std::size_t channels = 1; ///< in use
     bool hearsSidechain = false;
     std::atomic<std::size_t> inUse{1};
+    std::atomic<unsigned> connected{~0u};
     std::atomic<float> inputPeak{0.0f};
     std::array<std::atomic<float>, maxHapticChannels> peaks{};
     std::array<float, pieceFrames> source{};

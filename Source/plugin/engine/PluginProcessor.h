@@ -78,7 +78,9 @@ public:
     [[nodiscard]] int latency() const { return getLatencySamples(); }
     /// The newest of the source, mono, all finite; at most `captureSeconds`.
     [[nodiscard]] Capture capture(double seconds) const;
-    /// The largest sample of a haptic channel since the last call, linear.
+    /// Which haptic channels lead to an output of a device, a bit for each. [any]
+    void setConnected(unsigned haptics) noexcept { engine.setConnected(haptics); }
+    /// The largest sample of a haptic channel that went out since the last call, linear.
     [[nodiscard]] float takePeak(std::size_t channel) { return engine.takePeak(channel); }
     /// dB that the limiter and protection of a channel's actuator take.
     [[nodiscard]] double gainReduction(std::size_t channel) const;

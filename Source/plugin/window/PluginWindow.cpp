@@ -6,6 +6,7 @@
 #include "io/ShippedProfiles.h"
 
 #include <cmath>
+#include <limits>
 
 namespace pacini::plugin
 {
@@ -313,9 +314,13 @@ void PluginWindow::showMeters()
     inputMeter.show(20.0 * std::log10(static_cast<double>(processor.takeInputPeak())));
     lamp.show(reading.events, reading.lastEventLevel);
     bands.add(reading);
-    outputMeter.show(20.0 * std::log10(reading.outputPeak));
-    reductionMeter.show(reading.gainReduction > 0.05 ? reading.gainReduction : -1.0);
-    feltMeter.show(reading.overThreshold);
+    if (!outputMeter.isVisible())
+        return; // another page reads the peaks
+    // What leaves the output: in bypass, or where no output has the drive, nothing does.
+    const auto peak = static_cast<double>(processor.takePeak(0));
+    outputMeter.show(20.0 * std::log10(peak));
+    reductionMeter.show(peak > 0.0 && reading.gainReduction > 0.05 ? reading.gainReduction : -1.0);
+    feltMeter.show(peak > 0.0 ? reading.overThreshold : -std::numeric_limits<double>::infinity());
 }
 
 void PluginWindow::showRouting()
