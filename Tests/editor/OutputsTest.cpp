@@ -2,6 +2,8 @@
 
 #include "editor/Bench.h"
 #include "editor/Meters.h"
+#include "editor/Pump.h"
+#include "editor/clip/scene/SceneSheet.h"
 #include "editor/clip/sheets/OutputsSheet.h"
 
 using namespace pacini;
@@ -145,4 +147,113 @@ TEST_CASE("A button that is on looks so without its colours, on dark and on ligh
         CHECK(std::abs(palette.text.getPerceivedBrightness() - palette.card.getPerceivedBrightness()) > 0.5f);
         button.setLookAndFeel(nullptr);
     }
+}
+
+TEST_CASE("A further output gets a channel that is free, or none, and plays where it is shown to")
+{
+    EditorBench bench({test::shipped("lra-175")});
+    bench.openDemo("drums_tabla_pattern");
+    auto& outputs = bench.session.outputs;
+    outputs.setDevice(std::vector<bool>(4, true), 0); // the sound is on 1 and 2
+    CHECK(outputs.channelOf(0) == 2);
+    outputs.add();
+    CHECK(outputs.channelOf(1) == 3);
+    outputs.add();
+    CHECK(outputs.outputs()[2].channel == -1);
+    CHECK(outputs.channelOf(2) == -1);
+    CHECK(outputs.playingCount() == 2);
+    CHECK_FALSE(get<editor::LevelMeter>(bench.view, "Output 3").isEnabled());
+    CHECK(get<editor::LevelMeter>(bench.view, "Output 2").isEnabled());
+    CHECK(bench.view.statusBar().playsOn().startsWith("Plays on 2 of 3 outputs"));
+
+    // One that was set on another device is told from those that play.
+    auto list = outputs.outputs();
+    list[2].channel = 6;
+    outputs.setOutputs(list);
+    CHECK(outputs.channelOf(2) == -1); // not the last one, which the second has
+    bench.view.showSheet(std::make_unique<editor::OutputsSheet>(outputs, bench.session.actuators,
+                                                                juce::StringArray{"a", "b", "c", "d"}));
+    auto& sheet = *bench.view.sheet();
+    CHECK(get<juce::ComboBox>(sheet, "Channel of output 3").getText() == "7  not on this device");
+    CHECK(get<juce::Label>(sheet, "Note").getText().startsWith("Plays nowhere: output 3."));
+    get<juce::ComboBox>(sheet, "Channel of output 3").setSelectedItemIndex(2, juce::sendNotificationSync);
+    CHECK(outputs.channelOf(2) == 1);
+    CHECK(get<editor::LevelMeter>(bench.view, "Output 3").isEnabled());
+    CHECK(get<juce::Label>(sheet, "Note").getText().startsWith("All outputs play"));
+
+    // Channels that are switched off play nothing; the only output of a small device is its last.
+    outputs.setDevice(std::vector<bool>{true, true, true, false});
+    CHECK(outputs.channelOf(1) == -1);
+    outputs.setOutputs({editor::HapticOutput{}});
+    outputs.setDevice(std::vector<bool>{true, true});
+    CHECK(outputs.channelOf(0) == 1);
+    bench.view.showSheet(nullptr);
+}
+
+TEST_CASE("Without a device Play says so, offers to reconnect and does not pretend to play")
+{
+    const juce::ScopedJuceInitialiser_GUI gui;
+    editor::Session session{{}, {test::shipped("lra-175")}};
+    int asked = 0;
+    bool elsewhere = false;
+    editor::HostServices around;
+    around.reconnect = [&]
+    {
+        ++asked;
+        session.outputs.setDevice(std::vector<bool>(4, true));
+        return true;
+    };
+    around.playsElsewhere = [&]
+    {
+        return elsewhere;
+    };
+    editor::EditorView view{session, around};
+    view.setBounds(0, 0, 1280, 800);
+    auto imported = editor::importFile(test::demoSound("knock_wood_bridge"), {});
+    REQUIRE(imported);
+    session.sounds.add(std::move(*imported));
+    auto& button = get<juce::TextButton>(view.statusBar(), "Reconnect");
+    CHECK_FALSE(button.isVisible());
+    session.outputs.setDevice(std::vector<bool>());
+    CHECK(button.isVisible());
+    CHECK(view.statusBar().playsOn() == "No audio device: nothing plays");
+    view.doCommand(editor::playOrPause);
+    CHECK_FALSE(session.transport.isPlaying());
+    CHECK(get<juce::TextButton>(view, "Play/pause").getButtonText() == "Play");
+    REQUIRE(view.question() != nullptr);
+    CHECK(view.question()->getTitle() == "Nothing to play on");
+    test::answer(*view.question(), "Reconnect");
+    CHECK(asked == 1);
+    REQUIRE(test::pumpUntil([&] { return view.question() == nullptr; }));
+    CHECK_FALSE(button.isVisible());
+    CHECK(view.statusBar().playsOn().startsWith("Plays on"));
+    view.doCommand(editor::playOrPause);
+    CHECK(session.transport.isPlaying());
+    session.transport.stop();
+
+    // A controller or a phone is something to play on.
+    session.outputs.setDevice(std::vector<bool>());
+    elsewhere = true;
+    view.doCommand(editor::playOrPause);
+    CHECK(session.transport.isPlaying());
+    CHECK(view.statusBar().playsOn() == "No audio device: only controllers and phones play");
+    session.transport.stop();
+    elsewhere = false;
+    // The scene page asks in front of itself, and the start page's preview, too.
+    REQUIRE(view.doCommand(editor::editScene));
+    auto* page = dynamic_cast<editor::SceneSheet*>(view.sheet());
+    REQUIRE(page != nullptr);
+    page->parts().add(session.model.activeId(), 0.0);
+    get<juce::TextButton>(*page, "Play").onClick();
+    CHECK(view.question() != view.sheet());
+    CHECK(view.question()->getTitle() == "Nothing to play on");
+    CHECK_FALSE(session.player.isPlaying());
+    view.question()->onClose();
+    REQUIRE(test::pumpUntil([&] { return view.question() == view.sheet(); }));
+    view.showSheet(nullptr);
+    session.model.newProject();
+    session.filePreview.play(test::demoSound("knock_wood_bridge"));
+    CHECK(session.filePreview.file().empty());
+    CHECK(view.question() != nullptr);
+    view.showSheet(nullptr);
 }

@@ -118,6 +118,18 @@ public:
         }
         session = std::make_unique<editor::Session>(folders, std::move(profiles));
         rig = std::make_unique<PreviewDevices>(session->player, session->outputs);
+        rig->onLost = [this]
+        {
+            session->transport.stop();
+            session->filePreview.stop();
+            if (rig->isLookingForDevice() && session->model.onNotice)
+                session->model.onNotice(editor::tr("The audio device is gone. It is used again when it comes back."));
+        };
+        rig->onFound = [this]
+        {
+            if (session->model.onNotice)
+                session->model.onNotice(editor::tr("The audio device is open"));
+        };
         std::unique_ptr<juce::XmlElement> devices;
         if (settings)
         {

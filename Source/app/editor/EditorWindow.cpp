@@ -66,6 +66,14 @@ editor::HostServices EditorWindow::completed(editor::HostServices around)
     {
         feelOnPhone();
     };
+    around.reconnect = [this]
+    {
+        return rig.reconnect();
+    };
+    around.playsElsewhere = [this]
+    {
+        return controllers.chosen().has_value() || phones.server() != nullptr;
+    };
     around.outputNames = [this]
     {
         return rig.outputNames();
@@ -74,7 +82,7 @@ editor::HostServices EditorWindow::completed(editor::HostServices around)
     {
         return found();
     };
-    around.measureRig = std::make_shared<MeasureDevice>(rig.devices());
+    around.measureRig = std::make_shared<MeasureDevice>(rig.devices(), &rig.hapticOutputs());
     return around;
 }
 

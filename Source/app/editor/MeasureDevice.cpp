@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/editor/MeasureDevice.h"
 
+#include "app/ChannelPlaces.h"
 #include "editor/Translation.h"
 
 #include <algorithm>
@@ -25,7 +26,8 @@ std::vector<std::string> activeNames(const juce::StringArray& names, const juce:
 }
 } // namespace
 
-MeasureDevice::MeasureDevice(juce::AudioDeviceManager& wanted) : manager(wanted)
+MeasureDevice::MeasureDevice(juce::AudioDeviceManager& wanted, const editor::HapticOutputs* hapticOutputs)
+    : manager(wanted), haptic(hapticOutputs)
 {
     for (auto& input : inputs)
         input.store(-1);
@@ -83,6 +85,11 @@ RigPorts MeasureDevice::ports()
     ports.name = name.toStdString();
     ports.sampleRate = device->getCurrentSampleRate();
     ports.outputs = activeNames(device->getOutputChannelNames(), device->getActiveOutputChannels());
+    if (const int channel = haptic != nullptr ? haptic->channelOf(0) : -1; channel >= 0)
+    {
+        const auto places = channelPlaces(device->getActiveOutputChannels());
+        ports.expectedOutput = static_cast<std::size_t>(std::max(0, places[static_cast<std::size_t>(channel)]));
+    }
     ports.inputs = activeNames(device->getInputChannelNames(), device->getActiveInputChannels());
     if (ports.outputs.empty())
         ports.problem = problem("'{0}' has no outputs. Choose another one under 'Audio devices'.", {name});

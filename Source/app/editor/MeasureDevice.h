@@ -5,6 +5,7 @@
 
 #include "document/measure/MeasureCallback.h"
 #include "document/measure/MeasureRig.h"
+#include "editor/clip/session/HapticOutputs.h"
 
 #include <juce_audio_devices/juce_audio_devices.h>
 
@@ -19,8 +20,9 @@ namespace pacini::app
 class MeasureDevice final : public MeasureRig, private juce::AudioIODeviceCallback
 {
 public:
-    /// `wanted` outlives this.
-    explicit MeasureDevice(juce::AudioDeviceManager& wanted);
+    /// `wanted` outlives this, and `hapticOutputs`, the first of which is expected to have the actuator; null: nobody
+    /// knows.
+    explicit MeasureDevice(juce::AudioDeviceManager& wanted, const editor::HapticOutputs* hapticOutputs = nullptr);
     ~MeasureDevice() override;
 
     void setOpen(bool open) override;
@@ -43,6 +45,7 @@ private:
                                           const juce::AudioIODeviceCallbackContext& context) override;
 
     juce::AudioDeviceManager& manager;
+    const editor::HapticOutputs* haptic;
     juce::AudioDeviceManager::AudioDeviceSetup before; ///< of the device, to be put back
     bool opened = false;
     bool running = false; ///< a sweep has been started and not taken

@@ -17,8 +17,9 @@ struct RigPorts
 {
     std::string name;
     std::vector<std::string> outputs, inputs;
-    double sampleRate = 48000.0; ///< Hz
-    std::string problem;         ///< why nothing can be measured now and what to do, in plain words; empty: it can
+    std::size_t expectedOutput = 0; ///< of `outputs`: where the actuator is, as far as is known
+    double sampleRate = 48000.0;    ///< Hz
+    std::string problem;            ///< why nothing can be measured now and what to do, in plain words; empty: it can
 };
 
 /// Ports of a rig that are used, counted from 0.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/clip/StatusBar.h"
 
+#include "editor/Controls.h"
 #include "editor/Text.h"
 #include "editor/Theme.h"
 #include "editor/Translation.h"
@@ -15,6 +16,15 @@ StatusBar::StatusBar(Session& shared, std::function<juce::StringArray()> outputN
     : session(shared), names(std::move(outputNames))
 {
     setTitle("Status");
+    reconnectButton.setButtonText("Reconnect");
+    reconnectButton.setTitle("Reconnect");
+    prepareButton(reconnectButton, "Looks for an audio device again",
+                  [this]
+                  {
+                      if (onReconnect)
+                          onReconnect();
+                  });
+    addChildComponent(reconnectButton);
     subscriptions.on({&session.model.contentChanged, &session.model.projectChanged, &session.transport.changed,
                       &session.actuators.changed, &session.actuators.listChanged, &session.actuators.usualChanged,
                       &session.outputs.changed},
@@ -39,25 +49,37 @@ void StatusBar::follow()
     done.chosen = done.chosen || session.model.clip() != nullptr;
     done.shaped = done.shaped || session.model.document().canUndo();
     setDescription(playsOn());
+    reconnectButton.setVisible(!session.outputs.hasDevice() && onReconnect);
+    resized();
     repaint();
 }
 
 juce::String StatusBar::playsOn() const
 {
     const auto& outputs = session.outputs.outputs();
+    if (!session.outputs.hasDevice())
+        return tr(session.outputs.canPlay() ? "No audio device: only controllers and phones play"
+                                            : "No audio device: nothing plays");
     const auto profile = session.actuators.profile();
     const juce::String what = profile ? toText(profile->name) : tr("no actuator");
     if (session.transport.heard() == Heard::sound)
         return tr("Plays the sound only");
+    const auto number = [](std::size_t count)
+    {
+        return juce::String(static_cast<int>(count));
+    };
+    const std::size_t playing = session.outputs.playingCount();
+    if (outputs.size() > 1 && playing < outputs.size())
+        return tr("Plays on {0} of {1} outputs, {2}", {number(playing), number(outputs.size()), what});
     if (outputs.size() > 1)
-        return tr("Plays on {0} outputs, {1}", {juce::String(static_cast<int>(outputs.size())), what});
-    const int channel = outputs.front().channel;
+        return tr("Plays on {0} outputs, {1}", {number(outputs.size()), what});
+    const int channel = session.outputs.channelOf(0);
     if (channel < 0)
         return tr("Haptic output is off");
     const auto all = names ? names() : juce::StringArray();
-    const juce::String where = all.isEmpty()          ? tr("output {0}", {juce::String(channel + 1)})
-                               : channel < all.size() ? all[channel]
-                                                      : all[all.size() - 1];
+    const juce::String where = channel < all.size() ? all[channel]
+                               : all.isEmpty()      ? tr("output {0}", {juce::String(channel + 1)})
+                                                    : all[all.size() - 1];
     return profile ? tr("Plays on {0}, {1}", {what, where}) : tr("Plays on {0}, {1}", {where, what});
 }
 
@@ -69,9 +91,12 @@ void StatusBar::paint(juce::Graphics& g)
     g.fillRect(getLocalBounds().removeFromTop(1));
     auto area = getLocalBounds().reduced(12, 0);
     g.setFont(smallFont());
-    g.setColour(p.dim);
-    g.drawText(session.model.clip() ? playsOn() + toText("  ·  ") + tr("Space plays") : playsOn(), area,
-               juce::Justification::centredRight, true);
+    if (reconnectButton.isVisible())
+        area.removeFromRight(reconnectButton.getWidth() + grid);
+    g.setColour(session.outputs.hasDevice() ? p.dim : p.warning);
+    g.drawText(session.model.clip() && session.outputs.canPlay() ? playsOn() + toText("  ·  ") + tr("Space plays")
+                                                                 : playsOn(),
+               area, juce::Justification::centredRight, true);
     if (done.all())
         return;
     const std::array<std::pair<bool, juce::String>, 3> steps{
@@ -89,6 +114,11 @@ void StatusBar::paint(juce::Graphics& g)
         const int width = g.getCurrentFont().getStringWidth(words) + 3 * grid;
         g.drawText(words, area.removeFromLeft(width), juce::Justification::centredLeft, true);
     }
+}
+
+void StatusBar::resized()
+{
+    reconnectButton.setBounds(getLocalBounds().reduced(12, 2).removeFromRight(13 * grid));
 }
 
 } // namespace pacini::editor

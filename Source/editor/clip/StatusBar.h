@@ -32,7 +32,10 @@ public:
     /// "Plays on: 10 mm coin LRA, output 3".
     [[nodiscard]] juce::String playsOn() const;
 
+    std::function<void()> onReconnect; ///< looks for a audio device; null: the host has them
+
     void paint(juce::Graphics& g) override;
+    void resized() override;
 
     static constexpr int height = 26;
 
@@ -42,6 +45,7 @@ private:
     Session& session;
     const std::function<juce::StringArray()> names;
     FirstSteps done;
+    juce::TextButton reconnectButton;
     Subscriptions subscriptions;
 };
 

@@ -37,7 +37,12 @@ MeterPanel::MeterPanel(const Actuators& profiles, const HapticOutputs& hapticOut
     makeLevels();
     felt.show(-std::numeric_limits<double>::infinity());
     subscriptions.on({&transport.changed, &actuators.changed}, [this] { follow(); });
-    subscriptions.on({&outputs.changed}, [this] { makeLevels(); });
+    subscriptions.on({&outputs.changed},
+                     [this]
+                     {
+                         makeLevels();
+                         follow();
+                     });
     follow();
 }
 
@@ -66,6 +71,13 @@ void MeterPanel::makeLevels()
 
 void MeterPanel::follow()
 {
+    for (std::size_t i = 0; i < levels.size(); ++i)
+    {
+        // One that plays nowhere looks so.
+        const bool plays = outputs.channelOf(i) >= 0;
+        levels[i]->setEnabled(plays);
+        levels[i]->setAlpha(plays ? 1.0f : 0.45f);
+    }
     felt.setEnabled(actuators.profile() != nullptr);
     felt.setAlpha(felt.isEnabled() ? 1.0f : 0.45f);
     if (transport.isPlaying() && !isTimerRunning())
@@ -83,6 +95,11 @@ void MeterPanel::timerCallback()
         const auto reading = player.takeMeters(i);
         // What is behind the protection is turned down by the gain of its output.
         const double gain = outputs.outputs()[i].gain;
+        if (outputs.hasDevice() && outputs.channelOf(i) < 0)
+        {
+            levels[i]->show(-std::numeric_limits<double>::infinity());
+            continue;
+        }
         levels[i]->show(gain <= HapticOutputs::leastGain ? -std::numeric_limits<double>::infinity()
                                                          : 20.0 * std::log10(reading.peak) + gain);
         most = std::max(most, reading.peak);

@@ -16,7 +16,7 @@ FilePreview::FilePreview(EditorModel& project, const Actuators& profiles, const 
 
 void FilePreview::play(const std::filesystem::path& sound)
 {
-    if (!model.isEmpty() || model.isShowingUnanalysed())
+    if (!model.isEmpty() || model.isShowingUnanalysed() || !outputs.readyToPlay())
         return;
     stop();
     wanted = sound;

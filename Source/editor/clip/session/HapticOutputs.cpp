@@ -49,12 +49,72 @@ void HapticOutputs::add()
         return;
     auto wanted = list;
     HapticOutput added;
-    added.channel = list.back().channel + 1;
+    added.channel = freeChannel();
     wanted.push_back(added);
     wanted.back().place = 1.0;
     if (standEvenly(list))
         spread(wanted);
     setOutputs(std::move(wanted));
+}
+
+/// Behind the last output, else the first that neither an output nor the sound has; -1: there is none.
+int HapticOutputs::freeChannel() const
+{
+    const int next = list.back().channel + 1;
+    if (!device)
+        return next;
+    const int count = static_cast<int>(device->size());
+    for (int i = 0; i < count; ++i)
+    {
+        const int channel = (next + i) % count;
+        const bool ofSound = sound >= 0 && (channel == sound || channel == sound + 1);
+        const bool taken = std::any_of(list.begin(), list.end(),
+                                       [channel](const HapticOutput& output) { return output.channel == channel; });
+        if (!ofSound && !taken && (*device)[static_cast<std::size_t>(channel)])
+            return channel;
+    }
+    return -1;
+}
+
+void HapticOutputs::setDevice(std::optional<std::vector<bool>> channelsOn, int soundChannel)
+{
+    if (device == channelsOn && sound == soundChannel)
+        return;
+    device = std::move(channelsOn);
+    sound = soundChannel;
+    changed.emit();
+}
+
+int HapticOutputs::channelOf(std::size_t output) const
+{
+    const auto place = [this](std::size_t i)
+    {
+        if (!device)
+            return list[i].channel;
+        const int channel = std::min(list[i].channel, static_cast<int>(device->size()) - 1);
+        return channel >= 0 && (*device)[static_cast<std::size_t>(channel)] ? channel : -1;
+    };
+    const int channel = output < list.size() ? place(output) : -1;
+    for (std::size_t i = 0; i < output && channel >= 0; ++i)
+        if (place(i) == channel)
+            return -1;
+    return channel;
+}
+
+std::size_t HapticOutputs::playingCount() const
+{
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < list.size(); ++i)
+        count += channelOf(i) >= 0 ? 1 : 0;
+    return count;
+}
+
+bool HapticOutputs::readyToPlay() const
+{
+    const bool ready = canPlay();
+    if (!ready && onNowhere)
+        onNowhere();
+    return ready;
 }
 
 void HapticOutputs::removeLast()

@@ -7,6 +7,8 @@
 #include "document/PreviewRow.h"
 #include "editor/clip/session/Actuators.h"
 
+#include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,7 +18,7 @@ namespace pacini::editor
 
 struct HapticOutput
 {
-    int channel = 2;      ///< of the device, from 0; on devices with fewer the last one; -1: none
+    int channel = 2;      ///< of the device, from 0; see HapticOutputs::channelOf(); -1: none
     std::string actuator; ///< the name of a profile; empty: that of the project
     double gain = 0.0;    ///< dB, -60 (silent) to 0
     double delay = 0.0;   ///< s, 0 to 0.5
@@ -37,7 +39,7 @@ public:
     [[nodiscard]] const std::vector<HapticOutput>& outputs() const noexcept { return list; }
     /// 1 to 8; further ones are left out, values are clamped.
     void setOutputs(std::vector<HapticOutput> wanted);
-    /// One more, on the next channel of the device, at the far end of the row; or one less, the last.
+    /// One more, on the next free channel of the device or on none, at the far end of the row; or one less, the last.
     void add();
     void removeLast();
 
@@ -45,12 +47,34 @@ public:
     [[nodiscard]] std::optional<PanLaw> pan() const noexcept { return law; }
     void setPan(std::optional<PanLaw> wanted);
 
+    /// The channels of the device, by whether each is switched on, and the first of the two for the sound, or -1; no
+    /// list where nobody knows, as in a host.
+    void setDevice(std::optional<std::vector<bool>> channelsOn, int soundChannel = -1);
+    /// False where it is known that there is none.
+    [[nodiscard]] bool hasDevice() const noexcept { return !device || !device->empty(); }
+    /// The channel that an output plays on, -1: nowhere. On devices with too few it is the last one; of several on one
+    /// only the first plays: each drive is within the limits of its actuator, and their sum need not be.
+    [[nodiscard]] int channelOf(std::size_t output) const;
+    [[nodiscard]] std::size_t playingCount() const;
+
+    /// Whether clips are felt on something without a channel: a controller, a phone. Null: never.
+    std::function<bool()> playsElsewhere;
+    /// Somebody wants to play, and there is nothing to play on.
+    std::function<void()> onNowhere;
+    [[nodiscard]] bool canPlay() const { return hasDevice() || (playsElsewhere && playsElsewhere()); }
+    /// The same, and says so where it is not.
+    [[nodiscard]] bool readyToPlay() const;
+
     /// For the player.
     [[nodiscard]] PreviewRow row(const Actuators& actuators) const;
 
 private:
+    [[nodiscard]] int freeChannel() const;
+
     std::vector<HapticOutput> list{HapticOutput{}};
     std::optional<PanLaw> law;
+    std::optional<std::vector<bool>> device;
+    int sound = -1;
 };
 
 } // namespace pacini::editor

@@ -110,7 +110,7 @@ void Transport::setControls(const PlayControls& wanted)
 void Transport::play()
 {
     const auto clip = model.clip();
-    if (!clip)
+    if (!clip || !outputs.readyToPlay())
         return;
     endScrub();
     if (startTime >= clip->duration - 1e-3)
@@ -134,7 +134,7 @@ void Transport::scrub(double time)
     constexpr int moment = 90; // ms
     const bool heardNow = scrubbing || !player.isPlaying();
     setPlayhead(time);
-    if (!heardNow || !model.clip() || lent)
+    if (!heardNow || !model.clip() || lent || !outputs.canPlay())
         return;
     scrubbing = true;
     player.play(startTime);

@@ -127,6 +127,7 @@ void OutputsSheet::show()
     const auto& list = outputs.outputs();
     const int channels = channelNames.size();
     bool shared = false, beyond = false;
+    juce::String silent; // of the outputs that play nowhere
     for (std::size_t i = 0; i < rows.size(); ++i)
     {
         Row& row = rows[i];
@@ -141,8 +142,14 @@ void OutputsSheet::show()
         row.channel.addItem(tr("None"), nowhere);
         for (int c = 0; c < channels; ++c)
             row.channel.addItem(juce::String(c + 1) + "  " + channelNames[c], nowhere + 1 + c);
-        row.channel.setSelectedId(nowhere + 1 + std::min(output.channel, std::max(-1, channels - 1)),
-                                  juce::dontSendNotification);
+        const int plays = std::min(outputs.channelOf(i), std::max(-1, channels - 1));
+        const bool missing = plays < 0 && output.channel >= channels;
+        if (missing)
+            row.channel.addItem(tr("{0}  not on this device", {juce::String(output.channel + 1)}),
+                                nowhere + 1 + output.channel);
+        row.channel.setSelectedId(nowhere + 1 + (plays >= 0 ? plays : output.channel), juce::dontSendNotification);
+        if (plays < 0)
+            silent << (silent.isEmpty() ? "" : ", ") << juce::String(static_cast<int>(i) + 1);
         row.actuator.clear(juce::dontSendNotification);
         row.actuator.addItem(tr("As in project"), asProject);
         row.actuator.addItem(tr("No actuator"), plain);
@@ -165,11 +172,14 @@ void OutputsSheet::show()
     }
     addButton.setEnabled(list.size() < HapticOutputs::most);
     removeButton.setEnabled(list.size() > 1);
-    note.setText(tr(shared             ? "Two outputs share a channel: only the first one plays."
-                    : beyond           ? "The device has fewer channels: its last one is used instead."
-                    : list.size() == 1 ? "One output plays the clip."
-                                       : "All outputs play the clip; the Play page pans it across them."),
-                 juce::dontSendNotification);
+    note.setText(
+        shared ? tr("Two outputs share a channel: only the first one plays.")
+        : silent.isNotEmpty()
+            ? tr("Plays nowhere: output {0}. Choose a channel that the device has and no other output.", {silent})
+        : beyond           ? tr("The device has fewer channels: its last one is used instead.")
+        : list.size() == 1 ? tr("One output plays the clip.")
+                           : tr("All outputs play the clip; the Play page pans it across them."),
+        juce::dontSendNotification);
     resized();
 }
 
