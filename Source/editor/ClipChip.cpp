@@ -14,7 +14,10 @@ namespace pacini::editor
 
 Result<juce::File> writeForDragging(const Clip& clip)
 {
-    const auto folder = juce::File::getSpecialLocation(juce::File::tempDirectory).getChildFile("Pacini clips");
+    // In a folder of its own: captures of several windows have one name.
+    const auto folder = juce::File::getSpecialLocation(juce::File::tempDirectory)
+                            .getChildFile("Pacini clips")
+                            .getChildFile(juce::Uuid().toDashedString());
     folder.createDirectory();
     const juce::String name = juce::File::createLegalFileName(toText(clip.name).replaceCharacter(' ', '-'));
     const auto file = folder.getChildFile((name.isEmpty() ? juce::String("clip") : name) + ".json");

@@ -49,6 +49,24 @@ Kind& get(juce::Component& inside, const juce::String& title)
     return *found;
 }
 
+/// Clicks the button of a sheet that has this text.
+inline void answer(juce::Component& sheet, const juce::String& text)
+{
+    for (juce::Component* child : sheet.getChildren())
+        if (auto* button = dynamic_cast<juce::TextButton*>(child); button != nullptr && button->getButtonText() == text)
+            return button->onClick();
+    FAIL("no button " << text);
+}
+
+/// The question in front of a sheet or page, or null.
+inline editor::MessageSheet* questionOver(juce::Component& page)
+{
+    for (juce::Component* child : page.getChildren())
+        if (auto* found = dynamic_cast<editor::MessageSheet*>(child))
+            return found;
+    return nullptr;
+}
+
 constexpr Lane envelope{LaneKind::envelope, 0};
 
 /// A session with one clip in a window of 1280 x 800.

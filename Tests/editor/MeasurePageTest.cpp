@@ -7,6 +7,7 @@
 #include "io/ProfileFile.h"
 #include "io/SweepFile.h"
 #include "support/Paths.h"
+#include "support/TempFolder.h"
 
 #include <pacini/linearize/SimulatedRig.h>
 
@@ -358,4 +359,68 @@ TEST_CASE("A plot draws its curve where its scales say", "[measure]")
         CHECK(nearest < 60);
         CHECK(picture.getPixelAt(place.x, place.y - 20) != accent);
     }
+}
+
+TEST_CASE("The measure page asks before a profile or a sweep replaces a file", "[measure][overwrite]")
+{
+    MeasureBench bench;
+    auto& page = *bench.page;
+    const auto sound = bench.folder / "sweep.wav", described = bench.folder / "sweep.json";
+    put(described, "hers"); // the second file of the sweep
+    page.saveSweep(sound, false);
+    REQUIRE(questionOver(page) != nullptr);
+    CHECK(questionOver(page)->getTitle() == "Replace sweep.json?");
+    CHECK(bytesOf(described) == "hers");
+    CHECK_FALSE(std::filesystem::exists(sound));
+    answer(*questionOver(page), "Replace");
+    CHECK(std::filesystem::exists(sound));
+    CHECK(readSweepFile(described).ok());
+
+    bench.sweep();
+    REQUIRE(page.show(MeasureStep::save));
+    const auto file = bench.folder / "mine.json";
+    put(file, "hers");
+    auto& name = page.saveStep().file.control;
+    name.setText(juce::String(file.string()), juce::dontSendNotification);
+    name.onTextChange();
+    page.saveStep().saveButton.onClick();
+    REQUIRE(questionOver(page) != nullptr);
+    CHECK(questionOver(page)->getTitle() == "Replace mine.json?");
+    CHECK(bytesOf(file) == "hers");
+    answer(*questionOver(page), "Replace");
+    CHECK(readProfile(file).ok());
+}
+
+TEST_CASE("A measurement plays on the output where the actuator is, until the user chooses another", "[measure]")
+{
+    struct Rig final : SimulatedMeasureRig
+    {
+        using SimulatedMeasureRig::SimulatedMeasureRig;
+        RigPorts ports() override
+        {
+            auto found = SimulatedMeasureRig::ports();
+            found.outputs = {"1", "2", "3", "4"};
+            found.expectedOutput = expected;
+            return found;
+        }
+        void wire(const RigWiring& wiring) override { wired = wiring.output; }
+        std::size_t expected = 2, wired = 99;
+    };
+    MeasureBench bench;
+    auto rig = std::make_shared<Rig>(RigParams(), 0.0);
+    bench.controller->useRig(rig);
+    CHECK(rig->wired == 2);
+    CHECK(bench.controller->wiring().output == 2);
+    rig->expected = 3; // haptic outputs have been set meanwhile
+    bench.controller->setOpen(false);
+    bench.controller->setOpen(true);
+    CHECK(rig->wired == 3);
+    RigWiring chosen = bench.controller->wiring();
+    chosen.output = 1;
+    bench.controller->setWiring(chosen);
+    rig->expected = 0;
+    bench.controller->setOpen(false);
+    bench.controller->setOpen(true);
+    CHECK(rig->wired == 1);
+    bench.controller->setOpen(false);
 }

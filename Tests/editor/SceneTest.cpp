@@ -205,3 +205,68 @@ TEST_CASE("A scene of forty parts beside five hundred clips is drawn within 16 m
     WARN("40 parts: " << most << " ms at most for a whole frame");
     CHECK(most < 16.0);
 }
+
+TEST_CASE("Undo and save work inside the scene page, with the keys as the system tells them")
+{
+    ScenePage page;
+    auto& model = page.session.model;
+    page.sheet->parts().add(page.first, 0.0);
+    page.sheet->parts().select(0);
+    const TempFolder folder;
+    REQUIRE(model.saveAs(folder / "scene.pacini"));
+    CHECK(page.sheet->timeline().keyPressed(juce::KeyPress(juce::KeyPress::deleteKey)));
+    CHECK(page.scene().parts.empty());
+    CHECK(model.document().isDirty());
+    // X11 has small letters as codes, other systems have capitals.
+    for (const int z : {'z', 'Z'})
+    {
+        CHECK(static_cast<juce::Component*>(page.sheet)
+                  ->keyPressed(juce::KeyPress(z, juce::ModifierKeys::ctrlModifier, 0)));
+        CHECK(page.scene().parts.size() == 1);
+        CHECK(static_cast<juce::Component*>(page.sheet)
+                  ->keyPressed(
+                      juce::KeyPress(z, juce::ModifierKeys::ctrlModifier | juce::ModifierKeys::shiftModifier, 0)));
+        CHECK(page.scene().parts.empty());
+    }
+    CHECK(static_cast<juce::Component*>(page.sheet)
+              ->keyPressed(juce::KeyPress('s', juce::ModifierKeys::ctrlModifier, 0)));
+    CHECK_FALSE(model.document().isDirty());
+    CHECK(page.view.sheet() == page.sheet);
+    // Nothing else of the window.
+    const std::size_t steps = model.document().steps().size();
+    CHECK(static_cast<juce::Component*>(page.sheet)
+              ->keyPressed(juce::KeyPress('e', juce::ModifierKeys::ctrlModifier, 0)));
+    CHECK(page.view.sheet() == page.sheet);
+    CHECK(model.document().steps().size() == steps);
+}
+
+TEST_CASE("Pages and sheets that change the project undo and save; questions and dialogs do not")
+{
+    EditorBench bench;
+    bench.openDemo("knock_wood_bridge");
+    auto& model = bench.session.model;
+    const TempFolder folder;
+    REQUIRE(model.saveAs(folder / "one.pacini"));
+    const auto press = [&](int key)
+    {
+        return bench.view.sheet()->keyPressed(juce::KeyPress(key, juce::ModifierKeys::ctrlModifier, 0));
+    };
+    bench.view.doCommand(editor::fadeOut);
+    REQUIRE(bench.view.doCommand(editor::showHistory));
+    press('z');
+    CHECK_FALSE(model.document().canUndo());
+    press('y');
+    CHECK(model.document().isDirty());
+    press('s');
+    CHECK_FALSE(model.document().isDirty());
+    bench.view.showSheet(nullptr);
+    bench.view.doCommand(editor::fadeIn);
+    REQUIRE(bench.view.doCommand(editor::measureActuator));
+    press('s');
+    CHECK_FALSE(model.document().isDirty());
+    bench.view.showSheet(nullptr);
+    REQUIRE(bench.view.doCommand(editor::exportClips));
+    press('z');
+    CHECK(model.document().canUndo());
+    bench.view.showSheet(nullptr);
+}

@@ -109,10 +109,13 @@ struct OpenSheet
     std::string written(EditorBench& bench, const std::filesystem::path& path)
     {
         get<juce::TextEditor>(sheet, "Destination file or folder").setText(juce::String(path.string()), true);
-        for (juce::Component* child : sheet.getChildren())
-            if (auto* button = dynamic_cast<juce::TextButton*>(child);
-                button != nullptr && button->getButtonText() == "Export")
-                button->onClick();
+        const bool there = std::filesystem::exists(path);
+        answer(sheet, "Export");
+        if (there)
+        {
+            REQUIRE(pumpUntil([&] { return questionOver(sheet) != nullptr; }));
+            answer(*questionOver(sheet), "Replace");
+        }
         REQUIRE(pumpUntil([&] { return bench.view.sheet() == nullptr; }));
         return bytesOf(path);
     }

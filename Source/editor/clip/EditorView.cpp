@@ -89,9 +89,27 @@ EditorView::EditorView(Session& shared, HostServices around)
     {
         notice.show(text);
     };
+    open.model.onWritten = [this](const std::vector<std::filesystem::path>& files)
+    {
+        notice.showWritten(files);
+    };
     open.sounds.onSoundsMissing = [this](const std::vector<AudioReference>& missing)
     {
         fileQuestions.tellMissing(missing);
+    };
+    open.outputs.playsElsewhere = host.playsElsewhere;
+    open.outputs.onNowhere = [this]
+    {
+        tellNowhere();
+    };
+    if (host.reconnect)
+        status.onReconnect = [this]
+        {
+            reconnect();
+        };
+    over.onClosed = [this]
+    {
+        takeFocus();
     };
     translateTexts(body);
     subscriptions.on({&open.model.contentChanged, &open.model.projectChanged, &open.sounds.workChanged},
@@ -114,6 +132,9 @@ EditorView::~EditorView()
 {
     open.model.onError = nullptr;
     open.model.onNotice = nullptr;
+    open.model.onWritten = nullptr;
+    open.outputs.onNowhere = nullptr;
+    open.outputs.playsElsewhere = nullptr;
     open.sounds.onSoundsMissing = nullptr;
     body.removeMouseListener(this);
     removeKeyListener(menuList.keys());
@@ -197,7 +218,9 @@ void EditorView::switchDrawing()
 
 void EditorView::takeFocus()
 {
-    if (sheetNow)
+    if (over.sheet() != nullptr)
+        over.sheet()->takeFocus();
+    else if (sheetNow)
         sheetNow->takeFocus();
     else if (isShowing())
         grabKeyboardFocus();
@@ -277,6 +300,15 @@ void EditorView::showSheet(std::unique_ptr<Sheet> wanted)
                     self->showSheet(nullptr);
             });
     };
+    sheetNow->onKey = [this](const juce::KeyPress& key)
+    {
+        const auto command = menuList.commandOf(key);
+        const auto theirs = sheetNow->commands();
+        if (!command || std::find(theirs.begin(), theirs.end(), *command) == theirs.end())
+            return false;
+        menuList.perform(*command);
+        return true;
+    };
     translateTexts(*sheetNow);
     body.addAndMakeVisible(*sheetNow);
     takeLook(*sheetNow);
@@ -290,6 +322,39 @@ void EditorView::showMessage(std::unique_ptr<Sheet> wanted)
         messages.push_back(std::move(wanted));
     else
         showSheet(std::move(wanted));
+}
+
+void EditorView::tellNowhere()
+{
+    if (question() != nullptr && question()->getTitle() == tr("Nothing to play on"))
+        return;
+    std::vector<Sheet::Answer> answers;
+    if (host.reconnect)
+        answers.push_back({"Reconnect", [this]
+                           {
+                               reconnect();
+                           }});
+    if (host.showDevices)
+        answers.push_back({toText("Audio devices…"), host.showDevices});
+    answers.push_back({"Close", {}});
+    ask(std::make_unique<MessageSheet>(
+        "Nothing to play on",
+        "No audio device is open, so nothing would be heard or felt. Connect it or switch it on; it is used as soon as "
+        "it is there. Game controllers and phones play without one.",
+        std::move(answers)));
+}
+
+void EditorView::reconnect()
+{
+    notice.show(host.reconnect() ? tr("The audio device is open") : tr("No audio device was found"));
+}
+
+void EditorView::ask(std::unique_ptr<Sheet> question)
+{
+    if (sheetNow)
+        over.show(std::move(question));
+    else
+        showSheet(std::move(question));
 }
 
 /// Behind what is told of the files that were opened.

@@ -19,6 +19,7 @@
 #include "editor/clip/session/Session.h"
 #include "editor/clip/sheets/ExportSheet.h"
 #include "editor/clip/sheets/Sheet.h"
+#include "editor/clip/sheets/SheetOver.h"
 
 #include <juce_gui_basics/juce_gui_basics.h>
 
@@ -26,6 +27,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace pacini::editor
@@ -45,7 +47,9 @@ struct HostServices
     std::function<void(const juce::String&)> chooseLanguage = {}; ///< from the next start on; null: not here
     std::function<void(const std::filesystem::path&)> runStudy = {}; ///< of that file; null: not here
     std::function<void()> feelOnPhone = {};                          ///< lets a phone in; null: not here
-    juce::String version = {};                                       ///< of the program; empty: not told
+    std::function<bool()> reconnect = {};      ///< opens a sound device, if there is one; null: the host has devices
+    std::function<bool()> playsElsewhere = {}; ///< see HapticOutputs
+    juce::String version = {};                 ///< of the program; empty: not told
 };
 
 /// Layout, look and sheets; what commands do stands with their menus.
@@ -70,6 +74,9 @@ public:
     /// Shows it when the sheets before it are closed: no question is lost behind another.
     void showMessage(std::unique_ptr<Sheet> wanted);
     [[nodiscard]] Sheet* sheet() const noexcept { return sheetNow.get(); }
+    /// Shows a question at once, in front of a sheet that is open.
+    void ask(std::unique_ptr<Sheet> question);
+    [[nodiscard]] Sheet* question() const noexcept { return over.sheet() != nullptr ? over.sheet() : sheet(); }
     /// Gives the keyboard to what is in front.
     void takeFocus();
     /// Gives it to the next part of the window (1), or the one before (-1).
@@ -102,6 +109,8 @@ public:
 
 private:
     void showOpenedScene();
+    void tellNowhere();
+    void reconnect();
     bool isInterestedInFileDrag(const juce::StringArray&) override { return true; }
     void fileDragEnter(const juce::StringArray&, int, int) override { start.setDropping(true); }
     void fileDragExit(const juce::StringArray&) override { start.setDropping(false); }
@@ -125,6 +134,7 @@ private:
     StatusBar status;
     WorkBar workBar;
     NoticeBar notice;
+    SheetOver over{body};
     std::unique_ptr<Sheet> sheetNow;
     std::deque<std::unique_ptr<Sheet>> messages; ///< that wait
     HeldSwitch drawKey;

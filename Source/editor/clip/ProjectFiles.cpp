@@ -6,10 +6,12 @@
 #include "editor/Text.h"
 #include "editor/Translation.h"
 #include "editor/clip/EditorView.h"
+#include "editor/clip/sheets/OverwriteQuestion.h"
 #include "io/InputFile.h"
 #include "io/ProfileFile.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace pacini::editor
 {
@@ -38,6 +40,13 @@ void ProjectFiles::open(const std::vector<std::filesystem::path>& files)
     };
     if (std::any_of(files.begin(), files.end(), isProject))
         whenSaved(openThem);
+    else if (view.session().model.isSample())
+        whenSaved(
+            [&model = view.session().model, openThem]
+            {
+                model.newProject();
+                openThem();
+            });
     else
         openThem();
 }
@@ -68,7 +77,7 @@ void ProjectFiles::openSample()
             const auto text = readWholeFile(file, largestProjectText);
             auto read = text ? readProjectJson(*text, file.parent_path()) : Result<ReadProject>(text.error());
             if (read)
-                session.model.openProject(std::move(read->project));
+                session.model.openSample(std::move(read->project));
             else
                 session.model.onError("Sample project not opened", toText(read.error().text()));
         });
@@ -163,7 +172,7 @@ void ProjectFiles::finishSaving(const Result<void>& saved, const std::filesystem
     {
         saveAs(next);
     };
-    view.showMessage(std::make_unique<MessageSheet>(
+    view.ask(std::make_unique<MessageSheet>(
         "Not saved",
         pathText(file) + "\n" + translateMessage(toText(saved.error().text())) + "\n\n" +
             tr("The project is still open with all changes. Free some space or save it elsewhere."),
@@ -184,9 +193,22 @@ void ProjectFiles::saveAs(const std::function<void()>& next)
            {
                if (chosen.isEmpty())
                    return;
-               const auto file = pathOf(chosen[0].withFileExtension("pacini"));
-               finishSaving(view.session().model.saveAs(file), file, next);
+               saveTo(pathOf(chosen[0].withFileExtension("pacini")), next);
            });
+}
+
+void ProjectFiles::saveTo(const std::filesystem::path& file, const std::function<void()>& next)
+{
+    const auto write = [this, file, next]
+    {
+        finishSaving(view.session().model.saveAs(file), file, next);
+    };
+    ProjectFileSet needed = filesOf(view.session().model.document());
+    if (!needed.project.empty() && isSameFile(std::exchange(needed.project, {}), file))
+        return write();
+    writeAfterAsking(
+        {file}, needed, write, [this](std::unique_ptr<Sheet> asked) { view.ask(std::move(asked)); },
+        [this, file, next](const Error& error) { finishSaving(Result<void>(error), file, next); });
 }
 
 void ProjectFiles::choose(const juce::String& title, Purpose purpose,
@@ -213,7 +235,7 @@ void ProjectFiles::choose(const juce::String& title, Purpose purpose,
         switch (purpose)
         {
         case Purpose::saving:
-            return Browser::canSelectFiles | Browser::saveMode | Browser::warnAboutOverwriting;
+            return Browser::canSelectFiles | Browser::saveMode; // saveTo() asks
         case Purpose::openingFolder:
             return Browser::canSelectDirectories | Browser::openMode;
         case Purpose::openingSound:

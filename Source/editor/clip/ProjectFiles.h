@@ -23,7 +23,8 @@ class ProjectFiles
 public:
     explicit ProjectFiles(EditorView& shown) : view(shown) {}
 
-    /// Sounds, clips and projects. A project takes the place of the open one, which the user is asked to save.
+    /// Sounds, clips and projects. A project takes the place of the open one, which the user is asked to save; and so
+    /// does a new one for sounds and clips that are opened while the sample is.
     void open(const std::vector<std::filesystem::path>& files);
     void askWhatToOpen();
     /// The project beside the demo sounds, as one that was never saved.
@@ -44,6 +45,8 @@ public:
     /// To its file, or where the user says; then `next`, if it was done.
     void save(const std::function<void()>& next = {});
     void saveAs(const std::function<void()>& next = {});
+    /// To that file, after a question where another one stands there.
+    void saveTo(const std::filesystem::path& file, const std::function<void()>& next = {});
 
     /// Offers what an earlier run has left.
     void offerRecovery();

@@ -5,6 +5,7 @@
 #include "editor/Text.h"
 #include "editor/Theme.h"
 #include "editor/Translation.h"
+#include "editor/clip/sheets/OverwriteQuestion.h"
 
 #include <algorithm>
 #include <array>
@@ -35,14 +36,20 @@ MeasurePage::MeasurePage(std::shared_ptr<MeasurementController> wanted, std::fun
     : Sheet("Measure an actuator", 10000, 10000),
       shared(std::move(wanted)),
       services{[this](const auto&... asked) { askForFile(asked...); },
-               [this](const juce::String& title, const juce::String& text) { tell(title, text); },
-               std::move(showDevices)},
+               [this](bool throughEqualizer)
+               {
+                   askForFile(throughEqualizer ? "Save the equalised sweep" : "Save sweep", "*.wav", true,
+                              throughEqualizer ? "sweep-equalised.wav" : "sweep.wav",
+                              [this, throughEqualizer](const juce::File& file)
+                              { saveSweep(pathOf(file.withFileExtension("wav")), throughEqualizer); });
+               },
+               [this](const auto&... asked) { save(asked...); }, std::move(showDevices)},
       setUp(*shared, services),
       sweep(*shared),
       response(*shared),
       equalizer(*shared),
       verify(*shared, services),
-      save(*shared, services),
+      saving(*shared, services),
       backButton("Back"),
       nextButton("Next"),
       closeButton("Close")
@@ -62,6 +69,11 @@ MeasurePage::MeasurePage(std::shared_ptr<MeasurementController> wanted, std::fun
     scroll.setScrollBarsShown(true, true);
     scroll.setWantsKeyboardFocus(false);
     addAll(*this, {&steps, &scroll, &backButton, &nextButton, &closeButton});
+    addChildComponent(notice);
+    over.onClosed = [this]
+    {
+        takeFocus();
+    };
     int order = 1;
     for (juce::Component* child :
          std::initializer_list<juce::Component*>{&scroll, &nextButton, &backButton, &closeButton, &steps})
@@ -71,7 +83,7 @@ MeasurePage::MeasurePage(std::shared_ptr<MeasurementController> wanted, std::fun
         refresh();
     };
     shared->setOpen(true);
-    for (StepPanel* step : std::initializer_list<StepPanel*>{&setUp, &sweep, &response, &equalizer, &verify, &save})
+    for (StepPanel* step : std::initializer_list<StepPanel*>{&setUp, &sweep, &response, &equalizer, &verify, &saving})
         translateTexts(*step); // only the one in front is inside of the page
     scroll.setViewedComponent(&panel(), false);
     refresh();
@@ -99,7 +111,7 @@ StepPanel& MeasurePage::panel() noexcept
     case MeasureStep::verify:
         return verify;
     case MeasureStep::save:
-        return save;
+        return saving;
     }
     return setUp;
 }
@@ -189,18 +201,17 @@ void MeasurePage::resized()
     const int bar = scroll.getScrollBarThickness();
     shown.setSize(std::max(StepPanel::leastWidth, area.getWidth() - (tall ? bar : 0)),
                   std::max(shown.leastHeight(), area.getHeight() - (wide ? bar : 0)));
-    if (message)
-        message->setBounds(getLocalBounds());
+    notice.setBounds(getLocalBounds().withTrimmedBottom(footHeight).removeFromBottom(4 * grid));
 }
 
-void MeasurePage::askForFile(const juce::String& title, const juce::String& pattern, bool saving,
+void MeasurePage::askForFile(const juce::String& title, const juce::String& pattern, bool forSaving,
                              const juce::String& name, std::function<void(const juce::File&)> chosen)
 {
     const auto folder = documentsFolder();
     chooser = std::make_unique<juce::FileChooser>(tr(title), folder.getChildFile(name), pattern);
     using Browser = juce::FileBrowserComponent;
     chooser->launchAsync(Browser::canSelectFiles |
-                             (saving ? Browser::saveMode | Browser::warnAboutOverwriting : Browser::openMode),
+                             (forSaving ? Browser::saveMode : Browser::openMode), // who saves asks
                          [chosen = std::move(chosen)](const juce::FileChooser& done)
                          {
                              if (done.getResult() != juce::File())
@@ -208,24 +219,39 @@ void MeasurePage::askForFile(const juce::String& title, const juce::String& patt
                          });
 }
 
+void MeasurePage::save(const std::vector<std::filesystem::path>& files, const std::function<bool()>& write)
+{
+    writeAfterAsking(
+        files, shared->neededFiles(),
+        [this, files, write]
+        {
+            if (write())
+                notice.showWritten({files.front()});
+        },
+        [this](std::unique_ptr<Sheet> asked) { over.show(std::move(asked)); },
+        [this](const Error& error) { tell("Not saved", toText(error.text())); });
+}
+
+void MeasurePage::saveSweep(const std::filesystem::path& sound, bool throughEqualizer)
+{
+    save({sound, MeasurementController::describing(sound)},
+         [this, sound, throughEqualizer]
+         {
+             const auto saved = shared->saveSweep(sound, throughEqualizer);
+             if (!saved)
+                 tell("Sweep not saved", toText(saved.error().text()));
+             else if (!throughEqualizer)
+                 tell(
+                     "Sweep saved",
+                     "Play it through the actuator and record the sensor, with some margin before and after. Then open "
+                     "the recording here. Keep the .json file next to it; it describes the sweep.");
+             return saved.ok();
+         });
+}
+
 void MeasurePage::tell(const juce::String& title, const juce::String& text)
 {
-    message = std::make_unique<MessageSheet>(title, text, std::vector<Answer>{{tr("Close"), {}}});
-    message->onClose = [this]
-    {
-        juce::MessageManager::callAsync(
-            [self = juce::Component::SafePointer<MeasurePage>(this)]
-            {
-                if (self)
-                {
-                    self->message.reset();
-                    self->takeFocus();
-                }
-            });
-    };
-    addAndMakeVisible(*message);
-    message->setBounds(getLocalBounds());
-    message->takeFocus();
+    over.show(std::make_unique<MessageSheet>(title, text, std::vector<Answer>{{tr("Close"), {}}}));
 }
 
 } // namespace pacini::editor

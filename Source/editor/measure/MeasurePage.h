@@ -3,7 +3,8 @@
 
 // Measure page: the measurement of an actuator over the whole window.
 
-#include "editor/clip/sheets/Sheet.h"
+#include "editor/clip/NoticeBar.h"
+#include "editor/clip/sheets/SheetOver.h"
 #include "editor/measure/EqualizerStep.h"
 #include "editor/measure/MeasurementController.h"
 #include "editor/measure/ResponseStep.h"
@@ -13,8 +14,10 @@
 #include "editor/measure/SweepStep.h"
 #include "editor/measure/VerifyStep.h"
 
+#include <filesystem>
 #include <functional>
 #include <memory>
+#include <vector>
 
 namespace pacini::editor
 {
@@ -28,17 +31,22 @@ public:
     MeasurePage(std::shared_ptr<MeasurementController> wanted, std::function<void()> showDevices);
     ~MeasurePage() override;
 
+    [[nodiscard]] std::vector<Command> commands() const override { return {editor::save, saveAs}; }
+
     [[nodiscard]] MeasureStep step() const noexcept { return stepNow; }
     /// False for a step that is locked.
     bool show(MeasureStep wanted);
     [[nodiscard]] StepPanel& panel() noexcept;
+
+    /// A sweep and its description, after a question where files stand there.
+    void saveSweep(const std::filesystem::path& sound, bool throughEqualizer);
 
     SetUpStep& setUpStep() noexcept { return setUp; }
     SweepStep& sweepStep() noexcept { return sweep; }
     ResponseStep& responseStep() noexcept { return response; }
     EqualizerStep& equalizerStep() noexcept { return equalizer; }
     VerifyStep& verifyStep() noexcept { return verify; }
-    SaveStep& saveStep() noexcept { return save; }
+    SaveStep& saveStep() noexcept { return saving; }
 
     void paint(juce::Graphics& g) override;
     void resized() override;
@@ -50,6 +58,7 @@ private:
     void refresh();
     void askForFile(const juce::String& title, const juce::String& pattern, bool saving, const juce::String& name,
                     std::function<void(const juce::File&)> chosen);
+    void save(const std::vector<std::filesystem::path>& files, const std::function<bool()>& write);
     void tell(const juce::String& title, const juce::String& text);
 
     std::shared_ptr<MeasurementController> shared;
@@ -62,10 +71,11 @@ private:
     ResponseStep response;
     EqualizerStep equalizer;
     VerifyStep verify;
-    SaveStep save;
+    SaveStep saving;
     juce::TextButton backButton, nextButton, closeButton;
     std::unique_ptr<juce::FileChooser> chooser;
-    std::unique_ptr<MessageSheet> message;
+    SheetOver over{*this};
+    NoticeBar notice;
 };
 
 } // namespace pacini::editor

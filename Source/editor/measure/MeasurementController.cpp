@@ -19,12 +19,12 @@ namespace pacini::editor
 namespace
 {
 constexpr double soundRate = 48000.0; // Hz, of sweeps for other players
+} // namespace
 
-std::filesystem::path describing(std::filesystem::path sound)
+std::filesystem::path MeasurementController::describing(std::filesystem::path sound)
 {
     return sound.replace_extension(".json");
 }
-} // namespace
 
 MeasurementController::MeasurementController(Actuators& profiles, Transport& playing, HostServices wanted)
     : actuators(profiles), transport(playing), around(std::move(wanted))
@@ -133,6 +133,7 @@ void MeasurementController::useRig(std::shared_ptr<MeasureRig> wanted)
     rig = std::move(wanted);
     rig->setOpen(true);
     wiredNow = {};
+    outputChosen = false;
     portsNow = rig->ports();
     MeasureSettings settings = work.settings();
     const auto known = rig->fullScale();
@@ -149,8 +150,8 @@ void MeasurementController::useRig(std::shared_ptr<MeasureRig> wanted)
 void MeasurementController::connect()
 {
     portsNow = rig->ports();
-    if (wiredNow.output >= portsNow.outputs.size())
-        wiredNow.output = 0;
+    if (!outputChosen || wiredNow.output >= portsNow.outputs.size())
+        wiredNow.output = portsNow.expectedOutput < portsNow.outputs.size() ? portsNow.expectedOutput : 0;
     std::erase_if(wiredNow.inputs, [this](std::size_t input) { return input >= portsNow.inputs.size(); });
     if (wiredNow.inputs.empty() && !portsNow.inputs.empty())
         wiredNow.inputs.push_back(0);
@@ -169,6 +170,7 @@ void MeasurementController::setWiring(RigWiring wiring)
         if (std::find(inputs.begin(), inputs.end(), input) == inputs.end() && inputs.size() < maxInputs)
             inputs.push_back(input);
     wiring.inputs = std::move(inputs);
+    outputChosen = outputChosen || wiring.output != wiredNow.output;
     wiredNow = std::move(wiring);
     connect();
     changed();

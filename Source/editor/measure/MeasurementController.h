@@ -3,6 +3,7 @@
 
 // Controller of a measurement: playing on its rig, analysis in the background, saving of the results.
 
+#include "document/FilesInTheWay.h"
 #include "document/measure/ActuatorMeasurement.h"
 #include "document/measure/MeasureRig.h"
 #include "editor/clip/session/Transport.h"
@@ -43,6 +44,8 @@ public:
     void poll();
 
     [[nodiscard]] const ActuatorMeasurement& measurement() const noexcept { return work; }
+    /// Of the open project, which no measurement replaces.
+    [[nodiscard]] ProjectFileSet neededFiles() const { return filesOf(actuators.document()); }
 
     // Set up.
 
@@ -95,6 +98,8 @@ public:
     [[nodiscard]] const std::string& sweepProblem() const noexcept { return sweepTrouble; }
     [[nodiscard]] const std::string& verifyProblem() const noexcept { return verifyTrouble; }
 
+    /// The file beside a sweep's sound that describes it.
+    [[nodiscard]] static std::filesystem::path describing(std::filesystem::path sound);
     /// The sweep as a sound, and beside it what was in it as .json.
     [[nodiscard]] Result<void> saveSweep(const std::filesystem::path& sound, bool throughEqualizer);
     /// A recording that was made elsewhere, of the sweep of the settings, or of that described in a .json of its name.
@@ -138,6 +143,7 @@ private:
     std::shared_ptr<MeasureRig> rig;
     RigPorts portsNow;
     RigWiring wiredNow;
+    bool outputChosen = false; ///< by the user; else it is where the actuator is expected
     std::optional<std::size_t> baseNow;
     bool tone = false;
     Activity doing = Activity::none;

@@ -87,11 +87,16 @@ void SaveStep::follow()
 
 void SaveStep::save()
 {
-    const auto saved = controller.save(
-        name.control.getText().trim().toStdString(),
-        pathOf(juce::File::getCurrentWorkingDirectory().getChildFile(file.control.getText())), use.getToggleState());
-    problem = saved ? std::string() : saved.error().text();
-    refresh();
+    const auto target = pathOf(juce::File::getCurrentWorkingDirectory().getChildFile(file.control.getText()));
+    services.save({target},
+                  [this, target]
+                  {
+                      const auto saved =
+                          controller.save(name.control.getText().trim().toStdString(), target, use.getToggleState());
+                      problem = saved ? std::string() : saved.error().text();
+                      refresh();
+                      return saved.ok();
+                  });
 }
 
 void SaveStep::refresh()
@@ -119,15 +124,10 @@ void SaveStep::refresh()
         if (!work.saved().empty())
             lines.push_back(
                 {tr("Saved to {0}. It is now in the list of actuators.", {toText(work.saved())}).toStdString()});
-        else
-        {
-            if (verified == nullptr)
-                lines.push_back({"Not verified yet. Sweep through the equaliser in step 5 to confirm that it is flat, "
-                                 "or save it anyway.",
-                                 Note::Kind::warning});
-            if (juce::File::getCurrentWorkingDirectory().getChildFile(file.control.getText()).existsAsFile())
-                lines.push_back({"This file exists and will be overwritten.", Note::Kind::warning});
-        }
+        else if (verified == nullptr)
+            lines.push_back({"Not verified yet. Sweep through the equaliser in step 5 to confirm that it is flat, "
+                             "or save it anyway.",
+                             Note::Kind::warning});
     }
     else
         facts.show({});

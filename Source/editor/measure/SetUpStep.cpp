@@ -99,23 +99,8 @@ SetUpStep::SetUpStep(MeasurementController& wanted, StepServices& around)
     prepareButton(tone, "Plays a steady 100 Hz tone at the sweep level to check the sensor",
                   [this] { controller.setTone(tone.getToggleState()); });
     prepareButton(devices, "Chooses the audio device, its inputs and sample rate", [this] { services.showDevices(); });
-    prepareButton(
-        saveSweep, "Saves the sweep as a sound file for another player, with a description",
-        [this]
-        {
-            services.askForFile(
-                "Save sweep", "*.wav", true, "sweep.wav",
-                [this](const juce::File& file)
-                {
-                    const auto saved = controller.saveSweep(pathOf(file.withFileExtension("wav")), false);
-                    services.tell(
-                        saved ? "Sweep saved" : "Sweep not saved",
-                        saved
-                            ? "Play it through the actuator and record the sensor, with some margin before and after. "
-                              "Then open the recording here. Keep the .json file next to it; it describes the sweep."
-                            : toText(saved.error().text()));
-                });
-        });
+    prepareButton(saveSweep, "Saves the sweep as a sound file for another player, with a description",
+                  [this] { services.saveSweep(false); });
     prepareButton(openRecording, "Opens a sweep recorded elsewhere, one to three channels",
                   [this]
                   {

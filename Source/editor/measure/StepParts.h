@@ -9,6 +9,7 @@
 
 #include <juce_gui_basics/juce_gui_basics.h>
 
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <utility>
@@ -127,7 +128,9 @@ struct StepServices
     std::function<void(const juce::String& title, const juce::String& pattern, bool saving, const juce::String& name,
                        std::function<void(const juce::File&)> chosen)>
         askForFile;
-    std::function<void(const juce::String& title, const juce::String& text)> tell;
+    std::function<void(bool throughEqualizer)> saveSweep;
+    /// Writes after a question where a file would be lost; true of `write`: it has been written.
+    std::function<void(const std::vector<std::filesystem::path>& files, std::function<bool()> write)> save;
     std::function<void()> showDevices; ///< empty: there are none to choose
 };
 

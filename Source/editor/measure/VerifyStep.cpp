@@ -32,17 +32,7 @@ VerifyStep::VerifyStep(MeasurementController& wanted, StepServices& around)
     };
     saveSweep.setTitle("Save the equalised sweep");
     prepareButton(saveSweep, "Saves the equalised sweep as a sound file for another player",
-                  [this]
-                  {
-                      services.askForFile("Save the equalised sweep", "*.wav", true, "sweep-equalised.wav",
-                                          [this](const juce::File& file)
-                                          {
-                                              if (const auto saved =
-                                                      controller.saveSweep(pathOf(file.withFileExtension("wav")), true);
-                                                  !saved)
-                                                  services.tell("Sweep not saved", toText(saved.error().text()));
-                                          });
-                  });
+                  [this] { services.saveSweep(true); });
     openRecording.setTitle("Open a recording of the equalised sweep");
     prepareButton(openRecording, "Opens an equalised sweep recorded elsewhere",
                   [this]

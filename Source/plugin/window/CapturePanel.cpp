@@ -5,6 +5,7 @@
 #include "editor/Text.h"
 #include "editor/Theme.h"
 #include "editor/Translation.h"
+#include "editor/clip/sheets/OverwriteQuestion.h"
 #include "io/ClipFile.h"
 
 #include <algorithm>
@@ -52,6 +53,7 @@ CapturePanel::CapturePanel(PluginProcessor& heard)
     message.setJustificationType(juce::Justification::centredLeft);
     editor::addAll(*this, {&length, &button, &keepButton, &editButton, &saveButton, &message});
     addChildComponent(chip);
+    addChildComponent(notice);
 }
 
 void CapturePanel::resized()
@@ -70,6 +72,7 @@ void CapturePanel::resized()
     row.removeFromLeft(grid);
     chip.setBounds(row);
     message.setBounds(row);
+    notice.setBounds(row);
 }
 
 void CapturePanel::captureNow()
@@ -111,7 +114,7 @@ void CapturePanel::chooseFile()
 {
     chooser = std::make_unique<juce::FileChooser>(
         editor::tr("Save clip"), editor::documentsFolder().getChildFile(file.getFileName()), "*.json;*.pacb");
-    chooser->launchAsync(juce::FileBrowserComponent::saveMode | juce::FileBrowserComponent::warnAboutOverwriting,
+    chooser->launchAsync(juce::FileBrowserComponent::saveMode, // save() asks
                          [this](const juce::FileChooser& chosen)
                          {
                              if (chosen.getResult() != juce::File())
@@ -123,10 +126,26 @@ void CapturePanel::save(const juce::File& chosen)
 {
     const bool packed = chosen.hasFileExtension("pacb");
     const juce::File target = packed || chosen.hasFileExtension("json") ? chosen : chosen.withFileExtension("json");
-    const auto written =
-        writeClip(target.getFullPathName().toStdString(), captured->clip, packed ? packedFormat() : jsonFormat());
-    if (!written)
-        say(editor::tr("Not saved: {0}", {editor::translateMessage(juce::String(written.error().text()))}), true);
+    const auto path = editor::pathOf(target);
+    const auto failed = [this](const Error& error)
+    {
+        say(editor::tr("Not saved: {0}", {editor::translateMessage(toText(error.text()))}), true);
+    };
+    const auto write = [this, path, packed, clip = captured->clip, failed]
+    {
+        if (const auto written = writeClip(path, clip, packed ? packedFormat() : jsonFormat()); !written)
+            failed(written.error());
+        else
+            notice.showWritten({path});
+    };
+    const auto ask = [this](std::unique_ptr<editor::Sheet> asked)
+    {
+        auto* window = findParentComponentOfClass<juce::AudioProcessorEditor>();
+        question = std::make_unique<editor::SheetOver>(window != nullptr ? static_cast<juce::Component&>(*window)
+                                                                         : *getTopLevelComponent());
+        question->show(std::move(asked));
+    };
+    editor::writeAfterAsking({path}, {}, write, ask, failed);
 }
 
 void CapturePanel::say(const juce::String& text, bool wrong)

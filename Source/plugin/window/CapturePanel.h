@@ -5,6 +5,8 @@
 
 #include "editor/CaptureJob.h"
 #include "editor/ClipChip.h"
+#include "editor/clip/NoticeBar.h"
+#include "editor/clip/sheets/SheetOver.h"
 #include "plugin/engine/PluginProcessor.h"
 
 #include <juce_gui_basics/juce_gui_basics.h>
@@ -24,11 +26,13 @@ public:
 
     void resized() override;
 
+    /// The captured clip as a file, after a question where one stands there; packed or JSON by its ending.
+    void save(const juce::File& chosen);
+
 private:
     void captureNow();
     void take(Result<editor::CapturedClip> made);
     void chooseFile();
-    void save(const juce::File& chosen);
     void say(const juce::String& text, bool wrong);
 
     PluginProcessor& source;
@@ -40,6 +44,8 @@ private:
     std::optional<editor::CapturedClip> captured;
     juce::File file; ///< of the clip, to be dragged
     std::unique_ptr<juce::FileChooser> chooser;
+    editor::NoticeBar notice;
+    std::unique_ptr<editor::SheetOver> question;
     int captures = 0;
     editor::CaptureJob job; // ends first
 };

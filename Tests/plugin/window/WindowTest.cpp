@@ -321,3 +321,79 @@ TEST_CASE("What was heard last becomes a clip")
     CHECK_FALSE(editor::clipOfCapture({}, 48000.0, "nothing"));
     CHECK_FALSE(editor::clipOfCapture(capture, 768001.0, "too fast"));
 }
+
+TEST_CASE("A capture is saved over no other file without a question", "[overwrite]")
+{
+    const juce::ScopedJuceInitialiser_GUI gui;
+    WindowRig rig;
+    plugin::PluginWindow window(rig.plugin);
+    (void)rig.run(liveSounds(2, 4 * 48000, 3));
+    plugin::CapturePanel* panel = nullptr;
+    juce::TextButton *capture = nullptr, *save = nullptr;
+    editor::NoticeBar* notice = nullptr;
+    forEachChild(window,
+                 [&](juce::Component& child)
+                 {
+                     if (auto* found = dynamic_cast<plugin::CapturePanel*>(&child))
+                         panel = found;
+                     if (auto* found = dynamic_cast<editor::NoticeBar*>(&child))
+                         notice = found;
+                     if (auto* button = dynamic_cast<juce::TextButton*>(&child))
+                         (button->getButtonText() == "Capture"                         ? capture
+                          : button->getButtonText() == juce::String::fromUTF8("Save…") ? save
+                                                                                       : button) = button;
+                 });
+    REQUIRE((panel != nullptr && capture != nullptr && save != nullptr && notice != nullptr));
+    capture->onClick();
+    REQUIRE(pumpUntil([&] { return save->isEnabled(); }));
+    const TempFolder folder;
+    put(folder / "mine.json", "hers");
+    panel->save(juce::File(juce::String((folder / "mine").string()))); // becomes mine.json
+    CHECK(bytesOf(folder / "mine.json") == "hers");
+    editor::MessageSheet* question = nullptr;
+    forEachChild(window,
+                 [&](juce::Component& child)
+                 {
+                     if (auto* found = dynamic_cast<editor::MessageSheet*>(&child))
+                         question = found;
+                 });
+    REQUIRE(question != nullptr);
+    CHECK(question->getTitle() == "Replace mine.json?");
+    for (juce::Component* child : question->getChildren())
+        if (auto* button = dynamic_cast<juce::TextButton*>(child);
+            button != nullptr && button->getButtonText() == "Replace")
+        {
+            button->onClick();
+            break;
+        }
+    CHECK(readClip(folder / "mine.json").ok());
+    CHECK(notice->text() == "Written: mine.json");
+    panel->save(juce::File(juce::String((folder / "new.pacb").string())));
+    CHECK(readClip(folder / "new.pacb").ok());
+}
+
+TEST_CASE("In bypass the meters show what leaves the output, which is nothing")
+{
+    const juce::ScopedJuceInitialiser_GUI gui;
+    WindowRig rig;
+    (void)rig.run(liveSounds(2, 48000, 3));
+    CHECK(rig.plugin.takePeak(0) > 0.01f);
+    rig.set(ParameterId::bypass, 1.0);
+    (void)rig.run(liveSounds(2, 4800, 3)); // it fades
+    (void)rig.plugin.takePeak(0);
+    const auto out = rig.run(liveSounds(2, 48000, 3));
+    for (const float sample : out.haptic[0])
+        REQUIRE(sample == 0.0f);
+    CHECK(rig.plugin.takePeak(0) == 0.0f);
+    rig.set(ParameterId::bypass, 0.0);
+    (void)rig.run(liveSounds(2, 48000, 3));
+    CHECK(rig.plugin.takePeak(0) > 0.01f);
+    // Nor does anything leave a haptic channel that leads nowhere.
+    rig.plugin.setConnected(0);
+    (void)rig.plugin.takePeak(0);
+    (void)rig.run(liveSounds(2, 48000, 3));
+    CHECK(rig.plugin.takePeak(0) == 0.0f);
+    rig.set(ParameterId::outputMode, static_cast<double>(plugin::OutputMode::replaceMain));
+    (void)rig.run(liveSounds(2, 48000, 3));
+    CHECK(rig.plugin.takePeak(0) > 0.01f);
+}

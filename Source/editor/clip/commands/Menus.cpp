@@ -88,6 +88,12 @@ bool Menus::perform(Command command)
     return true;
 }
 
+std::optional<Command> Menus::commandOf(const juce::KeyPress& key) const
+{
+    const auto found = manager.getKeyMappings()->findCommandForKeyPress(key);
+    return found != 0 ? std::optional(static_cast<Command>(found)) : std::nullopt;
+}
+
 bool Menus::perform(const InvocationInfo& info)
 {
     return perform(static_cast<Command>(info.commandID));

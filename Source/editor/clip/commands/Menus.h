@@ -7,6 +7,7 @@
 
 #include <juce_gui_basics/juce_gui_basics.h>
 
+#include <optional>
 #include <vector>
 
 namespace pacini::editor
@@ -31,6 +32,8 @@ public:
 
     /// False when it cannot be done now.
     bool perform(Command command);
+    /// What a key does; null: nothing.
+    [[nodiscard]] std::optional<Command> commandOf(const juce::KeyPress& key) const;
     /// What can be done may have changed.
     void refresh() { manager.commandStatusChanged(); }
 

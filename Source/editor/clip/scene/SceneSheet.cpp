@@ -6,6 +6,7 @@
 #include "editor/Theme.h"
 #include "editor/Translation.h"
 #include "editor/clip/session/Sound.h"
+#include "editor/clip/sheets/OverwriteQuestion.h"
 #include "io/SceneFile.h"
 
 #include <algorithm>
@@ -238,7 +239,7 @@ void SceneSheet::plan()
 
 void SceneSheet::play()
 {
-    if (selection.scene().parts.empty())
+    if (selection.scene().parts.empty() || !session.outputs.readyToPlay())
         return;
     plays = true;
     playButton.setButtonText(tr("Stop"));
@@ -287,11 +288,6 @@ bool SceneSheet::keyPressed(const juce::KeyPress& key)
     }
     if (key == juce::KeyPress::returnKey)
         return true; // it would close a page where it means nothing
-    if (key.isKeyCode('Z') && key.getModifiers().isCommandDown())
-    {
-        key.getModifiers().isShiftDown() ? session.model.redo() : session.model.undo();
-        return true;
-    }
     return Sheet::keyPressed(key);
 }
 
@@ -356,18 +352,34 @@ void SceneSheet::exportScene()
     const juce::String name = path.empty() ? tr("Untitled") : pathText(path.stem());
     chooser =
         std::make_unique<juce::FileChooser>(tr("Export scene"), folder.getChildFile(name + ".scene.json"), "*.json");
-    chooser->launchAsync(Browser::saveMode | Browser::canSelectFiles | Browser::warnAboutOverwriting,
+    chooser->launchAsync(Browser::saveMode | Browser::canSelectFiles,
                          [this](const juce::FileChooser& done)
                          {
-                             if (done.getResult() == juce::File())
-                                 return;
-                             Scene scene = sceneOf(session.model.document().project()).scene;
-                             const auto written = writeScene(pathOf(done.getResult()), scene);
-                             note.setText(
-                                 written ? tr("Written: {0}", {done.getResult().getFileName()})
-                                         : tr("Not exported: {0}", {translateMessage(toText(written.error().text()))}),
-                                 juce::dontSendNotification);
+                             if (done.getResult() != juce::File())
+                                 write(pathOf(done.getResult()));
                          });
+}
+
+void SceneSheet::write(const std::filesystem::path& file)
+{
+    const auto failed = [this](const Error& error)
+    {
+        note.setText(tr("Not exported: {0}", {translateMessage(toText(error.text()))}), juce::dontSendNotification);
+    };
+    const auto writeIt = [this, file, failed]
+    {
+        const auto written = writeScene(file, sceneOf(session.model.document().project()).scene);
+        if (!written)
+            return failed(written.error());
+        note.setText(tr("Written: {0}", {pathText(file.filename())}), juce::dontSendNotification);
+        if (session.model.onWritten)
+            session.model.onWritten({file});
+    };
+    const auto ask = [this](std::unique_ptr<Sheet> asked)
+    {
+        question.show(std::move(asked));
+    };
+    writeAfterAsking({file}, filesOf(session.model.document()), writeIt, ask, failed);
 }
 
 void SceneSheet::layOut(juce::Rectangle<int> area)

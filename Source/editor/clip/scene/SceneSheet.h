@@ -3,11 +3,13 @@
 
 // Page of the project's scene: its timeline, what a part plays with, what is left out and why, and its export.
 
+#include "editor/Controls.h"
 #include "editor/clip/scene/SceneCurveLane.h"
 #include "editor/clip/scene/SceneTimeline.h"
 #include "editor/clip/session/Jobs.h"
 #include "editor/clip/session/Session.h"
 #include "editor/clip/sheets/Sheet.h"
+#include "editor/clip/sheets/SheetOver.h"
 
 #include <filesystem>
 #include <memory>
@@ -21,10 +23,14 @@ public:
     explicit SceneSheet(Session& shared);
     ~SceneSheet() override;
 
+    [[nodiscard]] std::vector<Command> commands() const override { return {undo, redo, editor::save, saveAs}; }
+
     [[nodiscard]] SceneSelection& parts() noexcept { return selection; }
     [[nodiscard]] SceneTimeline& timeline() noexcept { return line; }
     /// A scene file in place of the scene; what is wrong with it is said on the page.
     void read(const std::filesystem::path& file);
+    /// The scene as a file, after a question where one stands there.
+    void write(const std::filesystem::path& file);
     [[nodiscard]] juce::String summary() const { return note.getText(); }
 
 private:
@@ -50,8 +56,9 @@ private:
     juce::ComboBox clips, actuators, law, parameter;
     juce::Label clipsLabel, actuatorsLabel, lawLabel, parameterLabel, valueLabel, priorityLabel, repeatsLabel, note;
     juce::TextButton playButton, removeButton, removeCurveButton, fitButton, openButton, exportButton;
-    juce::Slider value, priority, repeats;
+    Slider value, priority, repeats;
     std::unique_ptr<juce::FileChooser> chooser;
+    SheetOver question{*this};
     Gesture sliding = 0;
     bool plays = false;
     int planned = 0;       ///< counts what was planned

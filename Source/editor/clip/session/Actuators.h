@@ -23,6 +23,7 @@ public:
     Signal listChanged;
     Signal usualChanged;
 
+    [[nodiscard]] const Document& document() const noexcept { return model.document(); }
     [[nodiscard]] const std::vector<NamedProfile>& profiles() const noexcept { return list; }
     /// In the place of one of its name that is not Pacini's, or behind the others; `use` chooses it at once.
     void addProfile(NamedProfile added, bool use);

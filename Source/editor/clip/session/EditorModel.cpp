@@ -41,6 +41,7 @@ bool EditorModel::take(Result<void> result)
 void EditorModel::take(Document document)
 {
     unanalysed.reset();
+    sample = false;
     *open = std::move(document);
     preview = nullptr;
     comparing = false;
@@ -72,6 +73,12 @@ void EditorModel::openProject(Project made)
     take(Document(std::move(made)));
 }
 
+void EditorModel::openSample(Project made)
+{
+    openProject(std::move(made));
+    sample = true;
+}
+
 Result<void> EditorModel::recover(const Recoverable& entry)
 {
     auto recovered = Document::recover(entry.file);
@@ -89,7 +96,10 @@ Result<void> EditorModel::recover(const Recoverable& entry)
 Result<void> EditorModel::saved(Result<void> result)
 {
     if (result)
+    {
+        sample = false;
         (void)recent.add(open->path());
+    }
     follow(active);
     projectChanged.emit();
     return result;

@@ -52,6 +52,8 @@ public:
     void report(const std::string& title, const Error& error) const;
     /// What was done beside what was asked for: to be seen, but not to be answered.
     std::function<void(const juce::String& text)> onNotice;
+    /// What was written where the user wanted it.
+    std::function<void(const std::vector<std::filesystem::path>& files)> onWritten;
 
     // The project.
 
@@ -62,6 +64,10 @@ public:
     Result<void> openProject(const std::filesystem::path& file);
     /// One that has no file; a host keeps it.
     void openProject(Project made);
+    /// One to look at and try things with: own work does not join its clips, see isSample().
+    void openSample(Project made);
+    /// Whether the open project is a sample that the user has not made an own one by saving it.
+    [[nodiscard]] bool isSample() const noexcept { return sample; }
     Result<void> recover(const Recoverable& entry);
     Result<void> save();
     Result<void> saveAs(const std::filesystem::path& file);
@@ -147,6 +153,7 @@ private:
     Result<void> saved(Result<void> result);
 
     std::unique_ptr<Document> open = std::make_unique<Document>();
+    bool sample = false;
     std::unique_ptr<Autosave> autosave;
     bool autosaveFailed = false; ///< and it has been told
     const std::filesystem::path recoveryFolder;

@@ -5,6 +5,7 @@
 #include "editor/Text.h"
 #include "editor/Theme.h"
 #include "editor/Translation.h"
+#include "editor/clip/sheets/OverwriteQuestion.h"
 
 #include <algorithm>
 
@@ -129,6 +130,10 @@ ExportSheet::ExportSheet(const EditorModel& project, const Actuators& profiles, 
         child->setExplicitFocusOrder(order++);
     setAnswers({{"Export", {}}, {"Cancel", {}}});
     setUsualAnswer([this] { run(); });
+    question.onClosed = [this]
+    {
+        takeFocus();
+    };
     const auto& path = model.document().path();
     std::error_code gone;
     const juce::File folder = !memory.folder.empty() && std::filesystem::is_directory(memory.folder, gone)
@@ -241,7 +246,7 @@ void ExportSheet::browse()
                                             juce::File::getCurrentWorkingDirectory().getChildFile(target.getText()),
                                             folder ? juce::String() : "*" + toText(chosenFormat().extension));
     chooser->launchAsync(folder ? Browser::openMode | Browser::canSelectDirectories
-                                : Browser::saveMode | Browser::canSelectFiles | Browser::warnAboutOverwriting,
+                                : Browser::saveMode | Browser::canSelectFiles, // run() asks
                          [this](const juce::FileChooser& done)
                          {
                              if (done.getResult() != juce::File())
@@ -252,7 +257,8 @@ void ExportSheet::browse()
 void ExportSheet::run()
 {
     ExportChoice wanted = choice();
-    std::vector<std::shared_ptr<const Clip>> clips;
+    wanted.needed = filesOf(model.document());
+    Clips clips;
     const juce::File place = juce::File::getCurrentWorkingDirectory().getChildFile(target.getText());
     if (all.getToggleState())
     {
@@ -270,18 +276,49 @@ void ExportSheet::run()
         if (!place.hasFileExtension(toText(chosenFormat().extension)))
             wanted.file += chosenFormat().extension;
     }
-    memory = {std::string(chosenFormat().name), rate.getSelectedId() == sourceRate ? 0 : rate.getSelectedId(),
-              wanted.folder};
+    sayBusy();
+    jobs.run([clips, wanted] { return filesInTheWay(clips, wanted); },
+             [this, clips, wanted](const Result<std::vector<StandingFile>>& standing)
+             {
+                 setAnswerEnabled(true);
+                 if (!standing)
+                     return fail(standing.error());
+                 if (standing->empty())
+                     return write(clips, wanted);
+                 showLosses();
+                 ExportChoice asked = wanted;
+                 asked.replaceable = Replaceable::named;
+                 question.show(overwriteQuestion(*standing, [this, clips, asked] { write(clips, asked); }));
+             });
+}
+
+void ExportSheet::sayBusy()
+{
     setAnswerEnabled(false);
     ++asked;
     losses.setText(tr(toText("Exporting…")), false);
+}
+
+void ExportSheet::fail(const Error& error)
+{
+    losses.setText(tr("Not exported: {0}", {translateMessage(toText(error.text()))}), false);
+}
+
+void ExportSheet::write(const Clips& clips, const ExportChoice& wanted)
+{
+    memory = {wanted.format, rate.getSelectedId() == sourceRate ? 0 : rate.getSelectedId(), wanted.folder};
+    sayBusy();
     jobs.run([clips, wanted] { return pacini::exportClips(clips, wanted); },
              [this](const Result<std::vector<ExportReport>>& done)
              {
                  setAnswerEnabled(true);
                  if (!done)
-                     return losses.setText(tr("Not exported: {0}", {translateMessage(toText(done.error().text()))}),
-                                           false);
+                     return fail(done.error());
+                 std::vector<std::filesystem::path> files;
+                 for (const ExportReport& report : *done)
+                     files.insert(files.end(), report.files.begin(), report.files.end());
+                 if (model.onWritten)
+                     model.onWritten(files);
                  close();
              });
 }

@@ -7,12 +7,14 @@
 #include "editor/clip/session/Actuators.h"
 #include "editor/clip/session/Jobs.h"
 #include "editor/clip/sheets/Sheet.h"
+#include "editor/clip/sheets/SheetOver.h"
 
 #include <juce_gui_basics/juce_gui_basics.h>
 
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace pacini::editor
 {
@@ -40,6 +42,10 @@ private:
     void showLosses();
     void browse();
     void run();
+    using Clips = std::vector<std::shared_ptr<const Clip>>;
+    void write(const Clips& clips, const ExportChoice& wanted);
+    void sayBusy();
+    void fail(const Error& error);
     [[nodiscard]] const ClipFormat& chosenFormat() const;
     [[nodiscard]] ExportChoice choice() const;
 
@@ -53,6 +59,7 @@ private:
     juce::TextButton browseButton;
     std::unique_ptr<juce::FileChooser> chooser;
     int asked = 0; ///< counts what losses were asked for
+    SheetOver question{*this};
     Jobs jobs;
 };
 

@@ -15,6 +15,8 @@ public:
     explicit HistorySheet(EditorModel& project);
     ~HistorySheet() override;
 
+    [[nodiscard]] std::vector<Command> commands() const override { return {undo, redo, editor::save, saveAs}; }
+
 private:
     int getNumRows() override;
     juce::String getNameForRow(int row) override;

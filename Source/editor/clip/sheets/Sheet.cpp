@@ -119,11 +119,13 @@ void Sheet::close()
 
 bool Sheet::keyPressed(const juce::KeyPress& key)
 {
+    if (onKey && onKey(key))
+        return true;
     if (key == juce::KeyPress::escapeKey)
         close();
     else if (key == juce::KeyPress::returnKey && !buttons.empty() && buttons.front()->isEnabled())
         buttons.front()->triggerClick();
-    // Nothing behind a sheet hears keys, but Tab goes on.
+    // Nothing else behind a sheet hears keys, but Tab goes on.
     return key.getKeyCode() != juce::KeyPress::tabKey;
 }
 

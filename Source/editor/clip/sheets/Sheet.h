@@ -3,6 +3,8 @@
 
 // Base class of the dialogs inside the window: they work the same in a program and in a plugin.
 
+#include "editor/clip/commands/Command.h"
+
 #include <juce_gui_basics/juce_gui_basics.h>
 
 #include <functional>
@@ -18,7 +20,11 @@ class Sheet : public juce::Component
 public:
     Sheet(const juce::String& title, int width, int height);
 
-    std::function<void()> onClose; ///< removes it
+    std::function<void()> onClose;                    ///< removes it
+    std::function<bool(const juce::KeyPress&)> onKey; ///< of one of commands(); whether it was
+
+    /// What keys of the window do in it too: a sheet that edits the project can undo and save.
+    [[nodiscard]] virtual std::vector<Command> commands() const { return {}; }
 
     void paint(juce::Graphics& g) override;
     void resized() override;
@@ -26,7 +32,7 @@ public:
     /// When it is shown.
     void takeFocus();
 
-    /// The first button is the usual answer (Return), the last closes without doing anything.
+    /// The first button is the usual answer (Return); one without an action closes only.
     struct Answer
     {
         juce::String text;
