@@ -1,5 +1,7 @@
 #include "document/FilesInTheWay.h"
 
+#include "document/Document.h"
+
 #include <algorithm>
 
 namespace pacini

@@ -3,7 +3,6 @@
 // Files at the places of results: those that the user is asked about, and those of the project, which nothing replaces.
 
 #include "document/AudioReference.h"
-#include "document/Document.h"
 #include "io/Overwrite.h"
 
 #include <pacini/foundation/Result.h>
@@ -14,6 +13,8 @@
 
 namespace pacini
 {
+
+class Document;
 
 /// Files that a project needs.
 struct ProjectFileSet

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """The clip editor on a screen that nobody sees, used with mouse and keys.
 
-check_editor.py PROGRAM DEMO [PICTURE]    DEMO: a sound; PICTURE: where a picture of the window goes. Exit 0, 1 on a
-failed check, 77 when Xvfb, xdotool or ImageMagick is not there.
+check_editor.py PROGRAM DEMO [PICTURE [QUESTION]]    DEMO: a sound; PICTURE: where a picture of the window goes;
+QUESTION: one of the question before a file is replaced. Exit 0, 1 on a failed check, 77 when Xvfb, xdotool or
+ImageMagick is not there.
 """
 import json
 import os
@@ -136,6 +137,24 @@ def main():
         fitted = screen.export(folder / "fitted.wav")  # the format of the last export is chosen already
         check("another actuator gives another drive signal",
               plain.exists() and fitted.exists() and plain.read_bytes() != fitted.read_bytes())
+
+        hers = folder / "hers.wav"
+        hers.write_text("not a sound of ours")
+        screen.keys("ctrl+e")
+        time.sleep(0.5)
+        screen.keys("ctrl+a")
+        screen.type(str(hers))
+        screen.keys("Return")
+        time.sleep(1.5)
+        if len(sys.argv) > 4:
+            picture(screen.display, Path(sys.argv[4]))
+        screen.keys("Return")  # in a hurry: the question keeps the file
+        time.sleep(1)
+        check("a file that exists is kept", hers.read_text() == "not a sound of ours")
+        screen.keys("Return")
+        time.sleep(1.5)
+        screen.keys("Tab", "Return")
+        check("and replaced once that was said", until(lambda: hers.read_bytes() == fitted.read_bytes(), 30))
         check("the program still runs", app.poll() is None)
     return 1 if failures else 0
 

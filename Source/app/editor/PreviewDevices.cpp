@@ -71,7 +71,7 @@ juce::String PreviewDevices::open(const juce::XmlElement* saved, const juce::Str
     manager.addAudioCallback(this);
     manager.addChangeListener(this);
     begun = true;
-    chosenNone = saved != nullptr && error.isEmpty() && manager.getCurrentAudioDevice() == nullptr;
+    chosenNone = userChoseNone();
     searchInterval = firstSearch;
     look();
     startTimer(watchInterval);
@@ -100,6 +100,15 @@ bool PreviewDevices::isAlive() const
     return device != nullptr && device->isOpen() && device->isPlaying() && now() - lastCall.load() < longestGap;
 }
 
+/// Not so when what was chosen cannot be opened: JUCE keeps its name then.
+bool PreviewDevices::userChoseNone() const
+{
+    const auto chosen = manager.createStateXml();
+    return chosen != nullptr && manager.getCurrentAudioDevice() == nullptr &&
+           chosen->getStringAttribute("audioOutputDeviceName").isEmpty() &&
+           chosen->getStringAttribute("audioDeviceName").isEmpty();
+}
+
 /// Follows what has become of the device.
 void PreviewDevices::look()
 {
@@ -115,7 +124,7 @@ void PreviewDevices::look()
     const bool changed = std::exchange(there, alive) != alive;
     if (changed && !alive)
     {
-        chosenNone = device == nullptr && manager.getAudioDeviceSetup().outputDeviceName.isEmpty();
+        chosenNone = userChoseNone();
         if (device != nullptr)
             manager.closeAudioDevice(); // it is dead: what is found later is opened anew
         lastSearch = now();

@@ -61,6 +61,7 @@ private:
     void follow();
     void look();
     [[nodiscard]] bool isAlive() const;
+    [[nodiscard]] bool userChoseNone() const;
     bool openLost();
     void playSilently();
 
