@@ -17,6 +17,7 @@
 #include <memory>
 #include <string>
 #include <thread>
+#include <utility>
 
 #if !defined(_WIN32)
 #include <poll.h>
@@ -85,10 +86,11 @@ CLI::App* ServeCommand::declare(CLI::App& app)
     addOption(*command, "--address", address, "Address of this machine to listen on [that of its network]", "IPV4");
     addOption(*command, "--port", port, "Port to listen on [one that is free]", numberFrom(1.0, 65535.0), "N");
     command->add_flag("--inverted", inverted, "For terminals that are dark on light");
-    command->footer("Scan the picture with the phone. Its code works once; then there is another for the next phone.\n"
-                    "Enter plays the clip on all phones that are connected, Ctrl-C ends. Browsers of Android vibrate,\n"
-                    "those of iPhones and Firefox do not. What goes over the network is not encrypted.\n"
-                    "Example:\n  pacini serve door.json");
+    command->footer(
+        "Scan the picture with the phone. Its code works once; then there is another for the next phone, up to 64.\n"
+        "Enter plays the clip on all phones that are connected, Ctrl-C ends. Browsers of Android vibrate,\n"
+        "those of iPhones and Firefox do not. What goes over the network is not encrypted.\n"
+        "Example:\n  pacini serve door.json");
     return command;
 }
 
@@ -103,6 +105,8 @@ void ServeCommand::serve(Console& console, phone::PhoneServer& server, Interrupt
     constexpr Seconds glance(0.05);
     std::string shown = server.url();
     std::size_t phones = 0;
+    std::pair<phone::Refusal, std::size_t> refusals[] = {
+        {phone::Refusal::usedCode, 0}, {phone::Refusal::wrongCode, 0}, {phone::Refusal::full, 0}};
     EnterKey enter;
     Json plays = Json::array();
     while (!interruption.wait(Seconds(0.0)))
@@ -113,6 +117,9 @@ void ServeCommand::serve(Console& console, phone::PhoneServer& server, Interrupt
             server.play(Seconds(0.0));
             console.note(fmt::format("played on {} phone{}", phones, phones == 1 ? "" : "s"));
         }
+        for (auto& [reason, count] : refusals)
+            if (const std::size_t now = server.refused(reason); now != std::exchange(count, now))
+                console.note(fmt::format("a phone was refused: {}", phone::refusalText(reason)));
         if (const std::size_t now = server.phones(); now != phones)
         {
             phones = now;

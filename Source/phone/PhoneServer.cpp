@@ -18,10 +18,12 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <deque>
 #include <functional>
+#include <iterator>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -43,8 +45,8 @@ using boost::system::error_code;
 using Tcp = asio::ip::tcp;
 using Text = std::shared_ptr<const std::string>;
 
-constexpr std::size_t mostPhones = 16;
-constexpr std::size_t codeLength = 16; // 80 bits
+constexpr std::size_t mostKnown = 1024; // phones and used codes; the oldest are forgotten
+constexpr std::size_t codeLength = 16;  // 80 bits
 constexpr std::string_view cookieName = "pacini=";
 
 /// ms since the first call.
@@ -74,8 +76,8 @@ class Host
 public:
     virtual ~Host() = default;
     [[nodiscard]] virtual std::string place() const = 0; ///< host and port, as browsers name it
-    [[nodiscard]] virtual bool pairs(std::string_view code) = 0;
-    [[nodiscard]] virtual std::string newCookie() = 0;
+    [[nodiscard]] virtual std::optional<Refusal> refusalOf(std::string_view code) = 0; ///< counts it
+    [[nodiscard]] virtual std::string newCookie() = 0;                                 ///< uses the code up
     [[nodiscard]] virtual bool knows(std::string_view cookies) const = 0;
 };
 
@@ -107,6 +109,13 @@ public:
         waiting.push_back(std::move(text));
         if (waiting.size() == 1 && open)
             write();
+    }
+
+    /// Says a last thing.
+    void sendAway(Text text)
+    {
+        isLast = true;
+        send(std::move(text));
     }
 
     void close()
@@ -157,6 +166,8 @@ private:
                                self->waiting.pop_front();
                                if (!self->waiting.empty())
                                    self->write();
+                               else if (self->isLast)
+                                   self->close();
                            });
     }
 
@@ -171,6 +182,7 @@ private:
     beast::flat_buffer buffer;
     std::deque<Text> waiting;
     bool open = false;
+    bool isLast = false; ///< what is waiting: then it is closed
 };
 
 /// One request.
@@ -209,24 +221,34 @@ private:
     {
         const auto& request = parser.get();
         const std::string target(request.target());
-        if (request.method() != http::verb::get)
+        constexpr std::string_view pairing = "/?code=";
+        const bool isTap = request.method() == http::verb::post && target.starts_with(pairing);
+        if (request.method() != http::verb::get && !isTap)
             return refuse(http::status::method_not_allowed, "Nothing is taken in here.");
         // Another name for this machine would be somebody else's page that speaks for it.
         if (std::string(request[http::field::host]) != host.place())
             return refuse(http::status::forbidden, "This is another place.");
-        constexpr std::string_view pairing = "/?code=";
+        const bool isKnown = host.knows(std::string(request[http::field::cookie]));
         if (target.starts_with(pairing))
         {
-            if (!host.pairs(std::string_view(target).substr(pairing.size())))
-                return refuse(http::status::forbidden,
-                              "This code has been used or is wrong. Scan the picture that is shown now.");
             Response response{http::status::see_other, request.version()};
             response.set(http::field::location, "/");
+            if (isKnown)
+                return send(std::move(response));
+            if (const auto refusal = host.refusalOf(std::string_view(target).substr(pairing.size())))
+                return refuse(*refusal == Refusal::full ? http::status::service_unavailable : http::status::forbidden,
+                              refusalText(*refusal) + ".");
+            // What only looks at the address, as previews of links do, has not been scanned by a person.
+            if (!isTap)
+                return sendFile("/pair.html");
             response.set(http::field::set_cookie,
                          fmt::format("{}{}; Path=/; HttpOnly; SameSite=Lax", cookieName, host.newCookie()));
             return send(std::move(response));
         }
-        if (!host.knows(std::string(request[http::field::cookie])))
+        constexpr std::string_view ofPairing[] = {"/pair.js", "/phone.css"};
+        if (std::find(std::begin(ofPairing), std::end(ofPairing), target) != std::end(ofPairing))
+            return sendFile(target);
+        if (!isKnown)
             return refuse(http::status::forbidden, "Scan the picture that the program shows.");
         if (target == "/events" && beast::websocket::is_upgrade(request))
         {
@@ -235,10 +257,15 @@ private:
             stream.expires_never();
             return welcome(std::make_shared<Phone>(stream.release_socket()), request);
         }
+        sendFile(target == "/" ? "/index.html" : target);
+    }
+
+    void sendFile(std::string_view name)
+    {
         for (const PageFile& file : pageFiles)
-            if (file.name == target || (target == "/" && file.name == "/index.html"))
+            if (file.name == name)
             {
-                Response response{http::status::ok, request.version()};
+                Response response{http::status::ok, parser.get().version()};
                 response.set(http::field::content_type, std::string(file.kind));
                 response.body() = std::string(file.text);
                 return send(std::move(response));
@@ -259,7 +286,7 @@ private:
         response.set(http::field::cache_control, "no-store");
         response.set("Content-Security-Policy",
                      fmt::format("default-src 'none'; script-src 'self'; style-src 'self'; img-src data:; "
-                                 "connect-src ws://{}; frame-ancestors 'none'; base-uri 'none'; form-action 'none'",
+                                 "connect-src ws://{}; frame-ancestors 'none'; base-uri 'none'; form-action 'self'",
                                  host.place()));
         response.set("X-Content-Type-Options", "nosniff");
         response.set("Referrer-Policy", "no-referrer");
@@ -339,6 +366,8 @@ public:
 
     [[nodiscard]] std::size_t phones() const override { return phoneCount; }
 
+    [[nodiscard]] std::size_t refused(Refusal reason) const override { return refusals[index(reason)]; }
+
     void show(const Clip& clip) override
     {
         auto json = Json::parse(writeClipJson(clip), nullptr, false);
@@ -367,24 +396,49 @@ private:
     // Host
     [[nodiscard]] std::string place() const override { return fmt::format("{}:{}", address, port); }
 
-    [[nodiscard]] bool pairs(std::string_view given) override
+    [[nodiscard]] static constexpr std::size_t index(Refusal reason) { return static_cast<std::size_t>(reason); }
+    [[nodiscard]] bool isFull() const { return connected.size() >= mostPhones; }
+
+    [[nodiscard]] std::optional<Refusal> refusalOf(std::string_view given) override
     {
-        const std::lock_guard lock(mutex);
-        if (!isSameSecret(given, code) || cookies.size() >= mostPhones)
-            return false;
-        code = randomWord(codeLength);
-        return true;
+        std::optional<Refusal> refusal;
+        if (!isSameSecret(given, code)) // only this thread changes it
+            refusal = isAmong(usedCodes, given) ? Refusal::usedCode : Refusal::wrongCode;
+        else if (isFull())
+            refusal = Refusal::full;
+        if (refusal)
+            ++refusals[index(*refusal)];
+        return refusal;
     }
 
-    [[nodiscard]] std::string newCookie() override { return cookies.emplace_back(randomWord(2 * codeLength)); }
+    [[nodiscard]] std::string newCookie() override
+    {
+        remember(usedCodes, code);
+        {
+            const std::lock_guard lock(mutex);
+            code = randomWord(codeLength);
+        }
+        return remember(cookies, randomWord(2 * codeLength));
+    }
+
+    static const std::string& remember(std::deque<std::string>& secrets, std::string secret)
+    {
+        if (secrets.size() >= mostKnown)
+            secrets.pop_front();
+        return secrets.emplace_back(std::move(secret));
+    }
+
+    [[nodiscard]] static bool isAmong(const std::deque<std::string>& secrets, std::string_view given)
+    {
+        return std::any_of(secrets.begin(), secrets.end(),
+                           [&](const std::string& secret) { return isSameSecret(secret, given); });
+    }
 
     [[nodiscard]] bool knows(std::string_view header) const override
     {
         for (auto at = header.find(cookieName); at != std::string_view::npos; at = header.find(cookieName, at + 1))
         {
-            const auto value = header.substr(at + cookieName.size(), 2 * codeLength);
-            if (std::any_of(cookies.begin(), cookies.end(),
-                            [&](const std::string& cookie) { return isSameSecret(cookie, value); }))
+            if (isAmong(cookies, header.substr(at + cookieName.size(), 2 * codeLength)))
                 return true;
         }
         return false;
@@ -418,9 +472,16 @@ private:
 
     void welcome(const std::shared_ptr<Phone>& phone, const http::request<http::empty_body>& request)
     {
-        if (connected.size() >= mostPhones)
-            return;
         Phone* raw = phone.get();
+        if (isFull())
+        {
+            ++refusals[index(Refusal::full)];
+            return phone->accept(request,
+                                 [raw] {
+                                     raw->sendAway(std::make_shared<const std::string>(
+                                         Json{{"kind", "full"}, {"most", mostPhones}}.dump()));
+                                 });
+        }
         phone->ended = [this, raw]
         {
             connected.erase(
@@ -460,13 +521,28 @@ private:
     mutable std::mutex mutex;
     std::string code; ///< guarded by the mutex
     std::atomic<std::size_t> phoneCount{0};
+    std::array<std::atomic<std::size_t>, 3> refusals{}; ///< by their reasons
     // Of the thread.
-    std::vector<std::string> cookies;
+    std::deque<std::string> cookies, usedCodes;
     std::vector<std::shared_ptr<Phone>> connected;
     Text clipText, playText; ///< for phones that come later
     std::thread thread;
 };
 } // namespace
+
+std::string refusalText(Refusal refusal)
+{
+    switch (refusal)
+    {
+    case Refusal::usedCode:
+        return "this code let another phone in; scan the picture that is shown now";
+    case Refusal::wrongCode:
+        return "this code is not one of this session; scan the picture that is shown now";
+    case Refusal::full:
+        break;
+    }
+    return fmt::format("{} phones are connected already, which is all that can be", mostPhones);
+}
 
 Result<std::unique_ptr<PhoneServer>> PhoneServer::start(const PhoneServerParams& params)
 {

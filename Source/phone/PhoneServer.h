@@ -20,10 +20,25 @@ struct PhoneServerParams
     std::uint16_t port = 0; ///< 0: any that is free
 };
 
+/// Why a phone was not let in.
+enum class Refusal
+{
+    usedCode,  ///< another phone had its code
+    wrongCode, ///< not a code of this session
+    full       ///< as many phones as there may be are connected
+};
+
+/// The most phones that may be connected at once.
+inline constexpr std::size_t mostPhones = 64;
+
+/// For people, in a sentence without its stop.
+[[nodiscard]] std::string refusalText(Refusal refusal);
+
 /// A page that vibrates, for browsers that have the pairing code: it is in the address, works once, and is then
-/// another. Nothing else is served, nothing is taken in but the time of the phone's clock; what is not paired is
-/// refused. All of it has a thread of its own and ends with the object. Protocol: HTTP and WebSocket (RFC 9110, RFC
-/// 6455), not encrypted, so for networks that are trusted.
+/// another. It is used up by a tap on the page that it opens, not by a preview of the link. Nothing else is served,
+/// nothing is taken in but the time of the phone's clock; what is not paired is refused. All of it has a thread of its
+/// own and ends with the object. Protocol: HTTP and WebSocket (RFC 9110, RFC 6455), not encrypted, so for networks that
+/// are trusted.
 class PhoneServer
 {
 public:
@@ -37,6 +52,9 @@ public:
 
     /// How many phones are connected. [any]
     [[nodiscard]] virtual std::size_t phones() const = 0;
+
+    /// How many phones were refused for this reason. [any]
+    [[nodiscard]] virtual std::size_t refused(Refusal reason) const = 0;
 
     /// What is felt from now on; stops what is played. [message]
     virtual void show(const Clip& clip) = 0;

@@ -29,6 +29,7 @@ try {
   const status = async (path, options = {}) => (await fetch(place + path, { redirect: 'manual', ...options })).status
   check('without the code nobody is let in', await status('/') === 403 && await status('/phone.js') === 403 && await status('/events') === 403)
   check('nor with a wrong one', await status('/?code=aaaaaaaaaaaaaaaa') === 403 && await status('/?code=') === 403)
+  check('which the terminal says', await until(() => said.includes('a phone was refused: this code is not one of this session')), said.trim())
   check('uploads are refused', await status('/', { method: 'POST', body: 'x' }) === 413 && await status('/', { method: 'PUT' }) === 405)
   const raw = (text) => new Promise((resolve) => {
     const socket = connect(port, '127.0.0.1', () => socket.write(text))
@@ -47,12 +48,23 @@ try {
   const elsewhere = []
   phone.on('request', (request) => { if (!request.url().startsWith(place) && !/^(data|ws):/.test(request.url())) elsewhere.push(request.url()) })
   await noteVibrations(phone)
+  // What looks at the address before a person does, as previews of links do, uses nothing up.
+  const own = new URL(url).pathname + new URL(url).search
+  check('a preview is shown the way in', await status(own) === 200 && await status(own) === 200 && await status(own, { method: 'HEAD' }) === 405)
+  check('and is not let in', await status('/') === 403)
   await phone.goto(url)
+  check('a phone is asked before it is let in', await phone.$eval('#pair', (button) => button.textContent.length > 0))
+  await phone.click('#pair', { count: 2, delay: 30 })
+  await phone.waitForSelector('#status')
   const text = (id) => phone.$eval(`#${id}`, (element) => element.textContent)
   check('a phone with the code is let in', await until(async () => (await text('status')).startsWith('Connected')), await text('status'))
   check('and has the clip', await until(async () => (await text('clip')).includes('knock')), await text('clip'))
   check('its code is out of the address', !phone.url().includes('code'))
-  check('the code worked once', await status(new URL(url).pathname + new URL(url).search) === 403)
+  const again = await fetch(url, { redirect: 'manual' })
+  check('the code worked once', again.status === 403 && (await again.text()).includes('let another phone in') && await status(own, { method: 'POST' }) === 403)
+  check('which the terminal says', await until(() => said.includes('a phone was refused: this code let another phone in')))
+  await phone.goto(url)
+  check('a phone that is known needs no other', await until(async () => (await text('status')).startsWith('Connected')) && !phone.url().includes('code'))
   check('the program knows', await until(() => said.includes('1 phone connected')))
   await phone.click('#ready')
   await wait(800) // the clocks are compared
@@ -94,6 +106,39 @@ try {
   check('axe finds nothing', axe.length === 0, axe.join(' '))
   check('no request leaves the place', elsewhere.length === 0, elsewhere.join(' '))
   if (process.env.PACINI_WEB_PICTURES) await phone.screenshot({ path: join(process.env.PACINI_WEB_PICTURES, 'phone-page.png') })
+
+  // A class: phones come one after another, each with the code that is shown then.
+  const room = spawn(program, ['serve', 'knock.json', '--address', '127.0.0.1'], { cwd: folder })
+  let shown = '', told = ''
+  room.stdout.on('data', (data) => { shown += data })
+  room.stderr.on('data', (data) => { told += data })
+  const codeNow = () => shown.match(/http:\S+/g)?.at(-1)
+  const sockets = []
+  let last, connected = 0
+  const enter = async () => {
+    await until(() => codeNow() !== last)
+    last = codeNow()
+    const { status, headers } = await fetch(last, { method: 'POST', redirect: 'manual' })
+    if (status !== 303) return { status }
+    const { host, hostname, port, origin } = new URL(last)
+    const socket = connect(Number(port), hostname, () => socket.write(`GET /events HTTP/1.1\r\nHost: ${host}\r\nCookie: ${headers.get('set-cookie').split(';')[0]}\r\nOrigin: ${origin}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\nSec-WebSocket-Version: 13\r\n\r\n`))
+    const one = { status, socket, heard: '' }
+    socket.on('data', (data) => { one.heard += data })
+    sockets.push(one)
+    await until(() => one.heard.includes('"kind":"clip"'))
+    return one
+  }
+  for (let i = 0; i < 30; ++i) if ((await enter()).heard?.includes('"kind":"clip"')) ++connected
+  check('a class of thirty pairs', connected === 30 && await until(() => told.includes('30 phones connected')), `${connected}; ${told.trim().split('\n').at(-1)}`)
+  while (connected < 64 && (await enter()).heard?.includes('"kind":"clip"')) ++connected
+  check('and twice as many', connected === 64, `${connected}`)
+  check('one more is told', (await enter()).status === 503 && await until(() => told.includes('a phone was refused: 64 phones are connected already')), told.trim().split('\n').at(-1))
+  sockets[0].socket.destroy()
+  await until(() => told.includes('63 phones connected'))
+  last = undefined
+  check('until one has left', (await enter()).heard?.includes('"kind":"clip"'))
+  for (const { socket } of sockets) socket.destroy()
+  room.kill('SIGINT')
 
   // A browser that cannot.
   const nextUrl = said.match(/http:\S+/g).at(-1)

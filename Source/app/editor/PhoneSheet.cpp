@@ -6,6 +6,8 @@
 #include "editor/Theme.h"
 #include "editor/Translation.h"
 
+#include <utility>
+
 namespace pacini::app
 {
 
@@ -13,6 +15,7 @@ namespace
 {
 constexpr int gap = 8;
 constexpr int glanceInterval = 250; // ms
+constexpr int noticeTime = 10000;   // ms
 constexpr int quietZone = 4;        // modules that are light around the picture
 } // namespace
 
@@ -48,6 +51,9 @@ PhoneSheet::PhoneSheet(PhoneOutput& wanted) : Sheet("Feel on a phone", 640, 420)
                           });
     addAndMakeVisible(endButton);
     setAnswers({{"Close", {}}});
+    if (const auto* server = output.server())
+        for (auto& [reason, count] : refusals)
+            count = server->refused(reason); // before it was opened
     refresh();
     startTimer(glanceInterval);
 }
@@ -55,6 +61,20 @@ PhoneSheet::PhoneSheet(PhoneOutput& wanted) : Sheet("Feel on a phone", 640, 420)
 void PhoneSheet::timerCallback()
 {
     refresh();
+}
+
+juce::String PhoneSheet::newRefusal(const phone::PhoneServer& server)
+{
+    using phone::Refusal;
+    juce::String text;
+    for (auto& [reason, count] : refusals)
+        if (const std::size_t now = server.refused(reason); now != std::exchange(count, now))
+            text = reason == Refusal::usedCode ? editor::tr("A phone was refused: its code let another one in.")
+                   : reason == Refusal::wrongCode
+                       ? editor::tr("A phone was refused: its code is not one of this session.")
+                       : editor::tr("A phone was refused: {0} are connected already.",
+                                    {juce::String(static_cast<int>(phone::mostPhones))});
+    return text;
 }
 
 void PhoneSheet::refresh()
@@ -70,9 +90,17 @@ void PhoneSheet::refresh()
         repaint();
     }
     const auto phones = static_cast<int>(server->phones());
-    const juce::String text = phones == 0   ? editor::tr("No phone is connected.")
-                              : phones == 1 ? editor::tr("One phone is connected.")
-                                            : editor::tr("{0} phones are connected.", {juce::String(phones)});
+    if (const juce::String refusal = newRefusal(*server); refusal.isNotEmpty())
+    {
+        notice = refusal;
+        noticeGlances = noticeTime / glanceInterval;
+    }
+    else if (noticeGlances > 0)
+        --noticeGlances;
+    const juce::String text = noticeGlances > 0 ? notice
+                              : phones == 0     ? editor::tr("No phone is connected.")
+                              : phones == 1     ? editor::tr("One phone is connected.")
+                                                : editor::tr("{0} phones are connected.", {juce::String(phones)});
     if (status.getText() != text)
     {
         status.setText(text, juce::dontSendNotification);
@@ -88,7 +116,7 @@ void PhoneSheet::layOut(juce::Rectangle<int> area)
     area.removeFromLeft(2 * gap);
     endButton.setBounds(area.removeFromBottom(4 * gap).removeFromRight(20 * gap));
     area.removeFromBottom(gap);
-    status.setBounds(area.removeFromBottom(3 * gap));
+    status.setBounds(area.removeFromBottom(5 * gap));
     address.setBounds(area.removeFromBottom(6 * gap));
     help.setBounds(area);
     help.applyColourToAllText(editor::paletteFor(*this).text);

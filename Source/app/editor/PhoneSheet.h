@@ -7,7 +7,10 @@
 #include "editor/clip/sheets/Sheet.h"
 #include "phone/QrText.h"
 
+#include <array>
+#include <cstddef>
 #include <string>
+#include <utility>
 
 namespace pacini::app
 {
@@ -22,10 +25,16 @@ private:
     void timerCallback() override;
     void paintOverChildren(juce::Graphics& g) override;
     void refresh();
+    /// What to say of phones that were refused since the last call; empty: none was.
+    [[nodiscard]] juce::String newRefusal(const phone::PhoneServer& server);
 
     PhoneOutput& output;
     phone::QrModules modules;
     std::string shown;
+    std::array<std::pair<phone::Refusal, std::size_t>, 3> refusals{
+        {{phone::Refusal::usedCode, 0}, {phone::Refusal::wrongCode, 0}, {phone::Refusal::full, 0}}};
+    juce::String notice; ///< in place of the status
+    int noticeGlances = 0;
     juce::Rectangle<int> picture;
     juce::TextEditor help, address;
     juce::Label status;

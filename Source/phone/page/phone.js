@@ -1,6 +1,6 @@
 // The phone: plays what the program at the other end plays, as near to its time as the clocks are known.
 
-import { touchesOf, vibrateBy } from './vibration.js'
+import { longestFelt, touchesOf, vibrateBy } from './vibration.js'
 
 const element = (id) => document.getElementById(id)
 const say = (text) => { element('status').textContent = text }
@@ -32,10 +32,11 @@ const connect = () => {
     for (let i = 0; i < 5; ++i) setTimeout(ping, 100 * i)
     timer = setInterval(ping, 5000)
   }
+  let goodbye = 'The session has ended. Scan the picture again for another one.'
   socket.onclose = () => {
     clearInterval(timer)
     stop()
-    say('The session has ended. Scan the picture again for another one.')
+    say(goodbye)
   }
   socket.onmessage = ({ data }) => {
     const message = JSON.parse(data)
@@ -51,13 +52,15 @@ const connect = () => {
       stop()
       touches = touchesOf(message.clip)
       name = message.clip.name || 'clip'
-      element('clip').textContent = `${name}, ${message.clip.duration.toFixed(2)} s`
+      const { duration } = message.clip
+      element('clip').textContent = `${name}, ${duration.toFixed(2)} s${duration > longestFelt ? ', of which the first hour is felt' : ''}`
       element('alone').disabled = !canVibrate
     } else if (message.kind === 'play' && ready && canVibrate) {
       // At `at` of the other end's clock, `from` s of the clip were played there.
       const began = message.at - (offset ?? message.now - performance.now()) - 1000 * message.from
       play(() => (performance.now() - began) / 1000)
     } else if (message.kind === 'stop') stop()
+    else if (message.kind === 'full') goodbye = `${message.most} phones are connected already. Load this page again when one of them has left.`
   }
 }
 

@@ -2,20 +2,27 @@
 
 import { valueAt } from './curve.js'
 
+/** Of longer clips so much is felt, s. */
+export const longestFelt = 3600
+
 /** Strong and weak motor over time: low bands and high ones, as `{start, duration, strong, weak}` of 16 ms. */
 export const rumbleOf = (clip) => {
-  const step = 0.016, frames = []
-  for (let time = 0; time < clip.duration; time += step) {
+  const step = 0.016, frames = [], end = Math.min(clip.duration, longestFelt)
+  let passed = 0 // events
+  for (let time = 0; time < end; time += step) {
     let low = 0, high = 0
+    while (clip.transients[passed]?.time < time - step) ++passed
     for (const band of clip.bands) {
       const value = valueAt(band.amplitude, time)
       if (band.centreFrequency < 90) low = Math.hypot(low, value)
       else high = Math.hypot(high, value)
     }
     if (clip.bands.length === 0) low = high = valueAt(clip.envelope, time)
-    for (const event of clip.transients)
-      if (event.time >= time - step && event.time < time + step)
-        high = Math.max(high, event.amplitude), low = Math.max(low, event.amplitude * (1 - event.sharpness))
+    for (let i = passed; clip.transients[i]?.time < time + step; ++i) {
+      const { amplitude, sharpness } = clip.transients[i]
+      high = Math.max(high, amplitude)
+      low = Math.max(low, amplitude * (1 - sharpness))
+    }
     frames.push({ start: time, duration: step, strong: Math.min(1, low), weak: Math.min(1, high) })
   }
   return frames

@@ -1,0 +1,2 @@
+// A second tap would find its code used.
+document.querySelector('form').addEventListener('submit', () => { document.getElementById('pair').disabled = true })
