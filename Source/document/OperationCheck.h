@@ -2,7 +2,7 @@
 
 // Validation of edit operations before they are applied and stored.
 
-#include "document/ProjectFields.h"
+#include "document/EditFields.h"
 
 #include <cmath>
 #include <optional>

@@ -104,6 +104,22 @@ try {
       own.every(({ time, bytes }, i) => Math.abs(time - listed[i].time) < 1e-9 && hex(bytes) === listed[i].bytes.replaceAll(' ', '').toLowerCase())
     check(`reports to ${like} are those of the program`, same && stops.length >= 16, `${own.length} and ${listed.length}`)
   }
+  // Edits by hand over one analysis, taken to another: what the editor's document does.
+  const { reapply } = pacini
+  const fewer = await encode(sound, { bands: 4 })
+  const added = { time: 0.2, amplitude: 0.7, sharpness: 0.4 }
+  const edit = (more) => ({ frequencies: [], clipDuration: clip.duration, ...more })
+  const far = clip.bands.at(-1)
+  const moved = await reapply(clip, fewer, [
+    edit({ kind: 'transient', after: added }),
+    edit({ kind: 'points', lane: 'amplitude', band: 0, from: 0.1, to: 0.2, points: [{ time: 0.15, value: 0.5 }], frequencies: [{ frequency: clip.bands[0].centreFrequency }] }),
+    edit({ kind: 'transient', before: { time: clip.duration - 0.001, amplitude: 0.123, sharpness: 0.5 } }),
+    edit({ kind: 'points', lane: 'amplitude', band: 0, from: 0, to: 0.1, points: [{ time: 0.05, value: 0.5 }], frequencies: [{ frequency: far.highFrequency * 9 }] })])
+  check('edits are taken to another analysis', moved.clip.bands.length === 4 && moved.clip.transients.length === fewer.transients.length + 1 &&
+    moved.clip.transients.some(({ amplitude }) => amplitude === 0.7) && moved.clip.bands[0].amplitude.some(({ amplitude }) => amplitude === 0.5))
+  check('and what does not fit waits', moved.edits.length === 4 && moved.unfitting.map(({ edit: index }) => index).join() === '2,3' &&
+    moved.unfitting.every(({ reason }) => reason.length > 5), JSON.stringify(moved.unfitting))
+  check('none gives the analysis', JSON.stringify((await reapply(clip, fewer, [])).clip) === JSON.stringify(fewer))
   const scene = { format: 'pacini.scene', version: 1, duration: 1, clips: [{ file: '0' }], plays: [{ clip: 0, start: 0.1 }] }
   const sceneDrive = await fails(async () => check('a scene is rendered', (await render(scene, { clips: [clip] })).samples.length > 0))
   if (sceneDrive) check('a scene is rendered', false, sceneDrive.message)
@@ -129,6 +145,8 @@ try {
     ['an option of another method', () => encode(sound, { method: 'decomposition', bands: 4 }), 'bands'],
     ['garbage', () => read(new Uint8Array([1, 2, 3])), ''],
     ['an unknown format', () => write(clip, { format: 'x' }), 'format'],
+    ['an edit of an unknown kind', () => pacini.reapply(clip, clip, [{ kind: 'x' }]), 'edits[0].kind'],
+    ['an edit that is no number', () => pacini.reapply(clip, clip, [{ kind: 'points', lane: 'envelope', from: 0, to: 'x', points: [], frequencies: [], clipDuration: 1 }]), 'edits[0].to'],
     ['an unknown profile', () => render(clip, { profile: 'x' }), 'profile'],
     ['reports of an unknown controller', () => reports(clip, { vendor: 1, product: 2 }), '0001:0002'],
     ['no WAV', async () => readWav(new Uint8Array(50)), '']

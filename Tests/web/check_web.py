@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The npm package in Node.js, the page and a phone in Chromium: check_web.py package|page|phone PACINI LIVE_REFERENCE
+"""The npm package in Node.js, the page and a phone in Chromium: check_web.py package|page|work|phone PACINI LIVE_REFERENCE
 
 Exit 0, 1 on a failed check, 77 when build/web, Node.js, Chromium or their modules are not there; `bash cmake/bootstrap.sh
 slow-tests` brings them all.
@@ -39,5 +39,6 @@ with tempfile.TemporaryDirectory() as name:
     pictures = [os.environ["PACINI_WEB_PICTURES"]] if "PACINI_WEB_PICTURES" in os.environ else []
     arguments = {"package": [WEB / "package", MODULES, program, folder],
                  "page": [WEB / "page", MODULES, program, live, sound, *pictures],
+                 "work": [WEB / "page", MODULES, program, sound, folder / "drums_tabla_pattern.wav", *pictures],
                  "phone": [MODULES, program, sound]}[what]
     sys.exit(subprocess.run(["node", script, *arguments]).returncode)

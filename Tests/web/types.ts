@@ -1,5 +1,5 @@
 // What the package says of its types, read by a compiler: each line that must be refused stands under its mark.
-import { encode, felt, formats, lint, PaciniError, profileNames, read, render, reports, write } from 'pacini'
+import { encode, felt, formats, lint, PaciniError, profileNames, read, reapply, render, reports, write } from 'pacini'
 import type { Clip, Loss, Sound } from 'pacini'
 import { createTranslator } from 'pacini/translator'
 
@@ -16,6 +16,7 @@ export const use = async (context: AudioContext): Promise<number> => {
   const { files } = await write(clip, { format: (await formats())[0].name })
   const { reports: bytes } = await reports(clip, { vendor: 0x054c, product: 0x0ce6 })
   const node: AudioWorkletNode = await createTranslator(context, { profile: 'lra-175' })
+  const { unfitting } = await reapply(clip, packed, [{ kind: 'transient', after: { time: 0, amplitude: 1, sharpness: 0 }, frequencies: [], clipDuration: 1 }])
   const { warnings } = await read(files[0].bytes)
   // @ts-expect-error bands are a number
   await encode(sound, { bands: 'many' })
@@ -27,5 +28,5 @@ export const use = async (context: AudioContext): Promise<number> => {
   await reports(clip, {})
   const wrong: unknown = new Error()
   const where: string = wrong instanceof PaciniError ? wrong.where : ''
-  return drive.frames + skin.frames + losses.length + bytes.length + node.numberOfOutputs + warnings.length + where.length
+  return unfitting.length + drive.frames + skin.frames + losses.length + bytes.length + node.numberOfOutputs + warnings.length + where.length
 }

@@ -79,6 +79,7 @@ struct NamedHandler
 [[nodiscard]] Result<void> compareSounds(Call& call);
 [[nodiscard]] Result<void> describeProfile(Call& call);
 [[nodiscard]] Result<void> lintClip(Call& call);
+[[nodiscard]] Result<void> reapplyEdits(Call& call);
 [[nodiscard]] Result<void> listReports(Call& call);
 [[nodiscard]] Result<void> drawSpectrogram(Call& call);
 

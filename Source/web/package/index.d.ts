@@ -64,6 +64,19 @@ export function encode(sound: Sound, options: EncodeOptions & { format: 'packed'
 export function encode(sound: Sound, options: EncodeOptions & { format: 'text' }): Promise<string>
 export function encode(sound: Sound, options?: EncodeOptions): Promise<Clip>
 
+/** An edit as project files have it: points of a lane between two times replaced, an event added, removed or changed, and others. */
+export interface Edit {
+  kind: string
+  /** Of the band of each lane that it names, Hz. */
+  frequencies: { frequency: number }[]
+  /** Of the clip that was edited, s. */
+  clipDuration: number
+  [key: string]: unknown
+}
+/** Edits over the clip `before`, applied to `after`, another analysis of its sound; those that do not fit wait among `edits`. */
+export function reapply(before: ClipInput, after: ClipInput, edits: Edit[], options?: Stoppable):
+  Promise<{ clip: Clip, edits: Edit[], unfitting: { edit: number, reason: string }[] }>
+
 /** What encode() and render() do unless they are told otherwise. */
 export function defaults(options?: Stoppable): Promise<{ bands: number, breakpoints: number, sensitivity: number, strength: number }>
 

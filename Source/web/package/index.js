@@ -94,6 +94,18 @@ export const encode = async (sound, options = {}) => {
   }
 }
 
+/**
+ * Edits that were made by hand over the clip `before`, applied to `after`, another analysis of its sound: times follow the
+ * events, bands are found by their frequencies. Gives the edited clip, the edits in its time, and those that do not fit,
+ * which wait among them. Edits are those of a project file.
+ */
+export const reapply = async (before, after, edits, { signal } = {}) => {
+  const inputs = [await ownBytes(before, signal), await ownBytes(after, signal), bytesOf({ edits })]
+  const { value, outputs } = (await ready('encode', signal)).call('reapply', {}, inputs)
+  const [clip, rest] = outputs.map((bytes) => JSON.parse(new TextDecoder().decode(bytes)))
+  return { clip, ...rest, ...value }
+}
+
 /** What encode() and render() do unless they are told otherwise: bands, breakpoints, sensitivity, strength. */
 export const defaults = async ({ signal } = {}) => (await ready('render', signal)).call('defaults').value
 

@@ -4,34 +4,40 @@ import { readWav } from './pacini/sound.js'
 import profiles from './pacini/profiles.js'
 import { Core } from './core.js'
 import { startEditing } from './editing.js'
+import { withEdit } from './edits.js'
 import { connectController, describeFeel, feel, feelsNow } from './feel.js'
+import { firstPart } from './first-part.js'
 import { canAsk, remembered } from './hid.js'
 import { History } from './history.js'
 import { byKind } from './kinds.js'
 import { Lanes } from './lanes.js'
 import { Live } from './live.js'
+import { microphone } from './microphone.js'
 import { Peaks } from './peaks.js'
 import { channelCount, playPair } from './sound-player.js'
-import { keep, kept } from './store.js'
+import { claim, keep, kept, keptWorks, newId } from './store.js'
 import { zip } from './zip.js'
 
 const element = (id) => document.getElementById(id)
 const core = new Core() // encodes; ended when it works for nothing
 const side = new Core() // everything else
-const history = new History() // of `{name, source, sound, clip}`
+/**
+ * Of `{id, name, source, sound, analysis, edits, clip}`: edits by hand are a layer over the analysis of the sound, `clip` is
+ * both together. What is opened has an id of its own, under which it is kept.
+ */
+const history = new History()
 const lanes = new Lanes(element('lanes'))
 /** What is shown: of the document that history has now, and of what is computed of it. */
 const view = { clip: undefined, lane: 'total', selected: 0, sound: undefined, drive: undefined, picture: undefined, soundRate: 1, driveRate: 48000 }
 let soundShown // of the document
 let mono // of that
 let drive // samples for the chosen actuator
-let packed
 let cursor = 0 // s: where playing begins
-const moved = new Set() // knobs that are not where the core has them by itself
+const longestRendered = 1200 // s: of longer clips the first part is rendered, shown and played
 
 const say = (text) => { element('status').textContent = text }
 const complain = (error) => {
-  if (error?.superseded) return
+  if (error?.superseded || error?.name === 'AbortError') return
   const box = element('error')
   box.textContent = error ? (error.message ?? String(error)) : ''
   box.hidden = !error
@@ -47,10 +53,29 @@ const guarded = (work) => async (...parameters) => {
 const on = (id, event, work) => element(id).addEventListener(event, guarded(work))
 const later = (work, milliseconds) => {
   let timer
-  return () => {
-    clearTimeout(timer)
+  const cancel = () => clearTimeout(timer)
+  return Object.assign(() => {
+    cancel()
     timer = setTimeout(guarded(work), milliseconds)
-  }
+  }, { cancel })
+}
+/** Work that is done again while it is asked for: once, however often that was meanwhile. `idle()` is when it is done. */
+const newestOnly = (work) => {
+  let running, isStale = false
+  return Object.assign(() => {
+    isStale = true
+    running ??= (async () => {
+      try {
+        while (isStale) {
+          isStale = false
+          await work()
+        }
+      } finally {
+        running = undefined
+      }
+    })()
+    return running
+  }, { idle: () => running })
 }
 /** Draws with the next picture, once. */
 let drawn
@@ -89,34 +114,107 @@ const decoded = async (bytes) => {
 const extensionOf = (file) => /\.[^.]+$/.exec(file)?.[0].toLowerCase() ?? ''
 const clipExtensions = ['.pacb', '.json', '.ahap', '.haptic', '.haps', '.hjif', '.vij', '.hasp', '.tact', '.csv']
 
-const open = async (bytes, file) => {
+let opened = 0 // how often something was: the last one counts, however long others take to be read
+let opening // which of them is read or analysed
+/** Opens the bytes that `reading` promises, of a sound or clip. */
+const open = async (file, reading) => {
+  const own = opening = ++opened
+  stopTurn()
+  core.cancel()
   complain()
   const name = file.replace(/\.[^.]+$/, '') || 'clip'
   say(`Reading ${file}...`)
-  if (clipExtensions.includes(extensionOf(file))) {
-    const { clip, warnings } = await side.call('read', bytes, { extension: extensionOf(file) })
-    await take(`Open ${file}`, { name, source: file, sound: undefined, clip })
-    say(warnings.length > 0 ? warnings.join(' ') : '')
-    return
+  try {
+    const bytes = new Uint8Array(await reading)
+    let document, said
+    if (clipExtensions.includes(extensionOf(file))) {
+      const { clip, warnings } = await side.call('read', bytes, { extension: extensionOf(file) })
+      document = { clip }
+      said = warnings.join(' ')
+    } else {
+      const sound = await decoded(bytes)
+      if (sound.samples.length === 0 || monoOf(sound).length === 0) throw new Error(`${file} has no samples.`)
+      if (own !== opened) return
+      sound.id = newId()
+      document = { sound, ...await analysed({ name, source: file, sound }, history.now?.sound ? await knobs.values() : {}) }
+      said = document.said
+    }
+    if (own !== opened) return
+    opening = undefined
+    await take(`Open ${file}`, { id: newId(), name, source: file, sound: document.sound, analysis: document.clip, edits: [], clip: document.clip })
+    if (own === opened && !turned) say(said)
+  } catch (error) {
+    if (own === opened) throw error
+  } finally {
+    if (opening === own) opening = undefined
+    knobs.show()
   }
-  const sound = await decoded(bytes)
-  if (sound.samples.length === 0 || monoOf(sound).length === 0) throw new Error(`${file} has no samples.`)
-  await analyse(`Open ${file}`, { name, source: file, sound })
 }
 
-/** A clip of the sound of a document, by the knobs. */
-const analyse = async (what, { name, source, sound }, burst) => {
+/** The clip of a sound by values of the knobs, and how long it took in words. */
+const analysed = async ({ name, source, sound }, values) => {
   core.cancel()
   const started = performance.now()
   say('Analysing...')
-  const clip = await core.call('encode', sound, {
-    name, source, ...Object.fromEntries(['bands', 'breakpoints', 'sensitivity'].filter((id) => moved.has(id)).map((id) => [id, Number(element(id).value)]))
-  })
-  await take(what, { name, source, sound, clip }, burst)
-  say(`Analysed in ${((performance.now() - started) / 1000).toFixed(2)} s.`)
+  const clip = await core.call('encode', sound, { name, source, ...values })
+  return { clip, said: `Analysed in ${((performance.now() - started) / 1000).toFixed(2)} s.` }
+}
+
+let turned // values of the knobs that are not analysed yet
+const stopTurn = () => {
+  again.cancel()
+  if (!turned) return
+  core.cancel()
+  turned = undefined
+  say('')
+}
+/** Puts another analysis under the edits, by the knobs. */
+const analyseAgain = async () => {
+  const own = turned, burst = `turn ${turns}`, { sound } = history.now
+  try {
+    const { clip: analysis, said } = await analysed(history.now, own)
+    let now, taken
+    do { // until nothing was edited meanwhile
+      await editing.released()
+      now = history.now
+      if (turned !== own || now.sound !== sound) return
+      const from = history.before(burst)
+      taken = from.edits.length === 0 ? { clip: analysis, edits: [], unfitting: [] }
+        : await core.call('reapply', from.analysis, analysis, from.edits)
+    } while (now !== history.now)
+    if (turned !== own) return
+    turned = undefined
+    await take('Analyse', { ...now, analysis, clip: taken.clip, edits: taken.edits }, burst)
+    if (turned) return
+    const waiting = taken.unfitting.map(({ reason }) => reason)
+    say(waiting.length === 0 ? said
+      : `${said} ${waiting.length} of ${taken.edits.length} edits by hand wait for an analysis that they fit: ${[...new Set(waiting)].join('; ')}.`)
+  } finally {
+    if (turned === own) turned = undefined
+    if (!turned) knobs.show()
+  }
 }
 
 // ---- shown
+
+/** The knobs of the analysis: they stand where the document's analysis has them, unless they are turned. */
+const knobs = {
+  ids: ['bands', 'breakpoints', 'sensitivity'],
+  usual: side.call('defaults'),
+  async show() {
+    const usual = await knobs.usual
+    if (turned) return
+    for (const id of knobs.ids) knobs.put(id, history.now?.analysis.encoder?.[id] ?? usual[id])
+  },
+  put(id, value) {
+    element(id).value = value
+    element(id).parentElement.querySelector('output').value = element(id).value
+  },
+  async values() {
+    await knobs.usual
+    return turned ?? Object.fromEntries(knobs.ids.map((id) => [id, Number(element(id).value)]))
+  }
+}
 
 /** A new document, as a step that can be undone. */
 const take = async (what, document, burst) => {
@@ -134,6 +232,7 @@ const show = async () => {
     view.sound = mono ? new Peaks(mono) : undefined
     view.soundRate = document.sound?.sampleRate ?? 1
     view.picture = undefined
+    pictureOf = ''
   }
   if (view.clip?.duration !== document.clip.duration || !sameSound) {
     lanes.showAll(document.clip.duration)
@@ -142,6 +241,7 @@ const show = async () => {
   }
   view.clip = document.clip
   for (const id of ['clip', 'export']) element(id).hidden = false
+  element('link').parentElement.hidden = true // of what was before
   element('lanes').setAttribute('aria-label',
     `${document.name}: ${view.clip.duration.toFixed(2)} s, ${view.clip.bands.length} bands, ${view.clip.transients.length} events`)
   for (const id of ['play-sound', 'play-both', 'bands', 'breakpoints', 'sensitivity', 'spectrogram']) element(id).disabled = !mono
@@ -151,47 +251,31 @@ const show = async () => {
   }
   editing.refresh()
   look()
-  await renderDrive()
-  await remember()
+  await Promise.all([knobs.show(), remember(), renderDrive()])
 }
 
-// While a point is dragged, what is not yet rendered is passed over for what is newer.
-let rendering, staleDrive = false
-const renderDrive = async () => {
-  staleDrive = true
-  rendering ??= (async () => {
-    try {
-      while (staleDrive) {
-        staleDrive = false
-        await renderNow()
-      }
-    } finally {
-      rendering = undefined
-    }
-  })()
-  return rendering
-}
-
-const renderNow = async () => {
+/** Renders what is newest: a drag passes over what is between. */
+const renderDrive = newestOnly(async () => {
   const { clip } = view
   if (!clip) return
-  const rendered = await side.call('render', clip, { ...profileOption(), sampleRate: view.driveRate, ...strength() })
+  const rendered = await side.call('render', firstPart(clip, longestRendered), { ...profileOption(), sampleRate: view.driveRate, ...strength() })
   if (clip !== view.clip) return // a newer one comes
   drive = rendered.samples
   view.drive = new Peaks(drive)
   look()
   const { files } = await side.call('write', clip, { format: 'packed' })
-  packed = files[0].bytes
+  if (clip !== view.clip) return
   const points = clip.bands.reduce((sum, band) => sum + band.amplitude.length, 0)
-  element('figures').textContent = `${clip.duration.toFixed(2)} s, ${packed.length} bytes packed, ` +
+  element('figures').textContent = `${clip.duration.toFixed(2)} s, ${files[0].bytes.length} bytes packed, ` +
     `${points} breakpoints in ${clip.bands.length} bands, ${clip.transients.length} events` +
-    (rendered.reduction > 0.05 ? `; the actuator's protection takes ${rendered.reduction.toFixed(1)} dB` : '')
+    (rendered.reduction > 0.05 ? `; the actuator's protection takes ${rendered.reduction.toFixed(1)} dB` : '') +
+    (clip.duration > longestRendered ? `. This is long: what the actuator plays is rendered, shown and played of the first ${longestRendered / 60} minutes; files hold all of it` : '')
   await showLosses()
   if (element('comparison').open) await compare()
-}
+})
 
 const profileOption = () => element('profile').value ? { profile: element('profile').value } : {}
-const strength = () => moved.has('strength') ? { strength: Number(element('strength').value) } : {}
+const strength = () => ({ strength: Number(element('strength').value) })
 
 let pictureWanted = false, pictureOf = ''
 /** The spectrogram of what is shown, when it is asked for and not there. */
@@ -213,15 +297,53 @@ const drawPicture = guarded(async () => {
   look()
 })
 
-const remember = async () => {
+let copied // a document that another tab has: it is kept when it was changed
+const unkept = new Map() // documents by their ids
+const keepAll = newestOnly(async () => {
+  const documents = [...unkept.values()]
+  unkept.clear()
+  const felt = { profile: element('profile').value, strength: Number(element('strength').value) }
   try {
-    await keep(history.now)
+    for (const document of documents) await keep({ ...document, felt })
     element('storage').textContent = ''
+    await listWorks()
   } catch (error) {
     const full = error?.name === 'QuotaExceededError'
     element('storage').textContent = (full ? 'This browser has no room to keep the sound and the clip over a reload. Save the clip.'
       : `This browser does not keep the clip over a reload (${error?.message ?? 'storage is refused'}). Save it.`)
   }
+})
+const remember = () => {
+  const { now } = history
+  if (!now || now === copied) return undefined
+  try { sessionStorage.setItem('pacini work', now.id) } catch { /* A browser without storage. */ }
+  claim(now.id)
+  unkept.set(now.id, now)
+  return keepAll()
+}
+
+/** What else was worked on, to go on with. */
+let listed // beside which document
+const listWorks = async () => {
+  if (listed === history.now?.id) return
+  listed = history.now?.id
+  const others = (await keptWorks()).filter(({ id }) => id !== history.now?.id)
+  element('works').replaceChildren(new Option('choose...', ''), ...others.map(({ id, name, changed, clip, soundId }) =>
+    new Option(`${name}, ${clip.duration.toFixed(2)} s${soundId ? '' : ', no sound'}, ${new Date(changed).toLocaleString()}`, id)))
+  element('works').parentElement.hidden = others.length === 0
+}
+
+/** A kept work for this tab: another tab's as a copy. Nothing where it is not there. */
+const resumed = async (id, wait) => {
+  const work = await kept(id)
+  if (!work) return undefined
+  const { changed, felt, ...document } = { analysis: work.clip, edits: [], ...work } // once there were no layers
+  if (felt) {
+    element('profile').value = felt.profile
+    element('strength').value = felt.strength
+    element('strength').parentElement.querySelector('output').value = element('strength').value
+  }
+  return await claim(id, wait) ? document : copied = { ...document, id: newId() }
 }
 
 // What the measures of a comparison say, best first.
@@ -242,8 +364,9 @@ const compare = async () => {
   }
   status.textContent = 'Comparing...'
   const { clip } = view, { sampleRate } = history.now.sound
-  const plain = await side.call('render', clip, { sampleRate })
-  const figures = await side.call('compare', { samples: mono, sampleRate }, { samples: plain.samples, sampleRate })
+  const plain = await side.call('render', firstPart(clip, longestRendered), { sampleRate })
+  const compared = clip.duration > longestRendered ? mono.subarray(0, plain.samples.length) : mono
+  const figures = await side.call('compare', { samples: compared, sampleRate }, { samples: plain.samples, sampleRate })
   if (clip !== view.clip) return
   table.tBodies[0].replaceChildren(...measures.map(([key, what, text]) => {
     const row = document.createElement('tr'), head = document.createElement('th')
@@ -261,7 +384,7 @@ const compare = async () => {
 
 let formatList = []
 const formatNamed = (wanted) => formatList.find((format) => format.name === wanted)
-const exportOptions = (format) => ({ format: format.name, name: history.now.name, ...strength(), ...profileOption() })
+const exportOptions = (format, name = history.now.name) => ({ format: format.name, name, ...strength(), ...profileOption() })
 const lostText = (losses) => `Lost here: ${losses.slice(0, 3).map((loss) => loss.message).join('; ')}${losses.length > 3 ? `; and ${losses.length - 3} more` : ''}.`
 const showLosses = async () => {
   const format = formatNamed(element('format').value)
@@ -278,15 +401,15 @@ const download = (parts, file) => {
   setTimeout(() => URL.revokeObjectURL(link.href), 10000)
 }
 const save = async () => {
-  const format = formatNamed(element('format').value)
+  const format = formatNamed(element('format').value), { name } = history.now
   const { files } = await side.call('write', view.clip, exportOptions(format))
-  for (const { suffix, bytes } of files) download([bytes], `${history.now.name}${suffix}${format.extension}`)
+  for (const { suffix, bytes } of files) download([bytes], `${name}${suffix}${format.extension}`)
 }
 const saveAll = async () => {
-  const { name } = history.now, all = [], refused = []
+  const { name, clip } = history.now, all = [], refused = []
   for (const format of formatList) {
     try {
-      const { files } = await side.call('write', view.clip, exportOptions(format))
+      const { files } = await side.call('write', clip, exportOptions(format, name))
       for (const { suffix, bytes } of files) all.push({ name: `${name}/${format.name}/${name}${suffix}${format.extension}`, bytes })
     } catch (error) {
       refused.push(`${format.title} (${error.message})`)
@@ -299,12 +422,16 @@ const saveAll = async () => {
 const base64 = (bytes) => btoa(String.fromCharCode(...bytes)).replaceAll('+', '-').replaceAll('/', '_').replaceAll('=', '')
 const bytesOf = (text) => Uint8Array.from(atob(text.replaceAll('-', '+').replaceAll('_', '/')), (c) => c.charCodeAt(0))
 const share = async () => {
-  if (packed.length > 20000) throw new Error('The clip is too long for a link; save it as a file.')
+  const { files: [{ bytes }] } = await side.call('write', view.clip, { format: 'packed' })
+  if (bytes.length > 20000) throw new Error('The clip is too long for a link; save it as a file.')
+  // In the clipboard alone: in one's own address it would be opened again by every reload.
   const url = new URL(location.href)
-  url.hash = `c=${base64(packed)}`
-  window.history.replaceState(null, '', url)
-  await navigator.clipboard.writeText(url.href)
-  element('losses').textContent = `A link of ${url.href.length} characters is in the clipboard; it holds the whole clip.`
+  url.hash = `c=${base64(bytes)}`
+  element('link').value = url.href
+  element('link').parentElement.hidden = false
+  const isCopied = await navigator.clipboard?.writeText(url.href).then(() => true, () => false)
+  element('losses').textContent = isCopied ? `A link of ${url.href.length} characters is in the clipboard; it holds the whole clip.`
+    : `Copy this link of ${url.href.length} characters; it holds the whole clip.`
 }
 
 // ---- play
@@ -331,7 +458,10 @@ const playThat = async (work) => {
   }
 }
 const soundPart = () => ({ samples: mono, sampleRate: history.now.sound.sampleRate })
-const drivePart = () => ({ samples: drive, sampleRate: view.driveRate })
+const drivePart = async () => {
+  await renderDrive.idle()
+  return { samples: drive, sampleRate: view.driveRate }
+}
 const feelIt = () => playThat(async (how) => {
   if (!feelsNow()) {
     element('feel-status').textContent = describeFeel()
@@ -344,46 +474,58 @@ const feelIt = () => playThat(async (how) => {
     requestAnimationFrame(tick)
   }
   tick()
-  await feel(view.clip, how.signal, (...parameters) => side.call(...parameters))
+  await feel(firstPart(view.clip, longestRendered), how.signal, (...parameters) => side.call(...parameters))
   element('feel-status').textContent = describeFeel()
 })
 
-const live = new Live()
-const switchLive = async () => {
-  const button = element('live')
-  if (live.isOn) await live.stop()
-  else await live.start(profileOption().profile)
-  button.setAttribute('aria-pressed', String(live.isOn))
-  element('feel-status').textContent = live.isOn
-    ? `What the microphone hears is played as touch on the sound output, ${(1000 * live.latency).toFixed(0)} ms late by itself.` : describeFeel()
-}
+const live = new Live(() => {
+  element('live').setAttribute('aria-pressed', String(live.isOn))
+  element('feel-status').textContent = !live.isOn ? describeFeel() : live.latency === 0 ? 'Waiting for the microphone...'
+    : `What the microphone hears is played as touch on the sound output, ${(1000 * live.latency).toFixed(0)} ms late by itself.`
+})
+const switchLive = () => live.isOn ? live.stop() : live.start(profileOption().profile)
 
 // ---- record
 
-let recorder
+let recording // AbortController
 const record = async () => {
-  if (recorder) return recorder.stop()
-  const stream = await navigator.mediaDevices.getUserMedia({ audio: true })
-  const recorded = []
-  recorder = new MediaRecorder(stream)
-  recorder.ondataavailable = ({ data }) => recorded.push(data)
-  recorder.onstop = async () => {
-    recorder = undefined
-    element('record').setAttribute('aria-pressed', 'false')
-    element('record').textContent = 'Record'
-    stream.getTracks().forEach((track) => track.stop())
-    guarded(async () => open(new Uint8Array(await new Blob(recorded).arrayBuffer()), 'recording.webm'))()
+  if (recording) return recording.abort()
+  const { signal } = recording = new AbortController()
+  const showWhether = (on) => {
+    element('record').setAttribute('aria-pressed', String(on))
+    element('record').textContent = on ? 'Stop recording' : 'Record'
   }
-  recorder.start()
-  element('record').setAttribute('aria-pressed', 'true')
-  element('record').textContent = 'Stop recording'
+  showWhether(true)
+  const recorded = []
+  try {
+    const recorder = new MediaRecorder(await microphone(true, signal))
+    recorder.ondataavailable = ({ data }) => recorded.push(data)
+    recorder.start()
+    await new Promise((resolve) => { recorder.onstop = resolve }) // with its microphone
+  } finally {
+    recording.abort()
+    recording = undefined
+    showWhether(false)
+  }
+  await open('recording.webm', new Blob(recorded).arrayBuffer())
+}
+/** Ends all that sounds, is felt, or listens. */
+const stopAll = () => {
+  stop()
+  live.stop()
+  recording?.abort()
 }
 
 // ---- the page
 
 const editing = startEditing({
   canvas: element('lanes'), lanes, state: view, element, look, say: (text) => { element('selected').textContent = text },
-  change: guarded((what, clip, burst) => take(what, { ...history.now, clip }, burst)),
+  change: guarded((what, { clip, edit }, burst) =>
+    take(what, { ...history.now, clip, edits: withEdit(history.now.edits, edit) }, burst)),
+  withdraw: guarded(async (burst) => {
+    history.withdraw(burst)
+    await show()
+  }),
   playhead: (time) => {
     if (time !== undefined) {
       cursor = time
@@ -394,14 +536,15 @@ const editing = startEditing({
 })
 const travel = async (way) => {
   const before = history.now
+  stopTurn()
   history[way]()
   if (history.now !== before) await show()
+  else await knobs.show()
 }
 
 for (const input of document.querySelectorAll('input[type=range]')) {
   const output = input.parentElement.querySelector('output')
   const showValue = () => { output.value = input.value }
-  input.addEventListener('input', () => moved.add(input.id))
   input.addEventListener('input', showValue)
   showValue()
 }
@@ -410,27 +553,36 @@ element('profile').add(new Option('none: plain drive', ''))
 element('profile').value = 'l5-wristband'
 for (let channel = 1; channel < channelCount(); ++channel) element('channel').add(new Option(channel === 1 ? '2, right' : String(channel + 1), String(channel)))
 let turns = 0 // of knobs: what one turn changes is one step
-const again = later(() => analyse('Analyse', history.now, `turn ${turns}`), 150)
-for (const id of ['bands', 'breakpoints', 'sensitivity']) {
-  element(id).addEventListener('input', again)
+const again = later(analyseAgain, 150)
+for (const id of knobs.ids) {
+  element(id).addEventListener('input', () => {
+    if (opening === opened) return // what comes has its own
+    turned = Object.fromEntries(knobs.ids.map((one) => [one, Number(element(one).value)]))
+    again()
+  })
   element(id).addEventListener('pointerdown', () => ++turns)
   element(id).addEventListener('focus', () => ++turns)
 }
-element('strength').addEventListener('input', later(renderDrive, 100))
-on('profile', 'change', renderDrive)
+const feelOtherwise = () => Promise.all([remember(), renderDrive()])
+element('strength').addEventListener('input', later(feelOtherwise, 100))
+on('profile', 'change', feelOtherwise)
 on('format', 'change', showLosses)
 on('save', 'click', save)
 on('save-all', 'click', saveAll)
 on('share', 'click', share)
-on('stop', 'click', stop)
+on('stop', 'click', stopAll)
 on('feel', 'click', feelIt)
 on('record', 'click', record)
 on('live', 'click', switchLive)
 on('undo', 'click', () => travel('undo'))
 on('redo', 'click', () => travel('redo'))
 on('play-sound', 'click', () => playThat((how) => playPair(soundPart(), soundPart(), how)))
-on('play-drive', 'click', () => playThat((how) => playPair(drivePart(), drivePart(), how)))
-on('play-both', 'click', () => playThat((how) => playPair(soundPart(), drivePart(), { ...how, channel: Number(element('channel').value) })))
+on('play-drive', 'click', () => playThat(async (how) => {
+  const part = await drivePart()
+  await playPair(part, part, how)
+}))
+on('play-both', 'click', () => playThat(async (how) =>
+  playPair(soundPart(), await drivePart(), { ...how, channel: Number(element('channel').value) })))
 on('comparison', 'toggle', () => element('comparison').open ? compare() : undefined)
 on('spectrogram', 'click', () => {
   pictureWanted = !pictureWanted
@@ -445,14 +597,22 @@ on('controller', 'click', async () => {
 })
 on('file', 'change', async ({ target }) => {
   const [file] = target.files
-  if (file) await open(new Uint8Array(await file.arrayBuffer()), file.name)
   target.value = ''
+  if (file) await open(file.name, file.arrayBuffer())
 })
 on('gallery', 'change', async ({ target }) => {
   if (!target.value) return
-  const answer = await fetch(`gallery/${target.value}`)
-  if (!answer.ok) throw new Error('This clip is not there.')
-  await open(new Uint8Array(await answer.arrayBuffer()), target.value)
+  await open(target.value, fetch(`gallery/${target.value}`).then((answer) => {
+    if (!answer.ok) throw new Error('This clip is not there.')
+    return answer.arrayBuffer()
+  }))
+})
+on('works', 'change', async ({ target: { value: id, selectedOptions: [{ text }] } }) => {
+  if (!id) return
+  const own = ++opened
+  stopTurn()
+  const work = await resumed(id)
+  if (own === opened && work) await take(`Open ${text}`, work)
 })
 for (const event of ['dragenter', 'dragover'])
   document.addEventListener(event, (dragged) => {
@@ -464,10 +624,10 @@ document.addEventListener('drop', guarded(async (dropped) => {
   dropped.preventDefault()
   document.body.classList.remove('dropping')
   const [file] = dropped.dataTransfer.files
-  if (file) await open(new Uint8Array(await file.arrayBuffer()), file.name)
+  if (file) await open(file.name, file.arrayBuffer())
 }))
 document.addEventListener('keydown', (event) => {
-  if (event.key === 'Escape') stop()
+  if (event.key === 'Escape') stopAll()
   const typing = event.target instanceof HTMLInputElement && event.target.type === 'number'
   if ((event.ctrlKey || event.metaKey) && !typing && view.clip) {
     const way = event.key.toLowerCase() === 'y' || (event.key.toLowerCase() === 'z' && event.shiftKey) ? 'redo'
@@ -508,30 +668,35 @@ guarded(async () => {
   if (view.clip) await showLosses()
 })()
 guarded(async () => {
-  for (const [id, value] of Object.entries(await side.call('defaults'))) {
-    const input = element(id)
-    if (moved.has(id)) continue
-    input.value = value
-    input.parentElement.querySelector('output').value = input.value
-  }
+  const { strength: usual } = await knobs.usual
+  if (!history.now && element('strength').value === element('strength').defaultValue) knobs.put('strength', usual)
+  await knobs.show()
 })()
-guarded(async () => {
+
+/** The clip that the address holds, which goes out of it: from then on it is kept as other work is. */
+const openLink = async () => {
   const shared = new URLSearchParams(location.hash.slice(1)).get('c')
-  if (shared) {
-    let bytes
-    try {
-      bytes = bytesOf(shared)
-    } catch {
-      throw new Error('The link is damaged: it holds no clip.')
-    }
-    // What was here before can be had again by Undo.
-    const before = await kept().catch(() => undefined)
-    if (before?.clip) history.push('Open', before)
-    await open(bytes, 'shared.pacb')
-    return
+  if (!shared) return
+  let bytes
+  try {
+    bytes = bytesOf(shared)
+  } catch {
+    throw new Error('The link is damaged: it holds no clip.')
   }
-  const before = await kept().catch(() => undefined)
-  if (before?.clip) await take('Open', before)
+  await open('shared.pacb', bytes)
+  window.history.replaceState(null, '', location.pathname + location.search)
+}
+addEventListener('hashchange', guarded(openLink))
+guarded(async () => {
+  const own = opened
+  try {
+    // What this tab had, or what was worked on last.
+    const id = sessionStorage.getItem('pacini work')
+    const before = (id && await resumed(id, 1000)) || await keptWorks().then(([last]) => last && resumed(last.id))
+    if (before && own === opened) guarded(take)('Open', before) // Undo has it when a link is opened
+    else listWorks()
+  } catch { /* A browser without storage. */ }
+  if (own === opened) await openLink()
 })()
 if ('serviceWorker' in navigator && !new URLSearchParams(location.search).has('fresh'))
   navigator.serviceWorker.register('service-worker.js').catch(() => {})

@@ -3,12 +3,15 @@
 import { valueAt } from './curve.js'
 import { addPoint, lanesOf, movePoint, pointsOf, removePoint } from './edits.js'
 
+const tapReach = 10 // pixels that a finger may move and still has tapped
+
 /**
- * `state`: what is shown, with `clip`, `lane` and `selected`. `change(what, clip, burst)` takes a new clip, `look()` draws anew,
- * `playhead()` tells where new points go, `say(text)` reads aloud.
+ * `state`: what is shown, with `clip`, `lane` and `selected`. `change(what, edited, burst)` takes what a function of edits.js
+ * gives, `withdraw(burst)` takes it back, `look()` draws anew, `playhead()` tells where new points go, `say(text)` reads aloud.
  */
-export const startEditing = ({ canvas, lanes, state, change, look, playhead, say, element }) => {
+export const startEditing = ({ canvas, lanes, state, change, withdraw, look, playhead, say, element }) => {
   let dragged // which drag, while there is one
+  let released = Promise.resolve(), release
   const points = () => pointsOf(state.clip, state.lane)
   const described = () => {
     const point = points()[state.selected]
@@ -45,14 +48,14 @@ export const startEditing = ({ canvas, lanes, state, change, look, playhead, say
     if (!points()[state.selected]) return
     const moved = movePoint(state.clip, state.lane, state.selected, to)
     state.selected = moved.index
-    change('Move', moved.clip, burst && `${burst} ${selections}`)
+    change('Move', moved, burst && `${burst} ${selections}`)
     showFields()
   }
   const add = (time, amplitude) => {
     const added = addPoint(state.clip, state.lane, { time, amplitude })
     if (!added) return say('There is a point already.')
     state.selected = added.index
-    change('Add', added.clip)
+    change('Add', added)
     showFields()
   }
   const remove = () => {
@@ -60,7 +63,7 @@ export const startEditing = ({ canvas, lanes, state, change, look, playhead, say
     const removed = removePoint(state.clip, state.lane, state.selected)
     if (!removed) return say('A curve keeps its ends.')
     state.selected = removed.index
-    change('Remove', removed.clip)
+    change('Remove', removed)
     showFields()
   }
   const choose = (lane) => {
@@ -73,34 +76,67 @@ export const startEditing = ({ canvas, lanes, state, change, look, playhead, say
     const { left, top } = canvas.getBoundingClientRect()
     return [event.clientX - left, event.clientY - top]
   }
-  canvas.addEventListener('pointerdown', (event) => {
-    if (event.button !== 0 || !state.clip) return
-    const [x, y] = place(event)
-    const found = lanes.hit(x, y, state, event.pointerType === 'touch' ? 22 : 10)
-    if (found.part === 'band') return choose(found.band)
-    if (found.part !== 'edited' || found.index === undefined) return playhead(Math.min(Math.max(lanes.timeAt(x), 0), state.clip.duration))
-    select(found.index)
+  const found = (x, y, touch) => lanes.hit(x, y, state, touch ? 22 : 10)
+  /** Selects what is at a place; whether that is a point. */
+  const press = (x, y, touch) => {
+    const { part, band, index } = found(x, y, touch)
+    if (part === 'band') choose(band)
+    else if (part !== 'edited' || index === undefined) playhead(Math.min(Math.max(lanes.timeAt(x), 0), state.clip.duration))
+    else {
+      select(index)
+      return true
+    }
+    return false
+  }
+  const begin = (event) => {
     dragged = `drag ${event.timeStamp}`
+    released = new Promise((resolve) => { release = resolve })
     canvas.setPointerCapture(event.pointerId)
     event.preventDefault()
     canvas.focus()
+  }
+  // A finger that swipes scrolls the page: it drags nothing but the point that was tapped last.
+  let tap, tapped
+  const isTapped = (x, y) => tapped === selections && found(x, y, true).part === 'edited' && found(x, y, true).index === state.selected
+  canvas.addEventListener('touchstart', (event) => {
+    if (event.touches.length === 1 && state.clip && isTapped(...place(event.touches[0]))) event.preventDefault()
+  }, { passive: false })
+  canvas.addEventListener('pointerdown', (event) => {
+    tap = undefined
+    if (event.button !== 0 || !state.clip) return
+    const [x, y] = place(event), touch = event.pointerType === 'touch'
+    if (touch && !isTapped(x, y)) {
+      if (event.isPrimary) tap = { id: event.pointerId, x, y }
+    } else if (touch || press(x, y)) begin(event)
   })
   canvas.addEventListener('pointermove', (event) => {
-    if (!dragged) return
     const [x, y] = place(event)
-    move({ time: lanes.timeAt(x), amplitude: lanes.amplitudeAt(y) }, dragged)
+    if (tap && (tap.id !== event.pointerId || Math.hypot(x - tap.x, y - tap.y) > tapReach)) tap = undefined
+    if (dragged) move({ time: lanes.timeAt(x), amplitude: lanes.amplitudeAt(y) }, dragged)
   })
-  for (const end of ['pointerup', 'pointercancel']) canvas.addEventListener(end, () => {
-    if (!dragged) return
+  const drop = () => {
     dragged = undefined
+    release()
     showFields()
     look()
+  }
+  canvas.addEventListener('pointerup', () => {
+    if (dragged) drop()
+    else if (tap && press(tap.x, tap.y, true)) tapped = selections
+    tap = undefined
+  })
+  // The browser took the pointer for something else.
+  canvas.addEventListener('pointercancel', () => {
+    tap = undefined
+    if (!dragged) return
+    withdraw(`${dragged} ${selections}`)
+    drop()
   })
   canvas.addEventListener('dblclick', (event) => {
     if (!state.clip) return
     const [x, y] = place(event)
-    const found = lanes.hit(x, y, state)
-    if (found.part === 'edited' && found.index === undefined) add(lanes.timeAt(x), lanes.amplitudeAt(y))
+    const { part, index } = found(x, y)
+    if (part === 'edited' && index === undefined) add(lanes.timeAt(x), lanes.amplitudeAt(y))
   })
   canvas.addEventListener('wheel', (event) => {
     if (!state.clip || (!event.ctrlKey && !event.shiftKey && Math.abs(event.deltaX) <= Math.abs(event.deltaY))) return
@@ -164,5 +200,6 @@ export const startEditing = ({ canvas, lanes, state, change, look, playhead, say
   })
   for (const [id, work] of [['nearer', keys['+']], ['farther', keys['-']], ['all', keys[0]]])
     element(id).addEventListener('click', () => { work(); look() })
-  return { refresh: showFields }
+  /** `released()`: when nothing is dragged any more. */
+  return { refresh: showFields, released: () => released }
 }

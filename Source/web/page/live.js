@@ -1,36 +1,47 @@
 // The live translator: what the microphone hears, as touch on the sound output.
 
+import { microphone } from './microphone.js'
 import { createTranslator } from './pacini/translator.js'
 
 export class Live {
-  #context
-  #stream
-  #node
+  #control // AbortController, from the wish on
+  #changed
+  /** Of the translator itself, s; 0 until it runs. */
+  latency = 0
 
-  get isOn() { return this.#context !== undefined }
-  /** Of the translator itself, s. */
-  get latency() { return this.isOn ? this.#node.latency / this.#context.sampleRate : 0 }
+  /** `changed()` is called whenever it is switched on, runs, or is switched off, by whomever. */
+  constructor(changed) {
+    this.#changed = changed
+  }
+
+  get isOn() { return this.#control !== undefined }
 
   async start(profile) {
-    this.#stream = await navigator.mediaDevices.getUserMedia({
-      audio: { echoCancellation: false, noiseSuppression: false, autoGainControl: false }
-    })
-    const context = new AudioContext({ latencyHint: 'interactive' })
+    this.stop()
+    const { signal } = this.#control = new AbortController()
+    this.#changed()
     try {
-      this.#node = await createTranslator(context, { profile })
-      context.createMediaStreamSource(this.#stream).connect(this.#node).connect(context.destination)
-      this.#context = context
+      const stream = await microphone({ echoCancellation: false, noiseSuppression: false, autoGainControl: false }, signal)
+      for (const track of stream.getTracks()) track.addEventListener('ended', () => { if (!signal.aborted) this.stop() })
+      const context = new AudioContext({ latencyHint: 'interactive' })
+      signal.addEventListener('abort', () => context.close(), { once: true })
+      const node = await createTranslator(context, { profile })
+      signal.throwIfAborted()
+      context.createMediaStreamSource(stream).connect(node).connect(context.destination)
+      this.latency = node.latency / context.sampleRate
+      this.#changed()
     } catch (error) {
-      await context.close()
-      this.#stream.getTracks().forEach((track) => track.stop())
+      if (signal.aborted) return // switched off before it ran
+      this.stop()
       throw error
     }
   }
 
-  async stop() {
-    const context = this.#context
-    this.#context = undefined
-    this.#stream?.getTracks().forEach((track) => track.stop())
-    await context?.close()
+  stop() {
+    if (!this.isOn) return
+    this.#control.abort()
+    this.#control = undefined
+    this.latency = 0
+    this.#changed()
   }
 }

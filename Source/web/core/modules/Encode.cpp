@@ -1,4 +1,4 @@
-// The module of Pacini's own method: sounds to clips.
+// The module of Pacini's own method: sounds to clips, and what was edited by hand over them.
 
 #include "web/core/Call.h"
 
@@ -11,6 +11,7 @@ std::span<const NamedHandler> handlers()
 {
     static constexpr std::array all{
         NamedHandler{"encode", encodeSound},
+        NamedHandler{"reapply", reapplyEdits},
     };
     return all;
 }
