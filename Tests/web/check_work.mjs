@@ -31,8 +31,8 @@ const open = async (context, address = place, prepare = () => {}) => {
     Object.defineProperty(navigator, 'clipboard', { value: { writeText: async (text) => { globalThis.copied = text } } })
     // Microphones that take a moment to be had, and which of them hear.
     globalThis.streams = []
-    const ask = navigator.mediaDevices.getUserMedia.bind(navigator.mediaDevices)
-    navigator.mediaDevices.getUserMedia = async (wanted) => {
+    const ask = navigator.mediaDevices?.getUserMedia.bind(navigator.mediaDevices)
+    if (ask) navigator.mediaDevices.getUserMedia = async (wanted) => {
       await new Promise((resolve) => setTimeout(resolve, 300))
       const stream = await ask(wanted)
       globalThis.streams.push(stream)
@@ -397,14 +397,15 @@ try {
   await long.tab.evaluate(() => new Promise((resolve) => setTimeout(resolve, 0)))
   check('feeling it begins at once', Date.now() - asked < 5000, `${Date.now() - asked} ms`)
   await long.tab.$eval('#stop', (button) => button.click())
+  const slow = []
   for (const format of await long.tab.$$eval('#format option', (options) => options.map(({ value }) => value))) {
     const begun = Date.now()
-    await long.tab.select('#format', format)
     await long.tab.$eval('#losses', (line) => { line.textContent = '' })
-    await until(async () => (await long.text('losses')) !== '' || (await long.text('error')) !== '', 60)
-    if (Date.now() - begun > 3000) console.log(`     ${format}: ${((Date.now() - begun) / 1000).toFixed(1)} s, ${await long.text('error')}`)
+    await long.tab.select('#format', format)
+    if (!await until(async () => (await long.text('losses')) !== '', 10)) slow.push(format)
+    if (Date.now() - begun > 2000) console.log(`     ${format}: ${((Date.now() - begun) / 1000).toFixed(1)} s, ${await long.text('error')}`)
   }
-  check('every format says what it would lose of it', true)
+  check('every format says what it would lose of it', slow.length === 0, slow.join(' '))
   await long.tab.close()
 
   // ---- nothing that is not the page's own
@@ -422,12 +423,11 @@ try {
       const violated = []
       addEventListener('securitypolicyviolation', ({ effectiveDirective }) => violated.push(effectiveDirective))
       await fetch('http://127.0.0.2:9/', { mode: 'no-cors' }).catch(() => {})
-      let evaluated = false
-      try { evaluated = new Function('return true')() } catch { /* as it must be */ }
+      setTimeout('globalThis.injected = true', 0)
       await new Promise((resolve) => setTimeout(resolve, 500))
-      return { injected: globalThis.injected === true, violated, evaluated, elsewhere }
+      return { injected: globalThis.injected === true, violated, elsewhere }
     })
-    check(`the policy of /${file} lets nothing in`, !ran.injected && !ran.evaluated && ran.violated.includes('connect-src'), JSON.stringify(ran))
+    check(`the policy of /${file} lets nothing in`, !ran.injected && ran.violated.includes('connect-src'), JSON.stringify(ran))
     await guarded.close()
   }
 

@@ -6,6 +6,7 @@ import { Core } from './core.js'
 import { startEditing } from './editing.js'
 import { withEdit } from './edits.js'
 import { connectController, describeFeel, feel, feelsNow } from './feel.js'
+import { guardNumber, guardSlider } from './fields.js'
 import { firstPart } from './first-part.js'
 import { canAsk, remembered } from './hid.js'
 import { History } from './history.js'
@@ -545,9 +546,11 @@ const travel = async (way) => {
 for (const input of document.querySelectorAll('input[type=range]')) {
   const output = input.parentElement.querySelector('output')
   const showValue = () => { output.value = input.value }
+  guardSlider(input)
   input.addEventListener('input', showValue)
   showValue()
 }
+for (const input of document.querySelectorAll('input[type=number]')) guardNumber(input)
 for (const [key, profile] of Object.entries(profiles)) element('profile').add(new Option(profile.name ?? key, key))
 element('profile').add(new Option('none: plain drive', ''))
 element('profile').value = 'l5-wristband'

@@ -21,7 +21,7 @@ const opened = () => {
       const documents = request.transaction.objectStore('documents')
       documents.get('current').onsuccess = ({ target: { result: work } }) => {
         documents.get('sound').onsuccess = ({ target: { result: sound } }) => {
-          if (work) works.put({ ...work, id: newId(), changed: Date.now(), soundId: sound ? 'first' : undefined }, 'first')
+          if (work) works.put({ ...work, id: 'first', changed: Date.now(), soundId: sound ? 'first' : undefined }, 'first')
           if (work && sound) sounds.put({ ...sound, id: 'first' }, 'first')
           request.result.deleteObjectStore('documents')
         }
