@@ -22,6 +22,7 @@ LOSSES = re.compile(r"Source/io/formats/(.*Writer|.*/?LossList|VoiceReduction|Cl
 
 # Names of presets of the plugin; what is said of them is for the command.
 PRESETS = Path("Core/pacini/realtime/TranslatorPresets.h")
+ERRORS = Path("Core/pacini/foundation/Result.h")  # of the core, which windows show
 
 # Files without a text for users of windows.
 FILES = {
@@ -164,6 +165,9 @@ def check(root, tables):
     for line, text in literals(root / PRESETS):
         if re.match(r"[A-Z]", text):
             wanted.setdefault(text, f"{PRESETS.as_posix()}:{line}")
+    for line, text in literals(root / ERRORS):
+        if is_text(text, "Source/io"):
+            wanted.setdefault(text, f"{ERRORS.as_posix()}:{line}")
     problems = []
     for code, pairs in tables.items():
         keys = {numbered(key) for key in pairs}

@@ -279,7 +279,8 @@ public:
         // Four bytes each, and copies of them: never all of the memory that a machine can address.
         constexpr std::size_t most = std::numeric_limits<std::size_t>::max() / 10;
         if (frames > most / plan.actuators)
-            return Error{ErrorCode::tooLarge, "", "makes more samples than fit into memory; choose a lower sample rate"};
+            return Error{ErrorCode::tooLarge, "",
+                         "makes more samples than fit into memory; choose a lower sample rate"};
         length = sizeInMemory(frames);
         samples.resize(plan.actuators * length);
         return {};
