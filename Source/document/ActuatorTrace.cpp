@@ -3,6 +3,7 @@
 #include <pacini/actuator/ActuatorFit.h>
 #include <pacini/actuator/OutputFilter.h>
 #include <pacini/clip/BandPriority.h>
+#include <pacini/foundation/Units.h>
 #include <pacini/synthesis/ClipAdaptation.h>
 #include <pacini/synthesis/RenderScene.h>
 
@@ -28,7 +29,7 @@ static_assert(static_cast<double>(stepFrames) == ActuatorTrace::step * traceRate
 
 double decibelsOf(double linear)
 {
-    return linear > 0.0 ? std::max(static_cast<double>(ActuatorTrace::silent), 20.0 * std::log10(linear))
+    return linear > 0.0 ? std::max(static_cast<double>(ActuatorTrace::silent), Decibels::fromGain(linear).value)
                         : static_cast<double>(ActuatorTrace::silent);
 }
 

@@ -1,5 +1,6 @@
 #include "document/ProjectScene.h"
 
+#include <pacini/foundation/Units.h>
 #include <pacini/synthesis/CompilePlan.h>
 
 #include <fmt/format.h>
@@ -101,7 +102,7 @@ double between(SceneParameter parameter, Breakpoint from, Breakpoint to, double 
     if (!isLevel(parameter))
         return from.value + (to.value - from.value) * x;
     const double gain = sceneGain(from.value) + (sceneGain(to.value) - sceneGain(from.value)) * x;
-    return gain > 0.0 ? std::max(limits::silentGain, 20.0 * std::log10(gain)) : limits::silentGain;
+    return gain > 0.0 ? std::max(limits::silentGain, Decibels::fromGain(gain).value) : limits::silentGain;
 }
 
 /// The points of one parameter's changes, in s from `begin`; a single one where nothing changes afterwards.

@@ -4,6 +4,8 @@
 #include "editor/Text.h"
 #include "editor/Theme.h"
 
+#include <pacini/foundation/Units.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -43,7 +45,7 @@ void ResponsePlot::show(Content wanted)
 
 double ResponsePlot::scaled(double value) const noexcept
 {
-    return content.unit == Unit::decibels ? value : 20.0 * std::log10(std::max(value, 1e-6));
+    return content.unit == Unit::decibels ? value : Decibels::fromGain(std::max(value, 1e-6)).value;
 }
 
 void ResponsePlot::rescale()
@@ -146,7 +148,7 @@ void ResponsePlot::paintGrid(juce::Graphics& g) const
         const juce::String text =
             content.unit == Unit::decibels
                 ? juce::String(static_cast<int>(std::lround(value)))
-                : juce::String(std::pow(10.0, value / 20.0), value < -1.0 ? (value < -21.0 ? 2 : 1) : 0) + " %";
+                : juce::String(Decibels(value).gain(), value < -1.0 ? (value < -21.0 ? 2 : 1) : 0) + " %";
         g.drawText(text, juce::Rectangle<float>(0.0f, y - grid, scaleWidth - 6.0f, 2.0f * grid),
                    juce::Justification::centredRight, false);
     }

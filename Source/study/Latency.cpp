@@ -183,8 +183,8 @@ Result<Latency> LatencyMeter::latency() const
                                  latency.bursts, latency.missed)};
     const auto count = static_cast<double>(delays.size());
     latency.delay = median(delays).value_or(0.0);
-    latency.soundLevel = 20.0 * std::log10(median(soundLevels).value_or(0.0));
-    latency.touchLevel = 20.0 * std::log10(median(touchLevels).value_or(0.0));
+    latency.soundLevel = Decibels::fromGain(median(soundLevels).value_or(0.0)).value;
+    latency.touchLevel = Decibels::fromGain(median(touchLevels).value_or(0.0)).value;
     double meanTime = 0.0, meanDelay = 0.0;
     for (std::size_t i = 0; i < delays.size(); ++i)
     {

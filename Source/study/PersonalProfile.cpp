@@ -1,6 +1,7 @@
 #include "study/PersonalProfile.h"
 
 #include <pacini/actuator/Equalizer.h>
+#include <pacini/foundation/Units.h>
 
 #include <fmt/format.h>
 
@@ -44,7 +45,7 @@ Result<Profile> personalProfile(const Profile& profile, const StudyResults& resu
         if (one.estimate.strength95.high >= block->adaptive.highest)
             return Error{ErrorCode::invalidArgument, one.stimulus,
                          fmt::format("was hardly felt by {} at full drive: the threshold is not known", participant)};
-        const double gain = 20.0 * std::log10(std::abs(equalizer.response(Hertz(frequency), designRate)));
+        const double gain = Decibels::fromGain(std::abs(equalizer.response(Hertz(frequency), designRate))).value;
         ranges.push_back(gain - one.estimate.strength);
         frequencies += fmt::format("{}{}", frequencies.empty() ? "" : ", ", frequency);
     }

@@ -1,5 +1,7 @@
 #include "study/Study.h"
 
+#include <pacini/foundation/Units.h>
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -29,7 +31,7 @@ double strengthOf(Variable variable, double value) noexcept
 {
     if (variable == Variable::level)
         return value;
-    const double strength = 20.0 * std::log10(value);
+    const double strength = Decibels::fromGain(value).value;
     return easierBelow(variable) ? -strength : strength;
 }
 
@@ -37,7 +39,7 @@ double valueOf(Variable variable, double strength) noexcept
 {
     if (variable == Variable::level)
         return strength;
-    return std::pow(10.0, (easierBelow(variable) ? -strength : strength) / 20.0);
+    return Decibels((easierBelow(variable) ? -strength : strength)).gain();
 }
 
 std::size_t stimulusNamed(const Study& study, std::string_view name)

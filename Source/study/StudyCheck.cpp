@@ -3,6 +3,8 @@
 #include "study/Exposure.h"
 #include "study/Plan.h"
 
+#include <pacini/foundation/Units.h>
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -267,7 +269,7 @@ double differenceDecibels(const std::vector<float>& a, const std::vector<float>&
         difference += (x - y) * (x - y);
         energy += 0.5 * (x * x + y * y);
     }
-    return difference > 0.0 ? 10.0 * std::log10(difference / energy) : -std::numeric_limits<double>::infinity();
+    return difference > 0.0 ? Decibels::fromPower(difference / energy).value : -std::numeric_limits<double>::infinity();
 }
 
 StudyCheck checkStudy(const Study& study, const StimulusParams& params, const std::function<void(double)>& progress)

@@ -1,6 +1,7 @@
 #include "study/TrialSound.h"
 
 #include <pacini/foundation/Gaussian.h>
+#include <pacini/foundation/Units.h>
 
 #include <algorithm>
 #include <cmath>
@@ -110,7 +111,7 @@ void addMasking(std::span<float> sound, const Masking& masking, int sampleRate, 
     }
     if (!(power > 0.0))
         return;
-    const double gain = std::pow(10.0, masking.level / 20.0) / std::sqrt(power / static_cast<double>(noise.size()));
+    const double gain = Decibels(masking.level).gain() / std::sqrt(power / static_cast<double>(noise.size()));
     const double fade = 0.05 * fs;
     for (std::size_t n = 0; n < noise.size(); ++n)
     {

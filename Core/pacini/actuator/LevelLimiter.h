@@ -87,7 +87,7 @@ public:
         if (passes)
             return;
         lastCall.level = smallest < 1.0;
-        lastCall.gainReduction = -20.0 * std::log10(smallest);
+        lastCall.gainReduction = -Decibels::fromGain(smallest).value;
     }
 
     [[nodiscard]] std::size_t latencyFrames() const noexcept { return latency; }

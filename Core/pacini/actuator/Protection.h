@@ -11,6 +11,7 @@
 #include <pacini/foundation/Clamp.h>
 #include <pacini/foundation/DspBlock.h>
 #include <pacini/foundation/Pair.h>
+#include <pacini/foundation/Units.h>
 
 #include <algorithm>
 #include <array>
@@ -148,7 +149,7 @@ public:
             begin += frames;
             flush();
         }
-        lastCall.gainReduction = -20.0 * std::log10(smallestGain);
+        lastCall.gainReduction = -Decibels::fromGain(smallestGain).value;
     }
 
     [[nodiscard]] std::size_t latencyFrames() const noexcept { return latency; }

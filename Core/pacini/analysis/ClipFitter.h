@@ -5,6 +5,7 @@
 #include <pacini/analysis/BandAnalysis.h>
 #include <pacini/analysis/CurveFitter.h>
 #include <pacini/clip/Clip.h>
+#include <pacini/foundation/Units.h>
 
 #include <algorithm>
 #include <cmath>
@@ -74,7 +75,7 @@ private:
                 total[i] += noisePower(k, i);
         std::vector<double> level(n);
         for (std::size_t i = 0; i < n; ++i)
-            level[i] = std::max(0.0, 1.0 - 10.0 * std::log10(total[i] * gain * gain) / floorDecibels);
+            level[i] = std::max(0.0, 1.0 - Decibels::fromPower(total[i] * gain * gain).value / floorDecibels);
         PitchTrack centroid(n);
         for (std::size_t k = 0; k < clip.bands.size(); ++k)
         {

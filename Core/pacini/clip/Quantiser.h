@@ -2,6 +2,8 @@
 
 // Quantisers of time, level and pitch: the grids that clips are stored on.
 
+#include <pacini/foundation/Units.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -72,7 +74,7 @@ public:
     {
         if (!(amplitude > 0.0))
             return 0;
-        const double c = static_cast<double>(top) + std::round(20.0 * std::log10(amplitude) / step);
+        const double c = static_cast<double>(top) + std::round(Decibels::fromGain(amplitude).value / step);
         return static_cast<std::int64_t>(std::clamp(c, 0.0, 1e9));
     }
     [[nodiscard]] double value(std::int64_t code) const noexcept
@@ -80,8 +82,7 @@ public:
         if (code <= 0)
             return 0.0;
         // Limited before it is rounded: a damaged file can hold any code.
-        return roundedToDigits(std::min(highest, std::pow(10.0, static_cast<double>(code - top) * step / 20.0)),
-                               digits);
+        return roundedToDigits(std::min(highest, Decibels(static_cast<double>(code - top) * step).gain()), digits);
     }
 
 private:

@@ -9,6 +9,7 @@
 #include <pacini/evaluate/SourcePreparation.h>
 #include <pacini/foundation/DotProduct.h>
 #include <pacini/foundation/Result.h>
+#include <pacini/foundation/Units.h>
 
 #include <algorithm>
 #include <cmath>
@@ -45,7 +46,7 @@ inline constexpr double sensationRange = 35.0; // dB between threshold and the s
 /// Sensation level in dB, 0 and above: the strongest value of the reference lies at sensationRange.
 [[nodiscard]] inline double sensationLevel(double value, double strongest) noexcept
 {
-    return std::max(0.0, sensationRange + 20.0 * std::log10(std::max(value, 1e-12) / strongest));
+    return std::max(0.0, sensationRange + Decibels::fromGain(std::max(value, 1e-12) / strongest).value);
 }
 
 /// 1 - weighted mean of level differences, with a dead zone of the just noticeable 1.5 dB and saturation at 12 dB; the
@@ -177,8 +178,9 @@ inline void addEnvelopes(LevelSimilarity& similarity, std::span<const float> ref
 
     // Share of the source that is in the range of touch at all.
     const double tactile =
-        translation ? std::clamp(1.0 + 20.0 * std::log10(strongestFelt / strongest) / detail::sensationRange, 0.0, 1.0)
-                    : 1.0;
+        translation
+            ? std::clamp(1.0 + Decibels::fromGain(strongestFelt / strongest).value / detail::sensationRange, 0.0, 1.0)
+            : 1.0;
     const double weighted =
         0.35 * wide.value() + 0.25 * skill + tactile * (0.20 * band.value() + 0.20 * spectrum.value());
     return {100.0 * weighted / (0.60 + 0.40 * tactile), wide.value(), band.value(), spectrum.value(), skill};

@@ -11,6 +11,7 @@
 #include <pacini/evaluate/Segmentation.h>
 #include <pacini/foundation/DotProduct.h>
 #include <pacini/foundation/SplitRealFft.h>
+#include <pacini/foundation/Units.h>
 #include <pacini/foundation/Windows.h>
 
 #include <algorithm>
@@ -218,7 +219,7 @@ public:
         {
             const double least = 1e-20 / (features.scale * features.scale);
             features.outOfBand =
-                10.0 * std::log10(std::max(energies.outside, least) / std::max(energies.inside, least));
+                Decibels::fromPower(std::max(energies.outside, least) / std::max(energies.inside, least)).value;
         }
         for (const std::size_t peak : detectRises({onsets.wide, onsets.low, onsets.high}, RiseDetectorParams{}))
             features.onsets.push_back(std::max((static_cast<double>(peak) - 5.0) / 1000.0, 0.0)); // middle of the rise

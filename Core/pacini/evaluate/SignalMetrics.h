@@ -7,6 +7,7 @@
 #include <pacini/filters/Resampler.h>
 #include <pacini/foundation/DotProduct.h>
 #include <pacini/foundation/Result.h>
+#include <pacini/foundation/Units.h>
 
 #include <algorithm>
 #include <array>
@@ -68,7 +69,7 @@ struct EnvelopeSums
     [[nodiscard]] double snr(double gain) const noexcept
     {
         const double error = reference - 2.0 * gain * cross + gain * gain * candidate;
-        return 10.0 * std::log10(std::max(reference, 1e-300) / std::max(error, 1e-300));
+        return Decibels::fromPower(std::max(reference, 1e-300) / std::max(error, 1e-300)).value;
     }
 };
 
@@ -145,7 +146,7 @@ inline void compareBands(const SignalFeatures& reference, const SignalFeatures& 
             const double c = powerGain * static_cast<double>(candidate.thirdOctaves[k][t]);
             if (!(r > floor || c > floor))
                 continue;
-            const double difference = 10.0 * std::log10(std::max(r, floor) / std::max(c, floor));
+            const double difference = Decibels::fromPower(std::max(r, floor) / std::max(c, floor)).value;
             squares += difference * difference;
             ++cells;
         }
@@ -230,7 +231,7 @@ inline void compareCentroids(const SignalFeatures& reference, const SignalFeatur
     measures.lag = detail::envelopeLag(reference.wide, candidate.wide);
     measures.outOfBand = candidate.outOfBand;
     if (gain > 0.0)
-        measures.gain = 20.0 * std::log10(gain * reference.scale / candidate.scale);
+        measures.gain = Decibels::fromGain(gain * reference.scale / candidate.scale).value;
     return measures;
 }
 

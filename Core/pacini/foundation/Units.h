@@ -31,7 +31,7 @@ struct Seconds
     [[nodiscard]] constexpr double frames(double fs) const noexcept { return value * fs; }
 };
 
-/// A level ratio of amplitudes in decibels (20 log10).
+/// A level ratio in decibels: 20 log10 of amplitudes, 10 log10 of powers.
 struct Decibels
 {
     double value{};
@@ -45,6 +45,10 @@ struct Decibels
 
     /// The level of an amplitude ratio; minus infinity for 0.
     [[nodiscard]] static Decibels fromGain(double gain) noexcept { return Decibels(20.0 * std::log10(gain)); }
+
+    /// The same for powers.
+    [[nodiscard]] double power() const noexcept { return std::pow(10.0, value / 10.0); }
+    [[nodiscard]] static Decibels fromPower(double power) noexcept { return Decibels(10.0 * std::log10(power)); }
 };
 
 inline namespace literals

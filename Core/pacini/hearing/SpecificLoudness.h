@@ -2,6 +2,7 @@
 
 // Loudness along the basilar membrane from third-octave levels, by Zwicker's method (ISO 532-1).
 
+#include <pacini/foundation/Units.h>
 #include <pacini/hearing/ThirdOctaveLevels.h>
 
 #include <algorithm>
@@ -151,7 +152,8 @@ private:
     for (std::size_t band = 0; band < detail::criticalBands.size(); ++band)
     {
         const auto& ear = detail::criticalBands[band];
-        const double excitation = (band < 3 ? 10.0 * std::log10(low[band]) : levels[band + 8]) - ear.transmission;
+        const double excitation =
+            (band < 3 ? Decibels::fromPower(low[band]).value : levels[band + 8]) - ear.transmission;
         if (!(excitation > ear.threshold))
             continue;
         constexpr double s = 0.25;

@@ -3,6 +3,7 @@
 // Levels of 28 third-octave bands over time, as the ear's model of ISO 532-1 takes them in.
 
 #include <pacini/foundation/DspBlock.h>
+#include <pacini/foundation/Units.h>
 #include <pacini/hearing/ThirdOctaveTables.h>
 
 #include <algorithm>
@@ -78,7 +79,7 @@ private:
     {
         BandLevels levels;
         for (std::size_t k = 0; k < bands; ++k)
-            levels[k] = 10.0 * std::log10((smooth[2][k] + 1e-12) / 4e-10);
+            levels[k] = Decibels::fromPower((smooth[2][k] + 1e-12) / 4e-10).value;
         return levels;
     }
 

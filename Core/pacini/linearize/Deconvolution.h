@@ -4,6 +4,7 @@
 
 #include <pacini/foundation/Fft.h>
 #include <pacini/foundation/SplitRealFft.h>
+#include <pacini/foundation/Units.h>
 #include <pacini/linearize/Sweep.h>
 
 #include <algorithm>
@@ -51,7 +52,7 @@ public:
         double largest = 0.0;
         for (std::size_t k = 0; k < x.re.size(); ++k)
             largest = std::max(largest, x.re[k] * x.re[k] + x.im[k] * x.im[k]);
-        const double added = std::max(largest * std::pow(10.0, regularisation / 10.0), 1e-300);
+        const double added = std::max(largest * Decibels(regularisation).power(), 1e-300);
         for (std::size_t k = 0; k < x.re.size(); ++k)
         {
             const double scale = 1.0 / (x.re[k] * x.re[k] + x.im[k] * x.im[k] + added);

@@ -3,6 +3,7 @@
 // Cost of an equalizer for its actuator: power in the coil and travel of the mass.
 
 #include <pacini/actuator/Profile.h>
+#include <pacini/foundation/Units.h>
 #include <pacini/linearize/EqualizerCurve.h>
 
 #include <algorithm>
@@ -62,8 +63,8 @@ struct EqualizerCost
             cost.excursionFrequency = f;
         }
     }
-    cost.powerChange = 10.0 * std::log10(equalized / plain);
-    cost.excursionChange = 20.0 * std::log10(farthest / farthestPlain);
+    cost.powerChange = Decibels::fromPower(equalized / plain).value;
+    cost.excursionChange = Decibels::fromGain(farthest / farthestPlain).value;
     const ActuatorDrive& drive = profile.drive;
     if (drive.impedance && drive.maxVoltageRms)
         cost.power = *drive.maxVoltageRms * *drive.maxVoltageRms / *drive.impedance * equalized / plain;

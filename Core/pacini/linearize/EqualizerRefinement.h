@@ -2,6 +2,7 @@
 
 // Levenberg-Marquardt refinement: moves equalizer sections to the nearest least-squares fit.
 
+#include <pacini/foundation/Units.h>
 #include <pacini/linearize/EqualizerFitProblem.h>
 
 #include <Eigen/Cholesky>
@@ -46,7 +47,7 @@ public:
         for (const EqualizerSection& section : sections)
             SectionCurve(section, problem.fs).multiply(problem.warped, curve);
         for (double& value : curve)
-            value = 10.0 * std::log10(value);
+            value = Decibels::fromPower(value).value;
         return curve;
     }
 

@@ -282,7 +282,7 @@ inline void addTo(HalfSpectrum& sum, const HalfSpectrum& more, double weight)
     constexpr double leastPower = 1e-30; // -300 dB: digital silence
     const auto decibels = [=](double power)
     {
-        return 10.0 * std::log10(std::max(power, leastPower));
+        return Decibels::fromPower(std::max(power, leastPower)).value;
     };
     struct Smoothed
     {
@@ -302,7 +302,7 @@ inline void addTo(HalfSpectrum& sum, const HalfSpectrum& more, double weight)
     out.noise.frequency = out.snr.frequency = out.response.frequency;
     const auto linear = smoothed(responses.linear);
     std::vector<double> fundamental; // power at the drive played
-    const double driven = std::pow(10.0, level / 10.0);
+    const double driven = Decibels(level).power();
     for (const double f : frequency)
     {
         const double power = linear.power.at(f, smoothing);

@@ -3,6 +3,7 @@
 // Resonance fit: frequency and Q of a measured response.
 
 #include <pacini/foundation/Result.h>
+#include <pacini/foundation/Units.h>
 #include <pacini/linearize/FrequencyResponse.h>
 
 #include <algorithm>
@@ -28,14 +29,14 @@ struct ResonanceModel
     {
         constexpr int steps = 16; // of Simpson's rule: 1/100 of a dB for Q 40 under 1/12 octave
         if (!(octaves > 0.0))
-            return gain + 10.0 * std::log10(power(f));
+            return gain + Decibels::fromPower(power(f)).value;
         double sum = 0.0;
         for (int i = 0; i <= steps; ++i)
         {
             const double weight = i == 0 || i == steps ? 1.0 : (i % 2 == 1 ? 4.0 : 2.0);
             sum += weight * power(f * std::exp2(octaves * (static_cast<double>(i) / steps - 0.5)));
         }
-        return gain + 10.0 * std::log10(sum / (3.0 * steps));
+        return gain + Decibels::fromPower(sum / (3.0 * steps)).value;
     }
 
 private:

@@ -4,6 +4,7 @@
 
 #include <pacini/actuator/BodyModel.h>
 #include <pacini/foundation/Gaussian.h>
+#include <pacini/foundation/Units.h>
 
 #include <algorithm>
 #include <array>
@@ -127,7 +128,8 @@ namespace detail
 [[nodiscard]] inline double rigLevel(const RigParams& params, double f)
 {
     return params.contact +
-           20.0 * std::log10(std::abs(bodyFrequencyResponse(*params.body, params.resonance, Hertz(f), params.point)));
+           Decibels::fromGain(std::abs(bodyFrequencyResponse(*params.body, params.resonance, Hertz(f), params.point)))
+               .value;
 }
 
 } // namespace pacini

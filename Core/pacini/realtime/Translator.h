@@ -7,6 +7,7 @@
 #include <pacini/foundation/DspBlock.h>
 #include <pacini/foundation/HandOver.h>
 #include <pacini/foundation/LargestMagnitude.h>
+#include <pacini/foundation/Units.h>
 #include <pacini/realtime/TranslatorDesign.h>
 #include <pacini/realtime/TranslatorEngine.h>
 #include <pacini/realtime/TranslatorMeters.h>
@@ -125,7 +126,7 @@ public:
             return;
         for (std::size_t k = 0; k < held->content.bands.size(); ++k)
             readings->setBand(k, engine.bandPower(k));
-        readings->setOutput(peak, std::max(reduction, -20.0 * std::log10(engine.takeLimiterGain())));
+        readings->setOutput(peak, std::max(reduction, -Decibels::fromGain(engine.takeLimiterGain()).value));
     }
 
     /// Frames by which the drive is later than the sound.

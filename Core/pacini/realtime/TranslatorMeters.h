@@ -2,6 +2,7 @@
 
 // Meters of the translator.
 
+#include <pacini/foundation/Units.h>
 #include <pacini/realtime/TranslatorSetup.h>
 
 #include <array>
@@ -38,14 +39,15 @@ public:
         TranslatorMeterReading reading;
         reading.bands = bands.load(std::memory_order_relaxed);
         for (std::size_t k = 0; k < reading.bands; ++k)
-            reading.bandLevels[k] = 10.0 * std::log10(static_cast<double>(powers[k].load(std::memory_order_relaxed)));
+            reading.bandLevels[k] =
+                Decibels::fromPower(static_cast<double>(powers[k].load(std::memory_order_relaxed))).value;
         reading.events = events.load(std::memory_order_acquire);
         reading.lastEventFrame = lastEventFrame.load(std::memory_order_relaxed);
         reading.lastEventLevel = static_cast<double>(lastEventLevel.load(std::memory_order_relaxed));
         reading.outputPeak = static_cast<double>(outputPeak.load(std::memory_order_relaxed));
         reading.gainReduction = static_cast<double>(gainReduction.load(std::memory_order_relaxed));
-        reading.overThreshold =
-            20.0 * std::log10(reading.outputPeak) + static_cast<double>(feltRange.load(std::memory_order_relaxed));
+        reading.overThreshold = Decibels::fromGain(reading.outputPeak).value +
+                                static_cast<double>(feltRange.load(std::memory_order_relaxed));
         return reading;
     }
 

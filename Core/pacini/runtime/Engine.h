@@ -5,6 +5,7 @@
 #include <pacini/foundation/Clamp.h>
 #include <pacini/foundation/Glide.h>
 #include <pacini/foundation/Ring.h>
+#include <pacini/foundation/Units.h>
 #include <pacini/runtime/ActuatorKind.h>
 #include <pacini/runtime/EngineParams.h>
 #include <pacini/runtime/LiveCommand.h>
@@ -311,7 +312,7 @@ public:
         read.leftOut = leftOutNow.load(std::memory_order_relaxed);
         read.cost = costNow.load(std::memory_order_relaxed);
         const double all = energyAll.load(std::memory_order_relaxed), out = energyOut.load(std::memory_order_relaxed);
-        read.leftOutError = out > 0.0 ? 10.0 * std::log10(out / all) : -1000.0;
+        read.leftOutError = out > 0.0 ? Decibels::fromPower(out / all).value : -1000.0;
         read.gainReduction = reductionNow.load(std::memory_order_relaxed);
         return read;
     }

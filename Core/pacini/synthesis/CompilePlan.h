@@ -4,6 +4,7 @@
 
 #include <pacini/actuator/ActuatorFit.h>
 #include <pacini/foundation/DspBlock.h>
+#include <pacini/foundation/Units.h>
 #include <pacini/synthesis/ClipAdaptation.h>
 #include <pacini/synthesis/CompileParams.h>
 #include <pacini/synthesis/Culling.h>
@@ -329,9 +330,9 @@ inline Result<void> planPlays(RenderPlan& plan, const Scene& scene, const std::v
             whole += energy.least;
         double lost = detail::leaveOutWeak(plan, scene, energies, whole, params.tolerance);
         if (plan.profile)
-            lost +=
-                whole * wholeError *
-                detail::leaveOutFlatSections(plan, params.tolerance - 10.0 * std::log10(wholeError), params.sampleRate);
+            lost += whole * wholeError *
+                    detail::leaveOutFlatSections(plan, params.tolerance - Decibels::fromPower(wholeError).value,
+                                                 params.sampleRate);
         plan.predictedError = detail::errorInDecibels(lost, whole);
     }
     std::stable_sort(plan.plays.begin(), plan.plays.end(),

@@ -4,6 +4,7 @@
 
 #include <pacini/actuator/EqualizerPruning.h>
 #include <pacini/foundation/Result.h>
+#include <pacini/foundation/Units.h>
 #include <pacini/synthesis/PlayEnergy.h>
 #include <pacini/synthesis/RenderPlan.h>
 #include <pacini/synthesis/Scene.h>
@@ -54,7 +55,8 @@ private:
 
 inline double errorInDecibels(double energy, double whole)
 {
-    return energy > 0.0 && whole > 0.0 ? 10.0 * std::log10(energy / whole) : -std::numeric_limits<double>::infinity();
+    return energy > 0.0 && whole > 0.0 ? Decibels::fromPower(energy / whole).value
+                                       : -std::numeric_limits<double>::infinity();
 }
 
 /// Candidate for culling: a whole play or one band of it, and what leaving it out costs at most.
@@ -111,7 +113,7 @@ inline double leaveOutWeak(RenderPlan& plan, const Scene& scene, std::span<const
 {
     // An equaliser may take a quarter of the energy, which is half of the amplitude (leaveOutFlatSections).
     const double share = plan.profile && !plan.profile->equalizer.empty() ? 0.7 : 1.0;
-    const double bearable = share * whole * std::pow(10.0, tolerance / 10.0);
+    const double bearable = share * whole * Decibels(tolerance).power();
     ErrorSum error;
     std::vector<bool> playOut(plan.plays.size(), false);
     std::vector<std::vector<bool>> bandOut;
@@ -147,17 +149,17 @@ inline double leaveOutWeak(RenderPlan& plan, const Scene& scene, std::span<const
 inline double leaveOutFlatSections(RenderPlan& plan, double tolerance, double sampleRate)
 {
     // A deviation of some dB everywhere is an error of that part of all the energy.
-    const double bearableGain = 1.0 + 0.5 * std::pow(10.0, tolerance / 20.0);
+    const double bearableGain = 1.0 + 0.5 * Decibels(tolerance).gain();
     PruningParams pruning;
     pruning.lowFrequency = Hertz(plan.profile->range.lowFrequency);
     pruning.highFrequency = Hertz(plan.profile->range.highFrequency);
-    pruning.tolerance = Decibels(std::min(0.1, 20.0 * std::log10(bearableGain) / 4.0));
+    pruning.tolerance = Decibels(std::min(0.1, Decibels::fromGain(bearableGain).value / 4.0));
     const auto pruned = pruneEqualizer(plan.profile->equalizer, pruning, sampleRate);
     for (const DroppedSection& section : pruned.dropped)
         plan.leftOut.push_back({indexed("equalizer", section.index), "is flat in the actuator's range",
-                                20.0 * std::log10(std::pow(10.0, section.deviation / 20.0) - 1.0 + 1e-30)});
+                                Decibels::fromGain(Decibels(section.deviation).gain() - 1.0 + 1e-30).value});
     plan.profile->equalizer = pruned.kept;
-    return std::pow(std::pow(10.0, pruned.predictedError / 20.0) - 1.0, 2.0);
+    return std::pow(Decibels(pruned.predictedError).gain() - 1.0, 2.0);
 }
 
 } // namespace pacini::detail

@@ -3,6 +3,7 @@
 // Gaps before events: what lets an event stand out of what sounds around it.
 
 #include <pacini/clip/Clip.h>
+#include <pacini/foundation/Units.h>
 
 #include <algorithm>
 #include <cmath>
@@ -100,8 +101,8 @@ inline double ringingOut(const Curve& envelope, const Transient& event, double f
         top = std::max(top, point.value);
     for (const Transient& event : events)
         top = std::max(top, event.amplitude);
-    const double unfelt = top * std::pow(10.0, -params.range / 20.0);
-    const double ratio = std::pow(10.0, params.rise / 20.0);
+    const double unfelt = top * Decibels(-params.range).gain();
+    const double ratio = Decibels(params.rise).gain();
 
     Curve result;
     result.reserve(envelope.size() + 5 * events.size());
@@ -115,7 +116,7 @@ inline double ringingOut(const Curve& envelope, const Transient& event, double f
         const double full =
             std::max(event.amplitude, peakOfMean * detail::largestWithin(envelope, event.time, event.time + 0.010));
         const double lowest = peakOfMean * detail::smallestWithin(envelope, event.time - params.reach, event.time);
-        const double rise = 20.0 * std::log10((full + unfelt) / (lowest + unfelt));
+        const double rise = Decibels::fromGain((full + unfelt) / (lowest + unfelt)).value;
         const bool inTrain = since < params.train && rise >= params.trainRise;
         const bool strong = event.amplitude >= params.strongShare * top;
         const double least = strong ? params.strongLeast : params.least;

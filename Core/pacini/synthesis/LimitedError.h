@@ -6,6 +6,7 @@
 #include <pacini/actuator/Profile.h>
 #include <pacini/actuator/ProtectionParams.h>
 #include <pacini/clip/Clip.h>
+#include <pacini/foundation/Units.h>
 #include <pacini/synthesis/PlayClock.h>
 #include <pacini/synthesis/PlayEnergy.h>
 #include <pacini/synthesis/RenderPlan.h>
@@ -251,8 +252,7 @@ class LimiterMemory
 {
 public:
     LimiterMemory(double hold, const TimeCells& cells)
-        : window(cells.covering(hold)),
-          decay(std::pow(10.0, -KneeLimiterGain<HardKnee>::releaseRate * cells.length / 10.0))
+        : window(cells.covering(hold)), decay(Decibels(-KneeLimiterGain<HardKnee>::releaseRate * cells.length).power())
     {
     }
 

@@ -4,6 +4,7 @@
 
 #include <pacini/foundation/Result.h>
 #include <pacini/foundation/SizeInMemory.h>
+#include <pacini/foundation/Units.h>
 #include <pacini/synthesis/CompilePlan.h>
 #include <pacini/synthesis/RenderParams.h>
 #include <pacini/synthesis/RenderPlan.h>
@@ -83,7 +84,8 @@ public:
     }
     [[nodiscard]] double decibels() const
     {
-        return difference > 0.0 ? 10.0 * std::log10(difference / energy) : -std::numeric_limits<double>::infinity();
+        return difference > 0.0 ? Decibels::fromPower(difference / energy).value
+                                : -std::numeric_limits<double>::infinity();
     }
 
 private:

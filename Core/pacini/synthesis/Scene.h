@@ -4,6 +4,7 @@
 
 #include <pacini/clip/Clip.h>
 #include <pacini/foundation/Result.h>
+#include <pacini/foundation/Units.h>
 #include <pacini/synthesis/Roles.h>
 #include <pacini/synthesis/Variation.h>
 
@@ -136,7 +137,7 @@ inline constexpr double playDelay = 1.0;     ///< s
 /// The linear gain of a scene's gain in dB.
 [[nodiscard]] inline double sceneGain(double dB) noexcept
 {
-    return dB <= limits::silentGain ? 0.0 : std::pow(10.0, dB / 20.0);
+    return dB <= limits::silentGain ? 0.0 : Decibels(dB).gain();
 }
 
 /// Range of a parameter, and how it is told.

@@ -10,6 +10,7 @@
 #include <pacini/evaluate/Hts.h>
 #include <pacini/evaluate/HtsAnalyzer.h>
 #include <pacini/evaluate/match/MatchParts.h>
+#include <pacini/foundation/Units.h>
 #include <pacini/synthesis/RenderScene.h>
 
 #include <fmt/format.h>
@@ -118,7 +119,8 @@ double levelOf(const std::vector<float>& signal)
     double energy = 0.0;
     for (const float v : signal)
         energy += static_cast<double>(v) * static_cast<double>(v);
-    return 10.0 * std::log10(std::max(energy / static_cast<double>(std::max<std::size_t>(signal.size(), 1)), 1e-12));
+    return Decibels::fromPower(std::max(energy / static_cast<double>(std::max<std::size_t>(signal.size(), 1)), 1e-12))
+        .value;
 }
 
 void measureActuators(const BenchSound& sound, const BenchSettings& settings, BenchTable& rows)

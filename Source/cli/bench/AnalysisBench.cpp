@@ -8,6 +8,7 @@
 #include <pacini/filters/FilterBank.h>
 #include <pacini/filters/RationalDecimator.h>
 #include <pacini/foundation/Fft.h>
+#include <pacini/foundation/Units.h>
 
 #include <fmt/format.h>
 
@@ -194,7 +195,7 @@ double envelopeSnr(const Envelopes& wanted, const Envelopes& found, double lag)
     if (!(rr > 0.0))
         return 0.0;
     const double left = cc > 0.0 ? rr - rc * rc / cc : rr;
-    return std::min(60.0, 10.0 * std::log10(rr / std::max(left, 1e-300)));
+    return std::min(60.0, Decibels::fromPower(rr / std::max(left, 1e-300)).value);
 }
 
 EnvelopeAgreement agreement(const Envelopes& wanted, const Envelopes& found)

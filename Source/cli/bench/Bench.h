@@ -6,6 +6,8 @@
 #include "cli/bench/BenchSound.h"
 #include "cli/bench/BenchTable.h"
 
+#include <pacini/foundation/Units.h>
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -60,7 +62,7 @@ struct Bench
 /// The RMS error that a signal-to-noise ratio (dB) means, in % of the signal.
 [[nodiscard]] inline double errorShare(double snr)
 {
-    return 100.0 * std::pow(10.0, -snr / 20.0);
+    return 100.0 * Decibels(-snr).gain();
 }
 
 [[nodiscard]] Bench simplifyBench();

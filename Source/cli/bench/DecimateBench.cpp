@@ -5,6 +5,7 @@
 #include <pacini/analysis/BandAnalysis.h>
 #include <pacini/filters/RationalDecimator.h>
 #include <pacini/filters/Resampler.h>
+#include <pacini/foundation/Units.h>
 
 #include <algorithm>
 #include <cmath>
@@ -45,7 +46,7 @@ double snrBetween(const Spectrum& ideal, const Spectrum& found, std::size_t outp
             energy += std::norm(ideal[b]);
             difference += std::norm(ideal[b] - found[b]);
         }
-    return energy > 0.0 ? std::min(150.0, 10.0 * std::log10(energy / std::max(difference, 1e-300))) : 150.0;
+    return energy > 0.0 ? std::min(150.0, Decibels::fromPower(energy / std::max(difference, 1e-300)).value) : 150.0;
 }
 
 void measureDecimate(const BenchSound& sound, const BenchSettings& settings, BenchTable& rows)

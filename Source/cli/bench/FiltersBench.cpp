@@ -4,6 +4,7 @@
 
 #include <pacini/filters/StateVariable.h>
 #include <pacini/foundation/Random.h>
+#include <pacini/foundation/Units.h>
 
 #include <fmt/format.h>
 
@@ -217,7 +218,7 @@ void measureFilters(const BenchSound&, const BenchSettings& settings, BenchTable
                 if (std::isfinite(share))
                 {
                     error = 100.0 * share;
-                    level = 20.0 * std::log10(share);
+                    level = Decibels::fromGain(share).value;
                 }
                 rows.add({"noise and tone", fmt::format("{:g} kHz", place.fs / 1e3),
                           fmt::format("{:g} Hz", place.frequency), fmt::format("Q {:g}", q), form.name,

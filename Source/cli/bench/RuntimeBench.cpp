@@ -2,6 +2,7 @@
 
 #include <pacini/analysis/EncodeSound.h>
 #include <pacini/foundation/Random.h>
+#include <pacini/foundation/Units.h>
 #include <pacini/runtime/Engine.h>
 
 #include <algorithm>
@@ -77,7 +78,7 @@ RuntimeRun runtimeRun(const Clips& clips, std::size_t actuators, double budget, 
             settings.from = random.uniform(0.0, settings.loop);
             settings.controls.transposition = random.uniform(-6.0, 6.0);
             settings.controls.pan = random.uniform(0.0, 1.0);
-            settings.controls.gain = 0.1 * std::pow(10.0, random.uniform(-40.0, 0.0) / 20.0);
+            settings.controls.gain = 0.1 * Decibels(random.uniform(-40.0, 0.0)).gain();
             settings.variation.amount = 0.3;
             settings.variation.seed = p;
             if (!(*engine)->play(clip, settings))
@@ -118,7 +119,7 @@ double runtimeError(const RuntimeRun& found, const RuntimeRun& whole)
             energy += x * x;
             difference += d * d;
         }
-    return 10.0 * std::log10(difference / energy);
+    return Decibels::fromPower(difference / energy).value;
 }
 
 void measureRuntime(const BenchSound& sound, const BenchSettings& settings, BenchTable& rows)

@@ -3,6 +3,7 @@
 
 #include <pacini/analysis/EncodeSound.h>
 #include <pacini/foundation/Random.h>
+#include <pacini/foundation/Units.h>
 #include <pacini/synthesis/RenderScene.h>
 
 #include <fmt/format.h>
@@ -68,7 +69,7 @@ double errorOf(const std::vector<float>& found, const std::vector<float>& whole)
         energy += static_cast<double>(whole[i]) * static_cast<double>(whole[i]);
         difference += d * d;
     }
-    return difference > 0.0 ? 10.0 * std::log10(difference / energy) : -std::numeric_limits<double>::infinity();
+    return difference > 0.0 ? Decibels::fromPower(difference / energy).value : -std::numeric_limits<double>::infinity();
 }
 
 /// Nothing to take a mean of where nothing is lost.

@@ -2,6 +2,7 @@
 #include "cli/bench/Timed.h"
 
 #include <pacini/analysis/EncodeSound.h>
+#include <pacini/foundation/Units.h>
 #include <pacini/synthesis/CarrierBank.h>
 #include <pacini/synthesis/Decoder.h>
 
@@ -27,7 +28,7 @@ double snr(const Signal& wanted, const Signal& found)
         energy += wanted[i] * wanted[i];
         difference += (wanted[i] - found[i]) * (wanted[i] - found[i]);
     }
-    return energy > 0.0 ? std::min(300.0, 10.0 * std::log10(energy / std::max(difference, 1e-300))) : 300.0;
+    return energy > 0.0 ? std::min(300.0, Decibels::fromPower(energy / std::max(difference, 1e-300)).value) : 300.0;
 }
 
 /// The sinusoids of a clip over frames of the output rate.

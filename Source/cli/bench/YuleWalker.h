@@ -4,6 +4,7 @@
 
 #include "cli/bench/EqualizerTarget.h"
 
+#include <pacini/foundation/Units.h>
 #include <pacini/linearize/EqualizerSearch.h>
 
 #include <Eigen/Core>
@@ -154,7 +155,7 @@ namespace detail
         sum += std::log10(power[k] / found);
     }
     const double gain = 10.0 * sum / static_cast<double>(size);
-    const double highest = 10.0 * std::log10(largest);
+    const double highest = Decibels::fromPower(largest).value;
     fit.boost = std::min(highest + gain, params.maxBoost);
     for (double& b : fit.numerator)
         b *= Decibels(fit.boost - highest).gain();

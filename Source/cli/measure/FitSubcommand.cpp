@@ -10,6 +10,7 @@
 #include "io/Stopwatch.h"
 
 #include <pacini/foundation/ParseNumber.h>
+#include <pacini/foundation/Units.h>
 #include <pacini/linearize/EqualizerCost.h>
 #include <pacini/linearize/EqualizerFit.h>
 #include <pacini/linearize/EqualizerFitParams.h>
@@ -287,7 +288,7 @@ Result<std::size_t> FitSubcommand::drawPicture(const FrequencyResponse& response
     FrequencyResponse after = response;
     const auto filter = designEqualizer(fit.sections, rate);
     for (std::size_t i = 0; i < after.size(); ++i)
-        after.level[i] += 20.0 * std::log10(std::abs(filter.response(Hertz(after.frequency[i]), rate)));
+        after.level[i] += Decibels::fromGain(std::abs(filter.response(Hertz(after.frequency[i]), rate))).value;
     content.responses = {{"measured", response, plot::ResponseRole::measured},
                          {"with the equaliser", std::move(after), plot::ResponseRole::flattened}};
     const plot::FigureStyle style;

@@ -2,6 +2,8 @@
 
 #include "cli/plot/ShownCurve.h"
 
+#include <pacini/foundation/Units.h>
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -74,7 +76,7 @@ std::string decibelText(double amplitude)
 {
     if (amplitude <= 0.0)
         return "silent";
-    const double level = std::round(20.0 * std::log10(amplitude)) + 0.0;
+    const double level = std::round(Decibels::fromGain(amplitude).value) + 0.0;
     return fmt::format("{}{:.0f} dB", level < 0.0 ? "\u2212" : "", std::abs(level));
 }
 } // namespace

@@ -7,6 +7,7 @@
 #include <pacini/actuator/MotorDrive.h>
 #include <pacini/actuator/OutputFilter.h>
 #include <pacini/actuator/Wearer.h>
+#include <pacini/foundation/Units.h>
 
 #include <fmt/format.h>
 
@@ -53,7 +54,7 @@ std::vector<double> shownFrequencies(const Profile& profile)
 
 double decibels(double gain)
 {
-    return 20.0 * std::log10(std::max(gain, 1e-30));
+    return Decibels::fromGain(std::max(gain, 1e-30)).value;
 }
 
 /// m/s^2 at full drive on a wearer, dB, at the frequencies that the actuator reaches.

@@ -149,7 +149,7 @@ Panel equalizerPanel(const ResponseFigureContent& content, const Axis& frequency
     Line marks{"sections", {}, {}, Marker{MarkerShape::circle, look.theme.series(1)}};
     const auto gainAt = [&](double f)
     {
-        return 20.0 * std::log10(std::max(std::abs(filter.response(Hertz(f), content.sampleRate)), 1e-10));
+        return Decibels::fromGain(std::max(std::abs(filter.response(Hertz(f), content.sampleRate)), 1e-10)).value;
     };
     for (int i = 0; i < count; ++i)
     {

@@ -4,6 +4,7 @@
 #include "cli/plot/ShownCurve.h"
 #include "io/JsonText.h"
 
+#include <pacini/foundation/Units.h>
 #include <pacini/synthesis/SceneTimeline.h>
 #include <pacini/synthesis/SingleVoice.h>
 
@@ -305,7 +306,7 @@ Panel gainsPanel(const Scene& scene, const SceneTimeline& timeline, const std::v
         for (const Breakpoint& point : timed.timeline.gains.front())
         {
             const double level = gainAt(timed.timeline, point.time) / std::max(whole, 1e-9);
-            gain.push_back({point.time, std::max(20.0 * std::log10(std::max(level, 1e-9)), quietest)});
+            gain.push_back({point.time, std::max(Decibels::fromGain(std::max(level, 1e-9)).value, quietest)});
         }
         std::vector<Point> points;
         for (const Point& point :

@@ -5,6 +5,7 @@
 #include "document/view/MonoSource.h"
 
 #include <pacini/foundation/Fft.h>
+#include <pacini/foundation/Units.h>
 #include <pacini/foundation/Windows.h>
 
 #include <algorithm>
@@ -46,7 +47,7 @@ struct SpectrumLevel
 
     [[nodiscard]] static double decibelsOf(double power) noexcept
     {
-        return power > 0.0 ? std::max(floor, 10.0 * std::log10(power)) : floor;
+        return power > 0.0 ? std::max(floor, Decibels::fromPower(power).value) : floor;
     }
     [[nodiscard]] static std::uint8_t byteOf(double level) noexcept
     {

@@ -4,6 +4,8 @@
 
 #include "document/view/ValueAxis.h"
 
+#include <pacini/foundation/Units.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -27,14 +29,14 @@ namespace pacini
     };
     if (axis.scale == ValueScale::decibels)
     {
-        const double perDecibel = axis.height / (20.0 * std::log10(axis.high / axis.low));
-        const double lowest = 20.0 * std::log10(axis.low);
+        const double perDecibel = axis.height / Decibels::fromGain(axis.high / axis.low).value;
+        const double lowest = Decibels::fromGain(axis.low).value;
         for (const double step : {3.0, 6.0, 12.0, 20.0, 30.0})
             if (step * perDecibel >= gap)
             {
-                for (double level = -step * std::floor(-lowest / step); level <= 20.0 * std::log10(axis.high);
+                for (double level = -step * std::floor(-lowest / step); level <= Decibels::fromGain(axis.high).value;
                      level += step)
-                    add(std::pow(10.0, level / 20.0));
+                    add(Decibels(level).gain());
                 break;
             }
         return ticks;

@@ -2,6 +2,8 @@
 
 #include "io/formats/LossList.h"
 
+#include <pacini/foundation/Units.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -83,7 +85,7 @@ public:
                 played += inPulse ? square(ducking) * power[n] + pulse : power[n];
             }
             constexpr double width = 2 * half + 1;
-            sum += std::abs(10.0 * std::log10((played / width + least) / (voice / width + least)));
+            sum += std::abs(Decibels::fromPower((played / width + least) / (voice / width + least)).value);
         }
         return sum / static_cast<double>(count);
     }

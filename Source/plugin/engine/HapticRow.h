@@ -7,6 +7,7 @@
 #include "plugin/engine/Panorama.h"
 #include "plugin/engine/ParameterValues.h"
 
+#include <pacini/foundation/Units.h>
 #include <pacini/synthesis/DelayTap.h>
 #include <pacini/synthesis/PlayTimeline.h>
 
@@ -65,7 +66,7 @@ public:
         {
             Aim& each = aims[c];
             const double dB = values[channelParameter(c, ChannelSetting::gain)];
-            each.gain = dB <= rowOf(channelParameter(c, ChannelSetting::gain)).low ? 0.0 : std::pow(10.0, dB / 20.0);
+            each.gain = dB <= rowOf(channelParameter(c, ChannelSetting::gain)).low ? 0.0 : Decibels(dB).gain();
             each.delay = 0.001 * values[channelParameter(c, ChannelSetting::delay)] * fs;
             each.place = asSet ? values[channelParameter(c, ChannelSetting::place)] : RowPlaces::placeOf(c, count);
             spots[c] = each.place;

@@ -6,6 +6,8 @@
 #include "editor/Translation.h"
 #include "io/ShippedProfiles.h"
 
+#include <pacini/foundation/Units.h>
+
 #include <cmath>
 
 namespace pacini::plugin
@@ -118,7 +120,7 @@ void ActuatorsPage::refresh()
         row.gain->setEnabled(isThere);
         row.delay->setEnabled(isThere);
         row.meter->setEnabled(isThere);
-        row.meter->show(isThere ? 20.0 * std::log10(static_cast<double>(processor.takePeak(c))) : -1000.0);
+        row.meter->show(isThere ? Decibels::fromGain(static_cast<double>(processor.takePeak(c))).value : -1000.0);
     }
     outputCount->setEnabled(values.index(ParameterId::outputMode) ==
                             static_cast<std::size_t>(OutputMode::addToChannel));

@@ -5,6 +5,8 @@
 #include "editor/Translation.h"
 #include "io/ShippedProfiles.h"
 
+#include <pacini/foundation/Units.h>
+
 #include <cmath>
 #include <limits>
 
@@ -311,14 +313,14 @@ void PluginWindow::refresh()
 void PluginWindow::showMeters()
 {
     const auto reading = processor.readMeters();
-    inputMeter.show(20.0 * std::log10(static_cast<double>(processor.takeInputPeak())));
+    inputMeter.show(Decibels::fromGain(static_cast<double>(processor.takeInputPeak())).value);
     lamp.show(reading.events, reading.lastEventLevel);
     bands.add(reading);
     if (!outputMeter.isVisible())
         return; // another page reads the peaks
     // What leaves the output: in bypass, or where no output has the drive, nothing does.
     const auto peak = static_cast<double>(processor.takePeak(0));
-    outputMeter.show(20.0 * std::log10(peak));
+    outputMeter.show(Decibels::fromGain(peak).value);
     reductionMeter.show(peak > 0.0 && reading.gainReduction > 0.05 ? reading.gainReduction : -1.0);
     feltMeter.show(peak > 0.0 ? reading.overThreshold : -std::numeric_limits<double>::infinity());
 }

@@ -9,6 +9,7 @@
 #include "python/native/Support.h"
 
 #include <pacini/actuator/Equalizer.h>
+#include <pacini/foundation/Units.h>
 
 #include <nanobind/operators.h>
 #include <nanobind/stl/filesystem.h>
@@ -103,7 +104,7 @@ void bindProfile(nb::module_& module)
                 const auto filter = designEqualizer(self.profile().equalizer, rate);
                 std::vector<double> decibels;
                 for (const double frequency : frequencies)
-                    decibels.push_back(20.0 * std::log10(std::abs(filter.response(Hertz(frequency), rate))));
+                    decibels.push_back(Decibels::fromGain(std::abs(filter.response(Hertz(frequency), rate))).value);
                 return toArray(std::move(decibels));
             },
             "frequencies"_a, "sample_rate"_a)

@@ -1,5 +1,7 @@
 #include "study/procedures/Psychometric.h"
 
+#include <pacini/foundation/Units.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -10,7 +12,7 @@ namespace pacini::study
 
 double Psychometric::operator()(double strength) const noexcept
 {
-    const double missed = std::exp(-std::pow(10.0, slope * (strength - threshold) / 20.0));
+    const double missed = std::exp(-Decibels(slope * (strength - threshold)).gain());
     return 1.0 - lapse - (1.0 - guess - lapse) * missed;
 }
 

@@ -91,7 +91,7 @@ struct CentroidFlatnessParams
 /// tonality of J. D. Johnston, "Transform coding of audio signals using perceptual noise criteria", IEEE JSAC 6 (1988).
 [[nodiscard]] inline double tonalityOf(double flatness) noexcept
 {
-    return clampTo(10.0 * std::log10(flatness) / -60.0, 0.0, 1.0);
+    return clampTo(Decibels::fromPower(flatness).value / -60.0, 0.0, 1.0);
 }
 
 namespace detail

@@ -5,6 +5,7 @@
 #include <pacini/analysis/methods/MethodSound.h>
 #include <pacini/foundation/DspBlock.h>
 #include <pacini/foundation/Fft.h>
+#include <pacini/foundation/Units.h>
 
 #include <algorithm>
 #include <array>
@@ -73,7 +74,7 @@ private:
     {
         double sum = 0.0;
         for (std::size_t k = 0; k < magnitudes.size(); ++k)
-            sum += 20.0 * std::log10(1.37 * magnitudes[k] + 1e-12) / contour[k];
+            sum += Decibels::fromGain(1.37 * magnitudes[k] + 1e-12).value / contour[k];
         return std::max(0.0, 0.065 * sum);
     }
 

@@ -50,7 +50,7 @@ public:
         fft.forward(frame, spectrum);
         BandLevels levels;
         for (std::size_t k = 0; k < levels.size(); ++k)
-            levels[k] = 10.0 * std::log10(std::max(quietest, bandPower(k)) / (reference * reference));
+            levels[k] = Decibels::fromPower(std::max(quietest, bandPower(k)) / (reference * reference)).value;
         return loudnessPattern(coreLoudness(levels));
     }
 

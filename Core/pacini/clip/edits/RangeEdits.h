@@ -6,6 +6,7 @@
 
 #include <pacini/clip/edits/CurveSection.h>
 #include <pacini/foundation/Random.h>
+#include <pacini/foundation/Units.h>
 
 #include <algorithm>
 #include <cmath>
@@ -73,7 +74,7 @@ void sortByTime(Events& events)
 [[nodiscard]] inline Clip amplify(Clip clip, const EditScope& scope, double decibels)
 {
     const double limited = clampTo(decibels, -200.0, 200.0);
-    const double factor = limited <= -200.0 ? 0.0 : std::pow(10.0, limited / 20.0);
+    const double factor = limited <= -200.0 ? 0.0 : Decibels(limited).gain();
     const TimeRange range = withinClip(scope.range, clip.duration);
     detail::forLanes(clip, scope,
                      [&](Lane lane, Curve& curve)
@@ -294,7 +295,7 @@ struct Humanisation
                                  i + 1 < before.size() ? 0.5 * (p.time + before[i + 1].time) : clip.duration;
                              curve[i].time = time > 0.0 ? clampTo(p.time + shift, low, std::max(low, high)) : p.time;
                              const double ratio = isFrequency(lane.kind) ? std::exp2(pitch * turn / 12.0)
-                                                                         : std::pow(10.0, level * turn / 20.0);
+                                                                         : Decibels(level * turn).gain();
                              curve[i].value = detail::limitedTo(laneRange(lane.kind), ratio * p.value);
                          }
                      });
@@ -303,7 +304,7 @@ struct Humanisation
                           [&](Transient& event)
                           {
                               event.time = clampTo(event.time + random.uniform(-time, time), 0.0, clip.duration);
-                              const double ratio = std::pow(10.0, level * random.uniform(-1.0, 1.0) / 20.0);
+                              const double ratio = Decibels(level * random.uniform(-1.0, 1.0)).gain();
                               event.amplitude = std::min(ratio * event.amplitude, limits::amplitude);
                           });
     detail::sortByTime(clip.transients);

@@ -69,7 +69,7 @@ inline constexpr std::size_t loudnessDelay = 3;
     HeardTrack track;
     if (!(power > 0.0))
         return track;
-    const double gain = 20e-6 * std::pow(10.0, level.value / 20.0) / std::sqrt(power);
+    const double gain = 20e-6 * level.gain() / std::sqrt(power);
     for (float& p : *pressure)
         p = static_cast<float>(gain * static_cast<double>(p));
     const auto keep = [&](double total, const LoudnessPattern& pattern)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/clip/commands/Operations.h"
 
+#include <pacini/foundation/Units.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -31,7 +33,7 @@ constexpr std::array<Division, 8> divisions{{{"1/1", 1.0},
 
 double amplitudeOf(double decibels)
 {
-    return std::pow(10.0, decibels / 20.0);
+    return Decibels(decibels).gain();
 }
 
 /// A number from `low` to `high`, at first `value`.

@@ -8,6 +8,8 @@
 #include "editor/clip/lanes/LaneText.h"
 #include "editor/clip/lanes/PlotLane.h"
 
+#include <pacini/foundation/Units.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -202,7 +204,7 @@ juce::String ActuatorRow::textAt(juce::Point<float> place) const
         return text + tr("played at {0}, {1} dB", {hertzText(static_cast<double>(source.played[*step])),
                                                    juce::String(juce::roundToInt(source.levels[*step]))});
     }
-    const double level = 20.0 * std::log10(std::max(1e-6, static_cast<double>(shown->peaks[*step])));
+    const double level = Decibels::fromGain(std::max(1e-6, static_cast<double>(shown->peaks[*step]))).value;
     text << (level <= inaudible ? tr("silent") : tr("{0} dB re full drive", {juce::String(level, 1)}));
     const auto why = translateMessage(toText(shown->textOf(*step)));
     if (why.isNotEmpty())
@@ -333,7 +335,7 @@ void ActuatorRow::paintDrive(juce::Graphics& g, juce::Rectangle<int> plot)
             const int x = visible.getX() + static_cast<int>(i);
             if (peaks[i].high > 0.0f)
             {
-                const double level = 20.0 * std::log10(static_cast<double>(peaks[i].high));
+                const double level = Decibels::fromGain(static_cast<double>(peaks[i].high)).value;
                 const int y = yOf(level);
                 const bool isSoft = level < shown->touch;
                 (isSoft ? softGround : ground).add(x, y, plot.getBottom() - y);

@@ -4,6 +4,8 @@
 #include "editor/Text.h"
 #include "editor/Translation.h"
 
+#include <pacini/foundation/Units.h>
+
 #include <array>
 #include <cmath>
 #include <utility>
@@ -46,7 +48,7 @@ juce::String amplitudeText(double amplitude)
 {
     if (amplitude <= 0.0)
         return tr("silent");
-    return juce::String(20.0 * std::log10(amplitude), 1) + " dB";
+    return juce::String(Decibels::fromGain(amplitude).value, 1) + " dB";
 }
 
 juce::String laneName(const Clip& clip, Lane lane)

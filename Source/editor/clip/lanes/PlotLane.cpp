@@ -8,6 +8,8 @@
 #include "editor/clip/session/Snapping.h"
 #include "editor/clip/session/StepText.h"
 
+#include <pacini/foundation/Units.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -218,7 +220,7 @@ void PlotLane::paintTicks(juce::Graphics& g, juce::Rectangle<int> column, juce::
     for (const double value : valueTicks(axis, tickGap))
     {
         const juce::String text = axis.scale == ValueScale::decibels
-                                      ? juce::String(juce::roundToInt(20.0 * std::log10(value)))
+                                      ? juce::String(juce::roundToInt(Decibels::fromGain(value).value))
                                   : value >= 1000.0 ? juce::String(value / 1000.0, 0) + "k"
                                   : value >= 10.0   ? juce::String(juce::roundToInt(value))
                                                     : juce::String(value, value < 0.1 ? 2 : 1);
@@ -412,7 +414,7 @@ void PlotLane::nudge(double pixels, double steps)
     Breakpoint to = grabbed;
     // A step of decibels is 1 dB, of a frequency a semitone, of a linear scale a fiftieth.
     if (nudgedSteps != 0.0 && axis.scale == ValueScale::decibels)
-        to.value = std::max(grabbed.value, axis.low) * std::pow(10.0, nudgedSteps / 20.0);
+        to.value = std::max(grabbed.value, axis.low) * Decibels(nudgedSteps).gain();
     else if (nudgedSteps != 0.0 && axis.scale == ValueScale::logarithmic)
         to.value = grabbed.value * std::exp2(nudgedSteps / 12.0);
     else

@@ -10,6 +10,8 @@
 #include "editor/clip/lanes/LaneText.h"
 #include "editor/clip/session/StepText.h"
 
+#include <pacini/foundation/Units.h>
+
 #include <cmath>
 
 namespace pacini::editor
@@ -118,9 +120,9 @@ Inspector::Inspector(EditorView& shown)
               if (first.hertz)
                   move.frequencyFactor = number > 0.0 && first.value > 0.0 ? number / first.value : 1.0;
               else if (first.value > 0.0)
-                  move.amplitudeFactor = std::pow(10.0, number / 20.0) / first.value;
+                  move.amplitudeFactor = Decibels(number).gain() / first.value;
               else
-                  move.amplitudeOffset = std::pow(10.0, number / 20.0);
+                  move.amplitudeOffset = Decibels(number).gain();
               return std::optional(move);
           });
     moves(sharpField, SelectionStep::setSharpness,

@@ -5,6 +5,8 @@
 #include "editor/Theme.h"
 #include "editor/Translation.h"
 
+#include <pacini/foundation/Units.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -101,11 +103,11 @@ void MeterPanel::timerCallback()
             continue;
         }
         levels[i]->show(gain <= HapticOutputs::leastGain ? -std::numeric_limits<double>::infinity()
-                                                         : 20.0 * std::log10(reading.peak) + gain);
+                                                         : Decibels::fromGain(reading.peak).value + gain);
         most = std::max(most, reading.peak);
         taken = std::max(taken, reading.gainReduction);
     }
-    const double level = 20.0 * std::log10(most);
+    const double level = Decibels::fromGain(most).value;
     const auto profile = actuators.profile();
     reduction.show(taken > leastShown ? taken : -1.0);
     felt.show(profile ? level + profile->range.dynamicRange : -std::numeric_limits<double>::infinity());

@@ -4,6 +4,8 @@
 #include "editor/Controls.h"
 #include "editor/Theme.h"
 
+#include <pacini/foundation/Units.h>
+
 #include <cmath>
 
 namespace pacini::editor
@@ -87,7 +89,7 @@ void PlayPanel::set()
 {
     PlayControls wanted = transport.controls();
     const double decibels = gain.slider.getValue();
-    wanted.gain = decibels <= leastDecibels ? 0.0 : std::pow(10.0, decibels / 20.0);
+    wanted.gain = decibels <= leastDecibels ? 0.0 : Decibels(decibels).gain();
     wanted.intensity = 0.01 * intensity.slider.getValue();
     wanted.transposition = pitch.slider.getValue();
     wanted.speed = speed.slider.getValue();
@@ -102,7 +104,7 @@ void PlayPanel::show()
     {
         slider.setValue(value, juce::dontSendNotification);
     };
-    put(gain.slider, now.gain > 0.0 ? 20.0 * std::log10(now.gain) : leastDecibels);
+    put(gain.slider, now.gain > 0.0 ? Decibels::fromGain(now.gain).value : leastDecibels);
     put(intensity.slider, 100.0 * now.intensity);
     put(pitch.slider, now.transposition);
     put(speed.slider, now.speed);

@@ -7,6 +7,8 @@
 #include "editor/Theme.h"
 #include "editor/Translation.h"
 
+#include <pacini/foundation/Units.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -164,7 +166,7 @@ void SceneTimeline::paintPart(juce::Graphics& g, std::size_t index, juce::Rectan
             g.setColour((out ? p.dim : p.accent).withAlpha(out ? 0.25f : 0.5f));
             for (std::size_t i = 0; i < columns.size(); ++i)
             {
-                const double dB = 20.0 * std::log10(std::max(1e-3, static_cast<double>(columns[i].high)));
+                const double dB = Decibels::fromGain(std::max(1e-3, static_cast<double>(columns[i].high))).value;
                 const int height = juce::roundToInt((1.0 + dB / 60.0) * (area.getHeight() - 2));
                 g.fillRect(area.getX() + first + static_cast<int>(i), area.getBottom() - 1 - height, 1, height);
             }
