@@ -9,6 +9,7 @@
 #undef max
 
 #include <pacini/actuator/Profile.h>
+#include <pacini/analysis/EncodeSound.h>
 #include <pacini/analysis/Encoder.h>
 #include <pacini/clip/PackedClip.h>
 #include <pacini/evaluate/Hts.h>
@@ -19,6 +20,7 @@
 #include <pacini/realtime/Translator.h>
 #include <pacini/synthesis/CompilePlan.h>
 #include <pacini/synthesis/Decoder.h>
+#include <pacini/synthesis/RenderScene.h>
 #include <pacini/synthesis/ScenePlayer.h>
 
 #pragma pop_macro("max")

@@ -3,8 +3,6 @@
 #include <pacini/pacini.h>
 
 #include <cstdio>
-#include <span>
-#include <utility>
 #include <vector>
 
 int main()
@@ -16,17 +14,10 @@ int main()
     if (!clip)
         return std::fprintf(stderr, "render: %s\n", clip.error().text().c_str()), 1;
 
-    // A clip is a scene of one play; the plan leaves out what is not felt. With a profile it would fit an actuator.
-    pacini::Scene scene;
-    scene.clips = {*clip};
-    scene.plays = {pacini::ScenePlay{}};
-    auto plan = pacini::compilePlan(scene);
-    if (!plan)
-        return std::fprintf(stderr, "render: %s\n", plan.error().text().c_str()), 1;
-
-    pacini::ScenePlayer player(std::move(*plan));
-    std::vector<float> drive(static_cast<std::size_t>(player.totalFrames()));
-    const std::span<float> channel = drive;
-    player.process(std::span(&channel, 1));
+    // A clip is a scene of one play. With a profile it would be fitted to an actuator.
+    const auto rendered = pacini::renderScene(pacini::sceneOf(*clip), nullptr, {});
+    if (!rendered)
+        return std::fprintf(stderr, "render: %s\n", rendered.error().text().c_str()), 1;
+    const std::vector<float>& drive = rendered->samples;
     return std::fwrite(drive.data(), sizeof(float), drive.size(), stdout) == drive.size() ? 0 : 1;
 }
