@@ -210,6 +210,11 @@ class Arrays(FolderTest):
         self.refuses("dtype", "invalidArgument", pacini.render, clip, dtype=int)
         self.refuses("sample_rate", "invalidArgument", pacini.render, clip, 10)
         self.refuses("stretch", "invalidArgument", pacini.render, clip, stretch=0)
+        numbers = ("gain", "transpose", "stretch", "delay", "start", "variation", "tolerance", "max_boost", "strength",
+                   "pulse_frequency", "pulse_cycles")  # fmt: skip
+        for option in numbers:
+            for value in (np.nan, np.inf, 1e300, -1e300):
+                self.refuses(option, "invalidArgument", pacini.render, clip, **{option: value})
         self.refuses("end", "invalidArgument", pacini.render, clip, start=0.2, end=0.1)
         self.refuses("content", "invalidArgument", pacini.render, "clip.json")
         report = pacini.explain(clip, profile="lra-175")

@@ -107,8 +107,9 @@ struct RenderOptions : RenderParams
         decoder.pulseShape = chosen<PulseShape>(
             pulse, "pulse",
             {{"adaptive", PulseShape::adaptive}, {"square", PulseShape::square}, {"sine", PulseShape::sine}});
-        decoder.pulseFrequency = pulseFrequency;
-        decoder.pulseCycles = pulseCycles;
+        if (pulseFrequency)
+            decoder.pulseFrequency = inRange("pulse_frequency", *pulseFrequency, 1.0, 2000.0, "must be 1 to 2000 Hz");
+        decoder.pulseCycles = inRange("pulse_cycles", pulseCycles, 0.1, 100.0, "must be 0.1 to 100");
     }
     void part(double start, std::optional<double> end)
     {

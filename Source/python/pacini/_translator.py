@@ -56,7 +56,7 @@ class Translator:
         self._handle.set_params(params)
 
     def process(self, block: FloatArray) -> npt.NDArray[np.float32]:
-        """The next block of drive, as long as this block of sound."""
+        """The next block of drive, as long as this block of sound, of which samples that are no numbers are silence."""
         return np.asarray(self._handle.process(as_sound(block, -1)), np.float32)
 
     __call__ = process
