@@ -47,8 +47,8 @@ LITERALS = {
         "Noto Sans JP", "Source Han Sans JP", "Hiragino Sans", "Yu Gothic UI", "Meiryo", "IPAexGothic", "IPAPGothic",
         "IPAGothic", "TakaoPGothic", "VL PGothic", "/usr/share/fonts/opentype/noto/NotoSansCJK-", "DualSense",
         "Joy-Con", "LRA 175 Hz", "LRA 235 Hz", "L5 wristband", "L5 test jig", "ERM coin", "English", "A Framework for Audio-Tactile Signal Translation"],
-    "names of threads, folders and settings": [
-        "Pacini capture", "Pacini joysticks", "js", "/dev/input", "/dev/snd/seq", "joycon-hd-rumble", "erm-coin", "Pacini set-up", "Pacini clips", "Application Support", "~/.config", "quiet", "devices",
+    "names of threads, folders, settings and functions of libraries": [
+        "XESetWireToError", "Pacini capture", "Pacini joysticks", "js", "/dev/input", "/dev/snd/seq", "joycon-hd-rumble", "erm-coin", "Pacini set-up", "Pacini clips", "Application Support", "~/.config", "quiet", "devices",
         "state", "recovery", "profiles", "Resources/demo", "share/pacini/demo", "pacini", "json", "wav", "pacb",
         "files", "clip", ".sound-", "md", "demo", "pacini-demo", "flac", "plain drive"],
     "records of studies, which are the same file in every language": [

@@ -4,6 +4,7 @@
 #include "editor/Controls.h"
 #include "editor/Translation.h"
 #include "io/ShippedProfiles.h"
+#include "plugin/window/DisplayErrors.h"
 
 #include <pacini/foundation/Units.h>
 
@@ -63,6 +64,7 @@ bool systemIsDark()
 juce::AudioProcessorEditor* Plugin::createEditor()
 {
     editor::useLanguage({}); // a host has no settings of ours to ask
+    ignoreDisplayErrors();
     return new PluginWindow(*this);
 }
 
