@@ -71,6 +71,21 @@ def main():
           and np.array_equal(replaced[2], usual[2]))
 
     other = Host(path, 512)
+    other.set("Bypass", 1.0)
+    bypassed = other.render(sound)
+    check("bypassed, the sound passes and nothing is felt", np.array_equal(bypassed[:2], usual[:2])
+          and not bypassed[2].any())
+    for name, choices in (("Source", ("Main", "Sidechain", "Mix")),
+                          ("Main output", ("Sound (haptic output separate)", "Haptic replaces sound",
+                                           "Sound left, haptic right", "Mono sound left, haptic right",
+                                           "Haptic added to one channel"))):
+        said = []
+        for i in range(len(choices)):
+            other.set(name, i / (len(choices) - 1))
+            said.append(other.plugin.get_parameter_text(other.index[name]))
+        check(f"{name} has its choices where hosts put them", said == list(choices), str(said))
+
+    other = Host(path, 512)
     muted = [other.index[name] for name in ("Rumble mute", "Texture mute", "Transients mute")]
     steps = np.ones(int(2 * RATE), dtype=np.float32)
     steps[: RATE // 2] = 0

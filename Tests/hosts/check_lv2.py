@@ -44,6 +44,11 @@ def main():
         def value(name, number):
             return ["--set", f"{URI}:{name}={number}"]
 
+        def save(settings):
+            state = str(scratch / "settings.ttl")
+            render(*settings, "--save", state)
+            return state
+
         usual, said = render("--latency")
         latency = int(said)
         check("a latency below 5 ms", 0 < latency < 0.005 * RATE, f"{latency} frames")
@@ -62,6 +67,53 @@ def main():
                        *value("transientMute", 1))[0]
         check("automation mutes from where it says", np.array_equal(muted[2, : RATE // 2], usual[2, : RATE // 2])
               and np.abs(muted[2, RATE:]).max() == 0)
+
+        # Bypass is a parameter of ours and a port that hosts switch: either is enough.
+        half = str(RATE // 2)
+        back = ["--at", str(RATE)]
+        for what, off, on in (("parameter", value("bypass", 1), value("bypass", 0)),
+                              ("port", ["--port", "enabled=0"], ["--port", "enabled=1"])):
+            off_from, said = render("--sets", "--at", half, *off)
+            silent = slice(RATE // 2 + RATE // 10, None)
+            check(f"bypassed by the {what}, nothing is felt", np.array_equal(off_from[2, : RATE // 2], usual[2, : RATE // 2])
+                  and np.abs(off_from[2, silent]).max() == 0)
+            check(f"bypassed by the {what}, the sound passes", np.array_equal(off_from[:2], usual[:2]))
+            check(f"bypassed by the {what}, the plugin sends nothing", said == "", f"{len(said.splitlines())} values")
+            again = render("--at", half, *off, *back, *on)[0]
+            check(f"and it plays again when the {what} is back", np.abs(again[2, RATE + RATE // 2 :]).max() > 0.05)
+        both = render("--at", half, "--port", "enabled=0", *value("bypass", 1), *back, "--port", "enabled=1")[0]
+        check("a host that lets it play again leaves the parameter alone", np.abs(both[2, silent]).max() == 0)
+        check("the plugin sends no value that does not change", render("--sets", *value("attack", 20))[1] == "")
+
+        parameters = {}
+        for line in render("--parameters")[1].splitlines():
+            uri, low, high, default, *points = line.split("\t")
+            named = dict(reversed(point.split(" ", 1)) for point in points)
+            parameters[uri.rpartition(":")[2]] = [float(low), float(high), float(default),
+                                                  {text: float(at) for text, at in named.items()}]
+        check("every parameter has its range", len(parameters) == 61
+              and all(low <= default <= high and low < high for low, high, default, _ in parameters.values()),
+              f"{len(parameters)} of them")
+        choices = {name: (high, named) for name, (_, high, _, named) in parameters.items() if named}
+        check("choices are the whole numbers of their range",
+              all(sorted(named.values()) == list(range(int(high) + 1)) for high, named in choices.values())
+              and {"source", "outputMode", "profile", "actuator8", "pan", "panLaw", "places"} <= set(choices),
+              f"{len(choices)} of them")
+
+        def choice(name, text):
+            return value(name, choices[name][1].get(text, -1)) if name in choices else value(name, -1)
+
+        check("Mix is the mix", all(np.array_equal(render(*choice("source", "Mix"), *value("sourceMix", share))[0][2], one[2])
+                                    for share, one in ((0, usual), (1, side))))
+        replaced = render(*choice("outputMode", "Haptic replaces sound"))[0]
+        check("Haptic replaces sound does so", all(np.array_equal(replaced[c], usual[2]) for c in (0, 1)))
+        added = render(*choice("outputMode", "Haptic added to one channel"), *value("outputChannel", 2))[0]
+        check("Haptic added to one channel does so", np.array_equal(added[0], usual[0])
+              and np.abs(added[1] - usual[1] - usual[2]).max() < 1e-6)
+        second = render("--preset", f"{URI}:preset2")[0]
+        check("a preset is heard", not np.array_equal(second[2], usual[2]))
+        check("so is the one that was chosen before its values were changed",
+              np.array_equal(render("--load", save(value("intensity", -40)), "--preset", f"{URI}:preset1")[0], usual))
 
         state = str(scratch / "state.ttl")
         wanted = render(*value("profile", 3), *value("intensity", -6), "--save", state)[0]

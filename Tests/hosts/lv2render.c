@@ -1,20 +1,25 @@
 /* A host for one LV2 plugin, offline. Samples come from and go to files of raw 32-bit floats, frame by frame: as many
    values as the plugin has audio ports of that direction, in their order.
 
-   lv2render URI RATE BLOCK IN OUT [--set PROPERTY=VALUE]... [--at FRAME] [--load STATE] [--save STATE] [--latency]
+   lv2render URI RATE BLOCK IN OUT [--set PROPERTY=VALUE]... [--port SYMBOL=VALUE]... [--at FRAME] [--load STATE]
+             [--preset URI] [--save STATE] [--latency] [--sets] [--parameters]
 
-   --at gives the frame at which the block begins that brings the --set that follow it (0 at first). States are Turtle
-   files. --latency prints the value of the latency port after the last block. */
+   --at gives the frame at which the block begins that brings the --set and --port that follow it (0 at first). States are
+   Turtle files. --latency prints the value of the latency port after the last block, --sets each value that the plugin
+   sends: "PROPERTY VALUE", --parameters what the plugin's files say of its parameters, between tabs: property, least value,
+   largest value, default, and "VALUE LABEL" of each scale point. */
 
 #include <lilv/lilv.h>
 #include <lv2/atom/atom.h>
 #include <lv2/atom/forge.h>
+#include <lv2/atom/util.h>
 #include <lv2/buf-size/buf-size.h>
 #include <lv2/core/lv2.h>
 #include <lv2/options/options.h>
 #include <lv2/parameters/parameters.h>
 #include <lv2/patch/patch.h>
 #include <lv2/urid/urid.h>
+#include <math.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -78,6 +83,79 @@ static void forgeSet(LV2_Atom_Forge* forge, LV2_URID property, float value)
     lv2_atom_forge_pop(forge, &object);
 }
 
+/* "NAME=VALUE" in two; 0 if it is not. */
+static int splitSetting(const char* setting, char* name, size_t room, float* value)
+{
+    const char* equals = strrchr(setting, '=');
+    if (!equals || (size_t) (equals - setting) >= room)
+        return 0;
+    memcpy(name, setting, (size_t) (equals - setting));
+    name[equals - setting] = 0;
+    *value = (float) atof(equals + 1);
+    return 1;
+}
+
+/* The values of patch:Set messages that the plugin sent. */
+static void printSets(const LV2_Atom_Sequence* sequence)
+{
+    const LV2_URID setType = mapUri(NULL, LV2_PATCH__Set);
+    LV2_ATOM_SEQUENCE_FOREACH(sequence, event)
+    {
+        const LV2_Atom_Object* object = (const LV2_Atom_Object*) &event->body;
+        if (event->body.type != mapUri(NULL, LV2_ATOM__Object) || object->body.otype != setType)
+            continue;
+        const LV2_Atom* property = NULL;
+        const LV2_Atom* value = NULL;
+        lv2_atom_object_get(object, mapUri(NULL, LV2_PATCH__property), &property, mapUri(NULL, LV2_PATCH__value), &value, 0);
+        if (property && value && value->type == mapUri(NULL, LV2_ATOM__Float))
+            printf("%s %.9g\n", unmapUri(NULL, ((const LV2_Atom_URID*) property)->body),
+                   (double) ((const LV2_Atom_Float*) value)->body);
+    }
+}
+
+static void printNumber(LilvWorld* world, const LilvNode* subject, const char* property)
+{
+    LilvNode* predicate = lilv_new_uri(world, property);
+    LilvNode* value = lilv_world_get(world, subject, predicate, NULL);
+    printf("\t%.9g", value ? (double) lilv_node_as_float(value) : NAN);
+    lilv_node_free(value);
+    lilv_node_free(predicate);
+}
+
+static void printParameters(LilvWorld* world, const LilvPlugin* plugin)
+{
+    LilvNode* writable = lilv_new_uri(world, LV2_PATCH__writable);
+    LilvNode* scalePoint = lilv_new_uri(world, LV2_CORE__scalePoint);
+    LilvNode* value = lilv_new_uri(world, LILV_NS_RDF "value");
+    LilvNode* label = lilv_new_uri(world, LILV_NS_RDFS "label");
+    LilvNodes* parameters = lilv_plugin_get_value(plugin, writable);
+    LILV_FOREACH(nodes, p, parameters)
+    {
+        const LilvNode* parameter = lilv_nodes_get(parameters, p);
+        printf("%s", lilv_node_as_uri(parameter));
+        printNumber(world, parameter, LV2_CORE__minimum);
+        printNumber(world, parameter, LV2_CORE__maximum);
+        printNumber(world, parameter, LV2_CORE__default);
+        LilvNodes* points = lilv_world_find_nodes(world, parameter, scalePoint, NULL);
+        LILV_FOREACH(nodes, s, points)
+        {
+            const LilvNode* point = lilv_nodes_get(points, s);
+            LilvNode* at = lilv_world_get(world, point, value, NULL);
+            LilvNode* text = lilv_world_get(world, point, label, NULL);
+            printf("\t%.9g %s", at ? (double) lilv_node_as_float(at) : NAN, text ? lilv_node_as_string(text) : "");
+            lilv_node_free(at);
+            lilv_node_free(text);
+        }
+        lilv_nodes_free(points);
+        printf("\n");
+    }
+    lilv_nodes_free(parameters);
+    lilv_node_free(label);
+    lilv_node_free(value);
+    lilv_node_free(scalePoint);
+    lilv_node_free(writable);
+}
+
 int main(int argc, char** argv)
 {
     if (argc < 6)
@@ -87,16 +165,24 @@ int main(int argc, char** argv)
     int32_t block = atoi(argv[3]);
     const char* loadPath = NULL;
     const char* savePath = NULL;
-    int tellLatency = 0;
+    const char* presetUri = NULL;
+    int tellLatency = 0, tellSets = 0, tellParameters = 0;
     for (int a = 6; a < argc; ++a)
     {
         if (strcmp(argv[a], "--load") == 0 && a + 1 < argc)
             loadPath = argv[++a];
         else if (strcmp(argv[a], "--save") == 0 && a + 1 < argc)
             savePath = argv[++a];
+        else if (strcmp(argv[a], "--preset") == 0 && a + 1 < argc)
+            presetUri = argv[++a];
         else if (strcmp(argv[a], "--latency") == 0)
             tellLatency = 1;
-        else if ((strcmp(argv[a], "--set") == 0 || strcmp(argv[a], "--at") == 0) && a + 1 < argc)
+        else if (strcmp(argv[a], "--sets") == 0)
+            tellSets = 1;
+        else if (strcmp(argv[a], "--parameters") == 0)
+            tellParameters = 1;
+        else if ((strcmp(argv[a], "--set") == 0 || strcmp(argv[a], "--port") == 0 || strcmp(argv[a], "--at") == 0) &&
+                 a + 1 < argc)
             ++a;
         else
             return fail("unknown option", argv[a]);
@@ -108,6 +194,8 @@ int main(int argc, char** argv)
     const LilvPlugin* plugin = lilv_plugins_get_by_uri(lilv_world_get_all_plugins(world), uri);
     if (!plugin)
         return fail("no plugin", wantedUri);
+    if (tellParameters)
+        printParameters(world, plugin);
 
     LV2_URID_Map map = {NULL, mapUri};
     LV2_URID_Unmap unmap = {NULL, unmapUri};
@@ -137,6 +225,17 @@ int main(int argc, char** argv)
             return fail("no state in", loadPath);
         lilv_state_restore(state, instance, NULL, NULL, 0, features);
         lilv_state_free(state);
+    }
+    if (presetUri)
+    {
+        LilvNode* preset = lilv_new_uri(world, presetUri);
+        lilv_world_load_resource(world, preset);
+        LilvState* state = lilv_state_new_from_world(world, &map, preset);
+        if (!state)
+            return fail("no preset", presetUri);
+        lilv_state_restore(state, instance, NULL, NULL, 0, features);
+        lilv_state_free(state);
+        lilv_node_free(preset);
     }
 
     LilvNode* audioClass = lilv_new_uri(world, LV2_CORE__AudioPort);
@@ -207,34 +306,49 @@ int main(int argc, char** argv)
         for (size_t c = 0; c < ins; ++c)
             for (size_t i = 0; i < n; ++i)
                 inPorts[c][i] = in[(done + i) * ins + c];
+        LV2_Atom_Forge_Frame sequence;
         if (atomIn)
         {
-            LV2_Atom_Forge_Frame sequence;
             lv2_atom_forge_set_buffer(&forge, (uint8_t*) atomIn, atomBytes);
             lv2_atom_forge_sequence_head(&forge, &sequence, 0);
-            size_t at = 0;
-            for (int a = 6; a + 1 < argc; ++a)
-                if (strcmp(argv[a], "--at") == 0)
-                    at = (size_t) atol(argv[++a]);
-                else if (strcmp(argv[a], "--set") == 0)
-                {
-                    char property[512];
-                    const char* equals = strrchr(argv[++a], '=');
-                    const int due = at <= done && (first || at > before);
-                    if (!equals || !due || (size_t) (equals - argv[a]) >= sizeof property)
-                        continue;
-                    memcpy(property, argv[a], (size_t) (equals - argv[a]));
-                    property[equals - argv[a]] = 0;
-                    forgeSet(&forge, mapUri(NULL, property), (float) atof(equals + 1));
-                }
-            lv2_atom_forge_pop(&forge, &sequence);
         }
+        size_t at = 0;
+        for (int a = 6; a + 1 < argc; ++a)
+        {
+            char name[512];
+            float value = 0.0f;
+            const int isPort = strcmp(argv[a], "--port") == 0;
+            if (strcmp(argv[a], "--at") == 0)
+                at = (size_t) atol(argv[++a]);
+            else if (isPort || strcmp(argv[a], "--set") == 0)
+            {
+                const int due = at <= done && (first || at > before);
+                if (!splitSetting(argv[++a], name, sizeof name, &value))
+                    return fail("no setting:", argv[a]);
+                if (due && isPort)
+                {
+                    LilvNode* symbol = lilv_new_string(world, name);
+                    const LilvPort* port = lilv_plugin_get_port_by_symbol(plugin, symbol);
+                    lilv_node_free(symbol);
+                    if (!port)
+                        return fail("no port", name);
+                    controls[lilv_port_get_index(plugin, port)] = value;
+                }
+                else if (due && atomIn)
+                    forgeSet(&forge, mapUri(NULL, name), value);
+            }
+        }
+        if (atomIn)
+            lv2_atom_forge_pop(&forge, &sequence);
         for (size_t k = 0; k < atomOutCount; ++k)
         {
             atomOuts[k]->atom.type = mapUri(NULL, LV2_ATOM__Chunk);
             atomOuts[k]->atom.size = atomBytes - sizeof(LV2_Atom);
         }
         lilv_instance_run(instance, (uint32_t) n);
+        for (size_t k = 0; k < atomOutCount && tellSets; ++k)
+            if (atomOuts[k]->atom.type == mapUri(NULL, LV2_ATOM__Sequence))
+                printSets(atomOuts[k]);
         for (size_t i = 0; i < n; ++i)
             for (size_t c = 0; c < outs; ++c)
                 fwrite(&outPorts[c][i], sizeof(float), 1, out);

@@ -38,6 +38,7 @@ FILES = {
                                               "Source/app/Display.h"],
     "units and values of parameters, which are the same in every language for hosts": [
         "Source/plugin/engine/ParameterText.cpp"],
+    "the description of the LV2, and errors of building it": ["Source/plugin/engine/Lv2Parameters.cpp"],
     "codes of languages and names of fonts": ["Source/editor/Translation.cpp", "Source/editor/Translation.h"],
 }
 

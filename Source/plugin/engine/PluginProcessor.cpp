@@ -104,6 +104,7 @@ void PluginProcessor::processBlockBypassed(juce::AudioBuffer<float>& buffer, juc
 void PluginProcessor::process(juce::AudioBuffer<float>& buffer, bool bypassed) noexcept
 {
     const juce::ScopedNoDenormals noDenormals;
+    bypassedByHost.store(bypassed, std::memory_order_relaxed);
     // Offline there is time, and no worker thread can keep up.
     if (isNonRealtime())
         catchUp();
@@ -286,7 +287,8 @@ int PluginProcessor::getNumPrograms()
 
 void PluginProcessor::setCurrentProgram(int index)
 {
-    if (index != program.load())
+    // Some hosts set the current one time and again; LV2 does so only when a preset is loaded.
+    if (index != program.load() || wrapperType == wrapperType_LV2)
         applyProgram(index);
 }
 

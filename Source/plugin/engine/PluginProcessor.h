@@ -45,7 +45,13 @@ public:
         return *table[static_cast<std::size_t>(wanted)];
     }
     [[nodiscard]] ParameterValues values() const noexcept;
-    juce::AudioProcessorParameter* getBypassParameter() const override { return &parameter(ParameterId::bypass); }
+    /// None in LV2, whose wrapper would write the host's switch over it in every block: there it is a second switch.
+    juce::AudioProcessorParameter* getBypassParameter() const override
+    {
+        return wrapperType == wrapperType_LV2 ? nullptr : &parameter(ParameterId::bypass);
+    }
+    /// Whether the host bypasses the plugin by a switch of its own. [any]
+    [[nodiscard]] bool isBypassedByHost() const noexcept { return bypassedByHost.load(std::memory_order_relaxed); }
     void getStateInformation(juce::MemoryBlock& block) override;
     void setStateInformation(const void* data, int size) override;
     int getNumPrograms() override;
@@ -135,6 +141,7 @@ private:
     std::atomic<int> program{0};
     std::atomic<int> windowWidth{0}, windowHeight{0};
     std::atomic<bool> keepsSounds{true};
+    std::atomic<bool> bypassedByHost{false};
     juce::SharedResourcePointer<SetupWorker> worker;
 
     JUCE_DECLARE_NON_COPYABLE_WITH_LEAK_DETECTOR(PluginProcessor)

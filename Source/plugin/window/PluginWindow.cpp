@@ -341,6 +341,8 @@ juce::String PluginWindow::statusText() const
     juce::String note = processor.note();
     if (note.isNotEmpty())
         return editor::translateMessage(note);
+    if (processor.isBypassedByHost())
+        return editor::tr("Bypassed by the host");
     const double milliseconds = 1000.0 * processor.latency() / processor.sampleRate();
     return editor::tr("{0}, latency {1} ms", {processor.actuatorName(), juce::String(milliseconds, 2)});
 }

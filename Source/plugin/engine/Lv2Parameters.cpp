@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "plugin/engine/Lv2Parameters.h"
+
+#include "plugin/engine/ParameterTable.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <locale>
+#include <sstream>
+#include <utility>
+#include <vector>
+
+namespace pacini::plugin
+{
+
+namespace
+{
+constexpr std::string_view blanks = " \t\r\n";
+
+/// The statements of a document, each with its full stop and what stands before it.
+std::vector<std::string_view> statementsOf(std::string_view turtle)
+{
+    std::vector<std::string_view> statements;
+    std::size_t begin = 0;
+    char closing = 0; // what ends the string or the address around `i`
+    for (std::size_t i = 0; i < turtle.size(); ++i)
+    {
+        const char c = turtle[i];
+        if (closing != 0)
+        {
+            if (c == '\\')
+                ++i;
+            else if (c == closing)
+                closing = 0;
+        }
+        else if (c == '"' || c == '<')
+            closing = c == '"' ? '"' : '>';
+        else if (c == '.' && (i + 1 == turtle.size() || blanks.find(turtle[i + 1]) != blanks.npos))
+        {
+            statements.push_back(turtle.substr(begin, i + 1 - begin));
+            begin = i + 1;
+        }
+    }
+    statements.push_back(turtle.substr(begin));
+    return statements;
+}
+
+/// The id of the parameter that a statement describes; empty if it describes anything else.
+std::string_view parameterOf(std::string_view statement)
+{
+    constexpr std::string_view prefix = "plug:";
+    statement.remove_prefix(std::min(statement.find_first_not_of(blanks), statement.size()));
+    const std::size_t end = statement.find_first_of(blanks);
+    if (!statement.starts_with(prefix) || end == statement.npos)
+        return {};
+    const std::size_t next = statement.find_first_not_of(blanks, end);
+    return next != statement.npos && statement.substr(next).starts_with("a lv2:Parameter")
+               ? statement.substr(prefix.size(), end - prefix.size())
+               : std::string_view();
+}
+
+std::string quoted(std::string_view text)
+{
+    std::string result = "\"";
+    for (const char c : text)
+    {
+        if (c == '"' || c == '\\')
+            result += '\\';
+        result += c;
+    }
+    return result + '"';
+}
+
+std::string_view lv2UnitOf(ParameterUnit unit)
+{
+    switch (unit)
+    {
+    case ParameterUnit::decibels:
+        return "units:db";
+    case ParameterUnit::semitones:
+        return "units:semitone12TET";
+    case ParameterUnit::milliseconds:
+        return "units:ms";
+    case ParameterUnit::percent:
+        return "units:coef";
+    case ParameterUnit::number:
+    case ParameterUnit::choice:
+    case ParameterUnit::toggle:
+        break;
+    }
+    return {};
+}
+
+std::string_view lv2PropertiesOf(ParameterUnit unit)
+{
+    switch (unit)
+    {
+    case ParameterUnit::number:
+        return "lv2:integer";
+    case ParameterUnit::choice:
+        return "lv2:integer , lv2:enumeration";
+    case ParameterUnit::toggle:
+        return "lv2:toggled";
+    case ParameterUnit::decibels:
+    case ParameterUnit::semitones:
+    case ParameterUnit::milliseconds:
+    case ParameterUnit::percent:
+        break;
+    }
+    return {};
+}
+
+void describe(const ParameterRow& row, std::ostream& out)
+{
+    out << "plug:" << row.id << "\n\ta lv2:Parameter ;\n\trdfs:label " << quoted(row.name) << " ;\n\trdfs:comment "
+        << quoted(row.help) << " ;\n\trdfs:range atom:Float ;\n";
+    if (const auto unit = lv2UnitOf(row.unit); !unit.empty())
+        out << "\tunits:unit " << unit << " ;\n";
+    if (const auto properties = lv2PropertiesOf(row.unit); !properties.empty())
+        out << "\tlv2:portProperty " << properties << " ;\n";
+    for (std::size_t i = 0; i < row.choices.size(); ++i)
+        out << "\tlv2:scalePoint [ rdfs:label " << quoted(row.choices[i]) << " ; rdf:value " << static_cast<double>(i)
+            << " ] ;\n";
+    out << "\tlv2:default " << row.standard << " ;\n\tlv2:minimum " << row.low << " ;\n\tlv2:maximum " << row.high
+        << " .\n\n";
+}
+} // namespace
+
+Result<std::string> describeLv2Parameters(std::string_view turtle)
+{
+    std::ostringstream out;
+    out.imbue(std::locale::classic());
+    out.setf(std::ios::fixed);
+    out.precision(4);
+    std::array<bool, parameterCount> found{};
+    for (const std::string_view statement : statementsOf(turtle))
+    {
+        const std::string_view id = parameterOf(statement);
+        if (id.empty())
+        {
+            out << statement;
+            continue;
+        }
+        const auto row = std::find_if(parameterTable.begin(), parameterTable.end(),
+                                      [id](const ParameterRow& each) { return id == each.id; });
+        if (row == parameterTable.end())
+            return Error{ErrorCode::invalidData, std::string(id), "is no parameter of the plugin"};
+        found[static_cast<std::size_t>(row->parameter)] = true;
+    }
+    for (const ParameterRow& row : parameterTable)
+    {
+        if (!found[static_cast<std::size_t>(row.parameter)])
+            return Error{ErrorCode::invalidData, row.id, "is missing in the description that JUCE made"};
+        describe(row, out);
+    }
+    return std::move(out).str();
+}
+
+} // namespace pacini::plugin

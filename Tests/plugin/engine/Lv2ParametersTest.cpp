@@ -1,0 +1,101 @@
+// The description of the parameters for LV2 hosts.
+
+#include "plugin/engine/Lv2Parameters.h"
+
+#include "plugin/engine/PluginProcessor.h"
+#include "support/Catch.h"
+
+#include <pacini/realtime/TranslatorPresets.h>
+
+#include <string>
+
+using namespace pacini;
+using namespace pacini::plugin;
+
+namespace
+{
+constexpr std::string_view head = "@prefix plug:  <urn:pacini:translator:> .\n\n";
+constexpr std::string_view tail =
+    "<urn:pacini:translator>\n\tdoap:name \"Ends. with \\\" . and plug:x a lv2:Parameter\" ;\n"
+    "\tlv2:port [ lv2:default 1.0 ; ] .\n";
+
+/// As JUCE writes it.
+std::string statement(const std::string& id)
+{
+    return "plug:" + id +
+           "\n\ta lv2:Parameter ;\n\trdfs:label \"A. B\" ;\n\tlv2:default 0.5 ;\n\tlv2:scalePoint [\n"
+           "\t\trdfs:label \"Mix\" ;\n\t\trdf:value 0.5 ;\n\t] .\n\n";
+}
+
+std::string written()
+{
+    std::string text(head);
+    for (const ParameterRow& row : parameterTable)
+        text += statement(row.id);
+    return text.append(tail);
+}
+} // namespace
+
+TEST_CASE("For LV2, choices stand on the values that the plugin takes for them")
+{
+    const auto described = describeLv2Parameters(written());
+    REQUIRE(described);
+    const std::string& text = *described;
+    CHECK(text.starts_with(head));
+    CHECK(text.find(tail) != text.npos); // what is no parameter stays as it is
+    for (const ParameterRow& row : parameterTable)
+    {
+        CAPTURE(row.id);
+        const auto begin = text.find("plug:" + std::string(row.id) + "\n\ta lv2:Parameter ;");
+        REQUIRE(begin != text.npos);
+        CHECK(text.find("plug:" + std::string(row.id) + "\n", begin + 1) == text.npos);
+        const std::string own = text.substr(begin, text.find(" .\n", begin) - begin);
+        CHECK(own.find("rdf:value 0.5000") == own.npos);
+        for (std::size_t i = 0; i < row.choices.size(); ++i)
+            CHECK(own.find("[ rdfs:label \"" + std::string(row.choices[i]) + "\" ; rdf:value " + std::to_string(i) +
+                           ".0000 ]") != own.npos);
+        const auto number = [](double value)
+        {
+            const std::string digits = std::to_string(value);
+            return digits.substr(0, digits.find('.') + 5);
+        };
+        CHECK(own.find("lv2:minimum " + number(row.low)) != own.npos);
+        CHECK(own.find("lv2:maximum " + number(row.high)) != own.npos);
+        CHECK(own.find("lv2:default " + number(row.standard)) != own.npos);
+    }
+    CHECK(*describeLv2Parameters(text) == text);
+}
+
+TEST_CASE("A description for LV2 that lacks a parameter or has one too many is refused")
+{
+    CHECK(describeLv2Parameters(std::string(head).append(tail)).error().where == parameterTable[0].id);
+    CHECK(describeLv2Parameters(written() + statement("other")).error().where == "other");
+    CHECK_FALSE(describeLv2Parameters(""));
+}
+
+TEST_CASE("In LV2, the host's switch and the parameter bypass for themselves, and a preset always sets its values")
+{
+    juce::AudioProcessor::setTypeOfNextNewPlugin(juce::AudioProcessor::wrapperType_LV2);
+    PluginProcessor plugin;
+    juce::AudioProcessor::setTypeOfNextNewPlugin(juce::AudioProcessor::wrapperType_Undefined);
+    CHECK(plugin.getBypassParameter() == nullptr); // or JUCE writes the host's switch over it in every block
+    CHECK(PluginProcessor().getBypassParameter() != nullptr);
+
+    plugin.setRateAndBufferSizeDetails(48000.0, 512);
+    plugin.prepareToPlay(48000.0, 512);
+    juce::AudioBuffer<float> buffer(3, 512);
+    juce::MidiBuffer midi;
+    for (const bool bypassed : {true, false})
+    {
+        buffer.clear();
+        if (bypassed)
+            plugin.processBlockBypassed(buffer, midi);
+        else
+            plugin.processBlock(buffer, midi);
+        CHECK(plugin.isBypassedByHost() == bypassed);
+    }
+
+    plugin.parameter(ParameterId::attack).setPlainNotifyingHost(77.0);
+    plugin.setCurrentProgram(plugin.getCurrentProgram());
+    CHECK(plugin.values().translator() == translatorPresets()[0].params);
+}
