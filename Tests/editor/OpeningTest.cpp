@@ -313,20 +313,18 @@ TEST_CASE("Opening a minute of stereo, in figures", "[.bench]")
 
 TEST_CASE("What is opened while the sample project is there begins a project of its own")
 {
-    struct
-    {
-        juce::ScopedJuceInitialiser_GUI gui;
-        editor::Session session{{}, {}};
-        editor::EditorView view{session, {.demoSounds = {demoSound("knock_wood_bridge")}}};
-    } bench;
-    bench.view.setBounds(0, 0, 1280, 800);
-    editor::Session& session = bench.session;
+    const juce::ScopedJuceInitialiser_GUI gui;
+    editor::Session session{{}, {}};
+    editor::HostServices around;
+    around.demoSounds = {demoSound("knock_wood_bridge")};
+    editor::EditorView view{session, around};
+    view.setBounds(0, 0, 1280, 800);
     const TempFolder folder;
     const auto sound = writeSound(folder / "mine.wav", 1.0);
     const auto openSample = [&]
     {
         session.model.newProject();
-        REQUIRE(bench.view.doCommand(editor::openSample));
+        REQUIRE(view.doCommand(editor::openSample));
         REQUIRE(clipCount(session) >= 3);
         REQUIRE(session.model.isSample());
     };
@@ -338,35 +336,35 @@ TEST_CASE("What is opened while the sample project is there begins a project of 
         return names;
     };
     openSample();
-    bench.view.files().open({sound});
+    view.files().open({sound});
     REQUIRE(pumpUntil([&] { return idle(session) && session.model.clip() != nullptr; }));
     CHECK(namesNow() == std::vector<std::string>{"mine"});
     CHECK_FALSE(session.model.isSample());
     // The next one joins it: now it is the user's.
-    bench.view.files().open({demoSound("impact_boom")});
+    view.files().open({demoSound("impact_boom")});
     REQUIRE(pumpUntil([&] { return idle(session) && clipCount(session) == 2; }));
 
     // By the demo menu and by dropping, too.
     openSample();
     juce::StringArray dropped{juce::String(sound.string())};
-    static_cast<juce::FileDragAndDropTarget&>(bench.view).filesDropped(dropped, 0, 0);
+    static_cast<juce::FileDragAndDropTarget&>(view).filesDropped(dropped, 0, 0);
     REQUIRE(pumpUntil([&] { return idle(session) && namesNow() == std::vector<std::string>{"mine"}; }));
 
     // Work on the sample is not lost without a word.
     openSample();
-    bench.view.doCommand(editor::fadeOut);
-    bench.view.files().open({sound});
-    REQUIRE(bench.view.sheet() != nullptr);
-    CHECK(bench.view.sheet()->getTitle() == "Save the changes?");
+    view.doCommand(editor::fadeOut);
+    view.files().open({sound});
+    REQUIRE(view.sheet() != nullptr);
+    CHECK(view.sheet()->getTitle() == "Save the changes?");
     CHECK(clipCount(session) >= 3);
-    answer(*bench.view.sheet(), "Don't save");
+    answer(*view.sheet(), "Don't save");
     REQUIRE(pumpUntil([&] { return idle(session) && namesNow() == std::vector<std::string>{"mine"}; }));
 
     // Who saves it has made it an own project.
     openSample();
     REQUIRE(session.model.saveAs(folder / "own.pacini"));
     const std::size_t before = clipCount(session);
-    bench.view.files().open({sound});
+    view.files().open({sound});
     REQUIRE(pumpUntil([&] { return idle(session) && clipCount(session) == before + 1; }));
     CHECK(session.model.document().path() == folder / "own.pacini");
 }
