@@ -20,6 +20,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cctype>
 #include <chrono>
 #include <deque>
 #include <functional>
@@ -278,6 +279,7 @@ private:
         Response response{status, 11};
         response.set(http::field::content_type, "text/plain; charset=utf-8");
         response.body() = std::string(why) + "\n";
+        response.body()[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(response.body()[0])));
         send(std::move(response));
     }
 

@@ -1,6 +1,7 @@
 // Figures of the guide. Each is `(place, signal)`: an element to fill, and what says that the page is left.
 
 import { Core } from './core.js'
+import { guardSlider } from './fields.js'
 import { Peaks } from './peaks.js'
 
 const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim()
@@ -30,6 +31,7 @@ const knob = (place, text, { min, max, step, value }, changed) => {
   const input = made(label, 'input', { type: 'range', min, max, step, value })
   const output = made(label, 'output', { text: value })
   let timer
+  guardSlider(input)
   input.addEventListener('input', () => {
     output.textContent = input.value
     clearTimeout(timer)
