@@ -2,7 +2,7 @@
 """The plugin's windows in Ardour, as VST3 and LV2: opened and closed again and again, at several paces, while another
 window takes the focus in between. Ardour ends when a plugin brings it an error of the X server.
 
-check_windows.py FOLDER_OF_PLUGINS [OPENINGS]     exit 0, 1 on a failed check, 77 when something is not there
+check_windows.py FOLDER_OF_PLUGINS [OPENINGS_OF_EACH]     exit 0, 1 on a failed check, 77 when something is not there
 """
 import ctypes
 import itertools
@@ -103,7 +103,7 @@ def make_session(folder, plugins):
 def main():
     needs("Xvfb", "xdotool", "ardour")
     plugins = Path(sys.argv[1]).resolve()
-    wanted = int(sys.argv[2]) if len(sys.argv) > 2 else 200
+    wanted = int(sys.argv[2]) if len(sys.argv) > 2 else 100
     with tempfile.TemporaryDirectory() as folder, Processes() as processes:
         folder = Path(folder)
         environment = make_session(folder, plugins)
