@@ -4,11 +4,15 @@
 #include "io/InputFile.h"
 #include "io/Overwrite.h"
 
+#include <pacini/foundation/SizeInMemory.h>
+
 #include <fmt/format.h>
 
 #include <cerrno>
+#include <cstddef>
 #include <cstdint>
 #include <cstdio>
+#include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -20,7 +24,7 @@ namespace fs = std::filesystem;
 
 namespace
 {
-constexpr std::size_t largestSound = std::size_t(4) << 30;
+constexpr std::size_t largestSound = sizeInMemory(std::uint64_t(4) << 30);
 
 /// FNV-1a with 64 bits of bytes that come in parts.
 class ContentHash
@@ -88,13 +92,6 @@ std::vector<fs::path> withSubfolders(const fs::path& folder)
     return all;
 }
 } // namespace
-
-std::string contentHash(std::string_view bytes)
-{
-    ContentHash hash;
-    hash.add(bytes);
-    return hash.text();
-}
 
 bool isFileOf(const AudioReference& reference, const fs::path& path)
 {

@@ -11,7 +11,6 @@
 #include <memory>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace pacini
@@ -26,7 +25,9 @@ struct AudioReference
     double duration = 0.0;   ///< s
     double sampleRate = 0.0; ///< Hz
     int channels = 0;
-    std::string hash;                            ///< contentHash() of the file
+    /// Of the file: 16 hexadecimal digits of FNV-1a with 64 bits (Fowler, Noll, Vo, 1991). Tells files apart that are
+    /// not made to collide, which is enough to find a sound again.
+    std::string hash;
     std::shared_ptr<const std::string> embedded; ///< the whole file, or null
 
     /// Same file and same content; of an embedded copy only whether there is one.
@@ -37,10 +38,6 @@ struct AudioReference
                (embedded != nullptr) == (other.embedded != nullptr);
     }
 };
-
-/// 16 hexadecimal digits of FNV-1a with 64 bits (Fowler, Noll, Vo, 1991): tells files apart that are not made to
-/// collide, which is enough to find a sound again.
-[[nodiscard]] std::string contentHash(std::string_view bytes);
 
 /// Whether `path` is the file of a sound: in its place, or elsewhere with its content.
 [[nodiscard]] bool isFileOf(const AudioReference& reference, const std::filesystem::path& path);

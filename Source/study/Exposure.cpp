@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <complex>
 #include <numbers>
 
 namespace pacini::study
@@ -41,16 +40,6 @@ Section bilinear(double n2, double n1, double n0, double d1, double d0, double e
             2.0 * (d0 - c * c) * scale, (c * c - d1 * c + d0) * scale};
 }
 } // namespace
-
-double handArmWeight(double frequency) noexcept
-{
-    const std::complex<double> s(0.0, turn * frequency);
-    const double w1 = turn * f1, w2 = turn * f2, w3 = turn * f3, w4 = turn * f4;
-    const auto high = s * s / (s * s + s * w1 / q1 + w1 * w1);
-    const auto low = w2 * w2 / (s * s + s * w2 / q1 + w2 * w2);
-    const auto transition = (s + w3) * w4 * w4 / ((s * s + s * w4 / q2 + w4 * w4) * w3);
-    return std::abs(high * low * transition);
-}
 
 double dailyExposure(double dose) noexcept
 {

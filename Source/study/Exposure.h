@@ -7,16 +7,12 @@
 namespace pacini::study
 {
 
-/// Magnitude of the weighting Wh at a frequency in Hz (ISO 5349-1, annex A): 1 from some 8 to 16 Hz, falling in
-/// proportion to 1/f above.
-[[nodiscard]] double handArmWeight(double frequency) noexcept;
-
 /// A(8), m/s2: the constant acceleration that would bring about in eight hours what `dose` (m2/s4 s: weighted
 /// acceleration, squared, over time) did.
 [[nodiscard]] double dailyExposure(double dose) noexcept;
 
-/// The dose of an acceleration in m/s2 at a sample rate in Hz, weighted; m2/s4 s. One axis: a wristband's actuator has
-/// one.
+/// The dose of an acceleration in m/s2 at a sample rate in Hz, weighted by Wh (annex A); m2/s4 s. One axis: a
+/// wristband's actuator has one.
 [[nodiscard]] double doseOf(std::span<const float> acceleration, double sampleRate);
 
 } // namespace pacini::study

@@ -211,7 +211,7 @@ TEST_CASE("A session that has too much sound to be kept keeps the clips")
     AudioReference sound;
     sound.path = "capture 1.wav";
     sound.embedded = std::make_shared<const std::string>(HostedProject::largestText, 'x');
-    sound.hash = contentHash(*sound.embedded);
+    sound.hash = "0123456789abcdef";
     REQUIRE(document.addSound(sound, {}, *tone(1.0)));
     HostedProject hosted;
     hosted.keep(document.project());

@@ -18,6 +18,13 @@ struct Found
     double bias = 0.0, sd = 0.0; ///< dB
 };
 
+/// The strength at which the share of right answers is `p`.
+double strengthAt(const Psychometric& function, double p)
+{
+    const double missed = (1.0 - function.lapse - p) / (1.0 - function.guess - function.lapse);
+    return function.threshold + 20.0 / function.slope * std::log10(-std::log(missed));
+}
+
 /// Mean and spread of the thresholds of many simulated observers, against the strength at the share that is looked for.
 Found observe(const Adaptive& adaptive, Psychometric truth, Interval thresholds, int runs)
 {
@@ -32,7 +39,7 @@ Found observe(const Adaptive& adaptive, Psychometric truth, Interval thresholds,
         const auto threshold = staircase.threshold();
         REQUIRE(threshold);
         const bool isLevitt = adaptive.procedure == Procedure::levitt;
-        errors.push_back(threshold->strength - (isLevitt ? truth.strengthAt(threshold->share) : truth.threshold));
+        errors.push_back(threshold->strength - (isLevitt ? strengthAt(truth, threshold->share) : truth.threshold));
     }
     return {meanOf(errors), sdOf(errors)};
 }
@@ -100,7 +107,7 @@ TEST_CASE("A psychometric function starts at guessing, ends at lapses and turns 
     CHECK(function(-200.0) == Approx(0.5));
     CHECK(function(100.0) == Approx(0.98));
     for (const double share : {0.6, 0.75, 0.9})
-        CHECK(function(function.strengthAt(share)) == Approx(share));
+        CHECK(function(strengthAt(function, share)) == Approx(share));
 }
 
 TEST_CASE("Answers that nothing explains leave a posterior that is one")

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <numbers>
 #include <vector>
 
@@ -17,6 +18,19 @@ using namespace pacini::study;
 
 namespace
 {
+/// Magnitude of the weighting Wh at a frequency in Hz (ISO 5349-1:2001, annex A), in continuous time.
+double handArmWeight(double frequency)
+{
+    constexpr double turn = 2.0 * std::numbers::pi;
+    constexpr double w1 = turn * 6.310, w2 = turn * 1258.9, w3 = turn * 15.915, w4 = turn * 15.915, q1 = 0.71,
+                     q2 = 0.64;
+    const std::complex<double> s(0.0, turn * frequency);
+    const auto high = s * s / (s * s + s * w1 / q1 + w1 * w1);
+    const auto low = w2 * w2 / (s * s + s * w2 / q1 + w2 * w2);
+    const auto transition = (s + w3) * w4 * w4 / ((s * s + s * w4 / q2 + w4 * w4) * w3);
+    return std::abs(high * low * transition);
+}
+
 Study withClicks()
 {
     Study study;
@@ -165,7 +179,7 @@ TEST_CASE("A file that is missing is said with the stimulus it belongs to")
     CHECK(made.error().message.find("gone.wav") != std::string::npos);
 }
 
-TEST_CASE("Hand and arm are weighted as in the table of ISO 5349-1")
+TEST_CASE("The weighting that doses are compared with is that of the table of ISO 5349-1")
 {
     // Table A.2, at the exact frequencies of third octaves.
     const std::vector<std::pair<int, double>> table{

@@ -32,21 +32,6 @@ struct TransientDetectorParams
     bool operator==(const TransientDetectorParams&) const = default;
 };
 
-/// The relative score with times for up to 80 events per second.
-[[nodiscard]] inline TransientDetectorParams relativeTransientParams() noexcept
-{
-    TransientDetectorParams params;
-    params.score.reading = TransientScoreReading::relative;
-    params.score.fastAttack = Seconds(0.0005);
-    params.score.slowAttack = Seconds(0.020);
-    params.score.hold = Seconds(0.005);
-    params.score.release = Seconds(0.010);
-    params.threshold = 2.0;
-    params.minimumWindow = Seconds(0.002);
-    params.minimumDistance = Seconds(0.008);
-    return params;
-}
-
 /// An event: the frame (counted from reset) and the level |x| of its peak.
 struct DetectedTransient
 {

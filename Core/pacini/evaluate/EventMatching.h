@@ -57,7 +57,6 @@ struct EventScore
     std::size_t truePositives = 0;
     std::size_t falsePositives = 0;
     std::size_t falseNegatives = 0;
-    std::optional<double> medianError; ///< s, detection - reference; empty without hits
     bool operator==(const EventScore&) const = default;
 };
 
@@ -77,9 +76,8 @@ struct EventScore
     std::erase_if(detections, [&](double t) { return !isNear(onsets, t) && isNear(ambiguous, t); });
 
     // A tolerance of whole milliseconds includes differences of just that size, whatever their last bit is.
-    const auto errors = matchEvents(onsets, detections, tolerance + 1e-12);
-    const std::size_t hits = errors.size();
-    EventScore score{1.0, hits, detections.size() - hits, onsets.size() - hits, median(errors)};
+    const std::size_t hits = matchEvents(onsets, detections, tolerance + 1e-12).size();
+    EventScore score{1.0, hits, detections.size() - hits, onsets.size() - hits};
     if (!onsets.empty() || !detections.empty())
         score.f = 2.0 * static_cast<double>(hits) / static_cast<double>(onsets.size() + detections.size());
     return score;

@@ -23,8 +23,6 @@ public:
     /// The largest magnitude since the last call, full scale 1.
     void show(float peak);
     void reset();
-    [[nodiscard]] bool hasClipped() const noexcept { return clipped; }
-    [[nodiscard]] float heldLevel() const noexcept { return held; } ///< dB
 
     void paint(juce::Graphics& g) override;
     void mouseDown(const juce::MouseEvent&) override { reset(); }
@@ -35,8 +33,8 @@ private:
     std::unique_ptr<juce::AccessibilityHandler> createAccessibilityHandler() override;
 
     static constexpr float least = -72.0f; ///< dB
-    float level = least, held = least;
-    int holding = 0; ///< calls until the held level falls
+    float level = least, held = least;     ///< dB
+    int holding = 0;                       ///< calls until the held level falls
     bool clipped = false;
     juce::String text;
 };

@@ -16,12 +16,6 @@ double Psychometric::operator()(double strength) const noexcept
     return 1.0 - lapse - (1.0 - guess - lapse) * missed;
 }
 
-double Psychometric::strengthAt(double p) const noexcept
-{
-    const double missed = (1.0 - lapse - p) / (1.0 - guess - lapse);
-    return threshold + 20.0 / slope * std::log10(-std::log(missed));
-}
-
 PsychometricPosterior::PsychometricPosterior(const PsychometricPrior& prior)
     : grid(prior), weights(prior.thresholds.count * prior.slopes.count * prior.lapses.count)
 {

@@ -19,9 +19,6 @@ struct Psychometric
     double lapse = 0.02;
 
     [[nodiscard]] double operator()(double strength) const noexcept;
-
-    /// The strength at which the share is `p`, above guess and below 1 - lapse.
-    [[nodiscard]] double strengthAt(double p) const noexcept;
 };
 
 /// Evenly spaced values.

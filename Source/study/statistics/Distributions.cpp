@@ -66,11 +66,6 @@ double twoTailedNormal(double z)
     return std::isnan(z) ? 1.0 : std::erfc(std::abs(z) / std::sqrt(2.0));
 }
 
-double normalCdf(double z)
-{
-    return 0.5 * std::erfc(-z / std::sqrt(2.0));
-}
-
 double normalQuantile(double p)
 {
     return boost::math::quantile(Normal(), p);

@@ -20,9 +20,6 @@ namespace pacini::study
 /// P(|Z| >= |z|) of the standard normal distribution.
 [[nodiscard]] double twoTailedNormal(double z);
 
-/// P(Z <= z).
-[[nodiscard]] double normalCdf(double z);
-
 /// The z below which the share `p` lies, 0 < p < 1.
 [[nodiscard]] double normalQuantile(double p);
 
