@@ -47,7 +47,7 @@ TEST_CASE("a comparison does not depend on those before it", "[comparison]")
 {
     const auto a = toneAt(120.0, 1.0);
     const auto b = toneAt(200.0, 1.5);
-    Comparer fresh, used;
+    Comparer fresh, used(UnsoundFrames::silence);
     (void)compared(used, b, b);
     (void)compared(used, std::vector<float>(100), a);
     auto broken = b;
