@@ -66,6 +66,8 @@ OptionText optionText(const CLI::Option& option)
     text.description = option.get_description();
     text.required = option.get_required();
     text.several = option.get_items_expected_max() > 1;
+    if (option.get_group() != CLI::OptionDefaults().get_group())
+        text.group = option.get_group();
     for (const CLI::Option* other : option.get_needs())
         text.with = other->get_name();
     if (option.get_items_expected_max() == 0)

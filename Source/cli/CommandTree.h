@@ -20,6 +20,7 @@ struct OptionText
     std::vector<std::string> choices; ///< the only values, if they are few
     std::string preset;               ///< the value without the option; empty when the description says it
     std::string with;                 ///< the option that it needs, if any
+    std::string group;                ///< heading in help texts; empty: none of its own
     bool required = false;
     bool several = false; ///< may be given several times or with several values
 };

@@ -299,7 +299,7 @@ std::optional<ConvertSettings> ConvertCommand::settingsFor(Console& console, boo
     }
     if (!target->isOwn() && quantise > 0)
         return wrongUsage(output, "is no packed clip; --quantise is for those");
-    const auto params = options.params(console);
+    const auto params = options.params(console, *target);
     if (!params)
         return std::nullopt;
     ConvertSettings settings;

@@ -3,6 +3,7 @@
 #include "cli/Batch.h"
 #include "cli/Command.h"
 #include "cli/Counted.h"
+#include "cli/DescribedOptions.h"
 #include "cli/EncodeJob.h"
 #include "cli/ExportOptions.h"
 #include "cli/InputFiles.h"
@@ -12,15 +13,14 @@
 #include "cli/Task.h"
 #include "cli/TaskRunner.h"
 #include "io/FileExtension.h"
+#include "io/SettingsFile.h"
 
-#include <pacini/analysis/Encoder.h>
 #include <pacini/analysis/methods/Method.h>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -116,10 +116,10 @@ public:
     Exit run(Console& console) override;
 
 private:
-    /// Complains of options that the method does not have.
+    /// Complains of options of the output that do not fit the method.
     [[nodiscard]] Result<void> checkOptions(const MethodInfo& method) const;
     [[nodiscard]] Result<void> checkFormat() const;
-    [[nodiscard]] MethodChoices choices() const;
+    [[nodiscard]] std::optional<Settings> chosenSettings(Console& console) const;
     [[nodiscard]] Error runOnCluster() const;
 
     /// The sounds to encode, without drive signals that Pacini made, which may lie beside them.
@@ -129,12 +129,12 @@ private:
     std::vector<std::string> inputs;
     std::string methodName = "a2vt";
     bool listMethods = false;
+    DescribedOptions described;
+    std::string settingsFile;
+    bool printSettings = false;
     std::string output;
     std::string format;
     ExportOptions exporting;
-    EncoderParams params;
-    std::string spacing = "log";
-    bool keepLevel = false;
     bool allowNan = false;
     bool allowTruncated = false;
     bool force = false;
@@ -154,12 +154,25 @@ CLI::App* EncodeCommand::declare(CLI::App& app)
         names.emplace_back(info.name);
     addOption(*command, "inputs", inputs,
               "Audio files, folders of them (WAV, AIFF, FLAC, Ogg, MP3 ...), or - for standard input", "IN");
-    addOption(*command, "-o,--output", output,
-              "File, folder for several inputs, or - for standard output [beside each input]", "OUT|DIR");
+    const auto group = [this](const char* heading)
+    {
+        command->option_defaults()->group(heading);
+    };
+    std::vector<const ParameterInfo*> common, special;
+    for (const ParameterInfo* parameter : translationParameters())
+        (parameter->group == "Analysis" ? common : special).push_back(parameter);
+    group("Analysis");
     addPreset(*command, "--method", methodName,
               "How sound is translated, see --list-methods; six of them write drive signals as WAV", oneOf(names),
               "NAME");
     command->add_flag("--list-methods", listMethods, "List the methods and do nothing else");
+    addOption(*command, "--settings", settingsFile,
+              "Values of these options from a JSON file; options of the command line come before them", "FILE");
+    command->add_flag("--print-settings", printSettings, "Print all settings as such a file, and do nothing else");
+    described.declare(*command, common);
+    group("Output");
+    addOption(*command, "-o,--output", output,
+              "File, folder for several inputs, or - for standard output [beside each input]", "OUT|DIR");
     std::vector<std::string> formats;
     for (const ClipFormat& known : clipFormats())
         if (known.isWritten())
@@ -168,27 +181,16 @@ CLI::App* EncodeCommand::declare(CLI::App& app)
               "json (to read and edit), packed (small), or one of other programs, see 'pacini lint --targets' "
               "[by the extension of OUT, else json]",
               oneOf(formats));
+    group("Other formats");
     exporting.declare(*command);
-    addPreset(*command, "--bands", params.bands, "Number of frequency bands", wholeNumberFrom(1, 32));
-    addPreset(*command, "--breakpoints", params.breakpoints,
-              "At most this many breakpoints per second and band; simple sounds take fewer", numberFrom(0.5, 1000.0));
-    addPreset(*command, "--quantise", params.quantise, "Bits of each value", wholeNumberFrom(4, 16));
-    addPreset(*command, "--low", params.lowFrequency, "Lower end of the bands, Hz", numberFrom(1.0, 1700.0));
-    addPreset(*command, "--high", params.highFrequency, "Upper end of the bands, Hz", numberFrom(2.0, 1800.0));
-    addPreset(*command, "--spacing", spacing, "How bands are spaced: log or linear", oneOf({"log", "linear"}));
-    addPreset(*command, "--audible", params.audible,
-              "How far loudness drives what lives above the range of touch (rain, ticks, birds), 0 to 1; 0 keeps the "
-              "beat of music",
-              numberFrom(0.0, 1.0));
-    addPreset(*command, "--sensitivity", params.onsets.sensitivity,
-              "Above 1 more and weaker events become transients, below 1 fewer", numberFrom(0.25, 4.0));
-    command->add_flag("--keep-level", keepLevel, "Keep the level of the sound instead of raising it to full drive");
+    group("Files");
     command->add_flag("--allow-nan", allowNan,
                       "Read samples that are not finite, or absurdly large, as 0 instead of refusing the file");
     command->add_flag("--allow-truncated", allowTruncated, "Encode what is there of a file that was cut off");
     command->add_flag("-f,--force", force, "Encode also what is up to date");
     overwriting.declare(*command);
     command->add_flag("--dry-run", dryRun, "Only say what would be done with each file; write nothing");
+    group("Many files");
     addOption(*command, "-j,--jobs", jobs, "Files to work on at a time [number of processors]",
               wholeNumberFrom(1u, 256u), "N");
     batch.declare(*command);
@@ -196,38 +198,44 @@ CLI::App* EncodeCommand::declare(CLI::App& app)
               "Encode on the machines of a Ray cluster, which see the same files: its address, auto, or local for this "
               "machine; needs Python with pacini[ray]",
               "ADDRESS");
+    described.declare(*command, special);
+    group(CLI::OptionDefaults().get_group().c_str());
     command->footer("Examples:\n  pacini encode door.wav                       writes door.json\n"
                     "  pacini encode door.wav -o door.pacb          packed: about 200 bytes per second\n"
                     "  pacini encode sounds/ -o clips/ --format packed -j 8\n"
                     "  pacini encode door.wav -o door.haptic        for the players of Lofelt and Meta\n"
                     "  pacini encode door.wav --method thesis --bands 8\n"
+                    "  pacini encode --bands 8 --print-settings > mine.json\n"
+                    "  pacini encode sounds/ -o clips/ --settings mine.json\n"
                     "  pacini encode door.wav --method lowpass      writes door.lowpass.wav");
     return command;
 }
 
-MethodChoices EncodeCommand::choices() const
+std::optional<Settings> EncodeCommand::chosenSettings(Console& console) const
 {
-    // Only what the user said: each method has defaults of its own.
-    const auto said = [this]<typename T>(const char* option, T value)
+    Settings settings;
+    if (!settingsFile.empty())
     {
-        return command->count(option) > 0 ? std::optional<T>(value) : std::nullopt;
-    };
-    MethodChoices chosen;
-    chosen.breakpoints = said("--breakpoints", params.breakpoints);
-    chosen.bands = said("--bands", static_cast<std::size_t>(params.bands));
-    chosen.lowFrequency = said("--low", params.lowFrequency);
-    chosen.highFrequency = said("--high", params.highFrequency);
-    chosen.quantise = said("--quantise", params.quantise);
-    return chosen;
+        ReadWarnings warnings(console.isStrict());
+        auto read = readSettingsFile(settingsFile, &warnings);
+        if (!read)
+        {
+            console.error(settingsFile, read.error());
+            return std::nullopt;
+        }
+        console.warnings(settingsFile, warnings.texts());
+        settings = std::move(*read);
+    }
+    if (command->count("--method") > 0)
+        settings.method = methodName;
+    described.addGiven(settings.encode);
+    return settings;
 }
 
 Result<void> EncodeCommand::checkOptions(const MethodInfo& method) const
 {
     if (inputs.empty())
         return wrongUsage("encode", "a file to work on is missing; try 'pacini encode --help'");
-    for (const std::string_view name : tunedOptions)
-        if (const std::string option = "--" + std::string(name); command->count(option) > 0 && !hasOption(method, name))
-            return wrongUsage(option, fmt::format("is no option of the method {}; leave it out", method.name));
     if (method.output == MethodOutput::signal)
     {
         const std::string clips = methodNames(MethodOutput::clip);
@@ -254,7 +262,7 @@ Result<void> EncodeCommand::checkOptions(const MethodInfo& method) const
     }
     else if (auto formatKnown = checkFormat(); !formatKnown)
         return formatKnown;
-    return validate(params);
+    return {};
 }
 
 Result<void> EncodeCommand::checkFormat() const
@@ -280,10 +288,10 @@ Result<void> EncodeCommand::checkFormat() const
 /// Comes back only where that is not possible.
 Error EncodeCommand::runOnCluster() const
 {
-    constexpr std::array known{"inputs",      "output",      "method",     "format",    "bands",
-                               "breakpoints", "quantise",    "low",        "high",      "spacing",
-                               "audible",     "sensitivity", "keep-level", "allow-nan", "allow-truncated",
-                               "ray",         "quiet",       "overwrite"};
+    std::vector<std::string> known{"inputs",    "output",          "method", "settings", "format",
+                                   "allow-nan", "allow-truncated", "ray",    "quiet",    "overwrite"};
+    for (const ParameterInfo* parameter : translationParameters())
+        known.push_back(separatedName(parameter->name, '-'));
     if (output.empty() || isStream(output))
         return wrongUsage("--output", "is needed with --ray: name a folder for the clips");
     for (const CLI::Option* option : command->get_options())
@@ -319,17 +327,29 @@ Exit EncodeCommand::run(Console& console)
         console.print(methodList());
         return Exit::ok;
     }
-    const MethodInfo& method = methodInfo(methodNamed(methodName).value_or(Method::a2vt));
-    params.spacing = spacing == "log" ? BandSpacing::logarithmic : BandSpacing::linear;
-    params.normalise = !keepLevel;
+    const auto chosen = chosenSettings(console);
+    if (!chosen)
+        return Exit::failed;
+    const auto translation = translationOf(*chosen);
+    if (!translation)
+        return console.fail("", wrongUsage(optionOf(translation.error().where), translation.error().message),
+                            Exit::usage);
+    if (printSettings)
+    {
+        const auto document = settingsJson(*translation, usualChoices(translation->method));
+        console.addToReport(
+            {{"settings", document},
+             {"parameters", {{"encode", translationDescriptionsJson()}, {"export", exportDescriptionsJson()}}}});
+        console.print(document.dump(4));
+        return Exit::ok;
+    }
+    const MethodInfo& method = methodInfo(translation->method);
     if (auto valid = checkOptions(method); !valid)
         return console.fail("", valid.error(), Exit::usage);
     if (!rayAddress.empty())
         return console.fail("", runOnCluster(), Exit::usage);
     EncodeSettings settings;
-    settings.method = method.method;
-    settings.params = params;
-    settings.choices = choices();
+    static_cast<TranslationParams&>(settings) = *translation;
     settings.reading = {allowTruncated, allowNan};
     settings.force = force;
     settings.dryRun = dryRun;
@@ -340,7 +360,7 @@ Exit EncodeCommand::run(Console& console)
         settings.format = target;
     if (const auto fits = exporting.checkFor(*settings.format); !fits)
         return console.fail("", fits.error(), Exit::usage);
-    const auto exportParams = exporting.params(console);
+    const auto exportParams = exporting.params(console, *settings.format, chosen->exporting);
     if (!exportParams)
         return Exit::failed;
     settings.exporting = *exportParams;

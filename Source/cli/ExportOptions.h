@@ -3,7 +3,8 @@
 // Command-line options of exports, for the commands that write clips for other programs.
 
 #include "cli/Console.h"
-#include "io/formats/ClipFormat.h"
+#include "cli/DescribedOptions.h"
+#include "io/formats/ExportParameters.h"
 
 #include <pacini/actuator/Strength.h>
 
@@ -21,8 +22,10 @@ class ExportOptions
 public:
     void declare(CLI::App& command);
 
-    /// The parameters that follow; nothing when the profile cannot be read, and the console has said why.
-    [[nodiscard]] std::optional<ExportParams> params(Console& console) const;
+    /// The parameters that follow for `format`, which checkFor() takes; of `settings` those count that change anything
+    /// in it. Nothing when the profile cannot be read, and the console has said why.
+    [[nodiscard]] std::optional<ExportParams> params(Console& console, const ClipFormat& format,
+                                                     const GivenParameters& settings = {}) const;
 
     /// Errors: invalidArgument for a given option that changes nothing in `format`, with the formats in which it does.
     [[nodiscard]] Result<void> checkFor(const ClipFormat& format) const;
@@ -34,16 +37,10 @@ public:
     [[nodiscard]] std::string record() const;
 
 private:
-    const CLI::App* declaredIn = nullptr; ///< knows which were given
-    double points = 0.0;
-    double frequencyPoints = 0.0;
-    int rate = 0;
-    EnvelopeLimits envelope;
-    bool split = false;
-    bool quick = false;
-    std::string events; ///< empty: the format's own
+    [[nodiscard]] GivenParameters given() const;
+
+    DescribedOptions described;
     std::string profile;
-    double strength = standardStrength;
 };
 
 } // namespace pacini::cli

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <string>
+#include <vector>
 
 namespace pacini::cli
 {
@@ -53,6 +54,24 @@ std::string termOf(const OptionText& option)
     return text;
 }
 
+/// The options below the headings of their groups, in the order in which those first come.
+std::string optionList(const CommandText& command, std::size_t width)
+{
+    std::vector<std::string> groups{""};
+    for (const OptionText& option : command.options)
+        if (std::find(groups.begin(), groups.end(), option.group) == groups.end())
+            groups.push_back(option.group);
+    std::string text;
+    for (const std::string& group : groups)
+    {
+        text += group.empty() ? "\nOptions (defaults in brackets):\n" : fmt::format("\n{}:\n", group);
+        for (const OptionText& option : command.options)
+            if (option.group == group)
+                text += entry(termOf(option), wholeDescription(option), width);
+    }
+    return text;
+}
+
 std::string commandList(const CommandText& command, std::size_t width)
 {
     std::string text;
@@ -71,9 +90,7 @@ std::string helpText(const CommandText& command, std::size_t width)
         text += "\nArguments:\n";
     for (const OptionText& argument : command.arguments)
         text += entry(termOf(argument), wholeDescription(argument), width);
-    text += "\nOptions (defaults in brackets):\n";
-    for (const OptionText& option : command.options)
-        text += entry(termOf(option), wholeDescription(option), width);
+    text += optionList(command, width);
     if (!command.notes.empty())
         text += "\n" + command.notes + "\n";
     text.pop_back();

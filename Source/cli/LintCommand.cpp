@@ -270,7 +270,8 @@ Exit LintCommand::run(Console& console)
     }
     else if (const auto fits = options.checkFor(*clipFormatNamed(target)); !fits)
         return console.fail("", fits.error(), Exit::usage);
-    const auto params = options.params(console);
+    const auto params =
+        target.empty() ? std::optional(ExportParams()) : options.params(console, *clipFormatNamed(target));
     if (!params)
         return Exit::failed;
 

@@ -6,6 +6,7 @@
 #include "document/Project.h"
 #include "document/ProjectJson.h"
 #include "io/Fields.h"
+#include "io/ParameterFields.h"
 #include "io/ProfileFields.h"
 #include "io/SceneFields.h"
 
@@ -15,9 +16,6 @@
 
 namespace pacini::projectFields
 {
-
-inline constexpr std::array<Choice<BandSpacing>, 2> spacings = {
-    {{"logarithmic", BandSpacing::logarithmic}, {"linear", BandSpacing::linear}}};
 
 /// A whole number, of any size that a double holds.
 template <typename Number, typename Visitor>
@@ -37,24 +35,9 @@ void visitCount(Number& value, const char* name, double lowest, double highest, 
 template <typename Params, typename Visitor>
 void visitEncoder(Params& params, Visitor& visitor)
 {
-    using enum Need;
-    visitor.integer("bands", params.bands, "must be a whole number");
-    visitor.number("lowFrequency", params.lowFrequency, usual);
-    visitor.number("highFrequency", params.highFrequency, usual);
-    visitor.choice("spacing", params.spacing, spacings, usual);
-    visitor.number("breakpoints", params.breakpoints, usual);
-    visitor.integer("quantise", params.quantise, "must be a whole number");
     if constexpr (isReader<Visitor>)
         params.audible = 0.0; // before there was such a field, nothing of it was felt
-    visitor.number("audible", params.audible, usual);
-    visitor.truth("normalise", params.normalise);
-    visitor.number("sensitivity", params.onsets.sensitivity, usual);
-    visitor.number("minimumGap", params.onsets.minimumGap.value, usual);
-    visitor.number("maskMargin", params.onsets.maskMargin.value, usual);
-    visitor.number("maskSlope", params.onsets.maskSlope, usual);
-    visitor.number("maskRecovery", params.onsets.maskRecovery, usual);
-    visitor.number("maskLimit", params.onsets.maskLimit.value, usual);
-    visitor.number("silence", params.onsets.silence.value, usual);
+    visitParameters(encoderParameters, params, visitor);
 }
 
 template <typename Chosen, typename Visitor>

@@ -7,8 +7,6 @@
 // scenes) as their text comes, FieldsReader small ones (profiles, projects, sweeps) from a tree, FieldsWriter writes
 // both.
 
-#include <array>
-#include <cstddef>
 #include <string_view>
 
 namespace pacini
@@ -23,8 +21,8 @@ struct Choice
 };
 
 /// The name of `value` in a file.
-template <typename E, std::size_t Count>
-[[nodiscard]] constexpr std::string_view nameOf(E value, const std::array<Choice<E>, Count>& choices) noexcept
+template <typename E, typename Choices>
+[[nodiscard]] constexpr std::string_view nameOf(E value, const Choices& choices) noexcept
 {
     for (const auto& choice : choices)
         if (choice.value == value)

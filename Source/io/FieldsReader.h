@@ -97,6 +97,15 @@ public:
         }
     }
 
+    /// 1 for true, 0 for false.
+    void optionalTruth(const char* name, std::optional<double>& value)
+    {
+        bool read = false;
+        truth(name, read);
+        if (current->contains(name))
+            value = read ? 1.0 : 0.0;
+    }
+
     /// Of the entries of the current object.
     [[nodiscard]] std::vector<std::string> names() const
     {

@@ -29,11 +29,8 @@ namespace pacini
 {
 
 /// How sounds are translated and read.
-struct SoundEncoderParams
+struct SoundEncoderParams : TranslationParams
 {
-    Method method = Method::a2vt;
-    EncoderParams params;  ///< of a2vt
-    MethodChoices choices; ///< of the other methods
     AudioReadOptions reading;
 };
 

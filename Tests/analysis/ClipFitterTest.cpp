@@ -293,8 +293,7 @@ TEST_CASE("Wrong parameters of the encoder are explained", "[analysis][encoder]"
         return error.where + ": " + error.message;
     };
     CHECK(message(encoderWith([](EncoderParams& p) { p.bands = 0; })) == "bands: must be 1 to 32");
-    CHECK(message(encoderWith([](EncoderParams& p) { p.lowFrequency = 0.0; })) ==
-          "frequency range: must lie within 1 to 1800 Hz, the low end below the high end");
+    CHECK(message(encoderWith([](EncoderParams& p) { p.lowFrequency = 0.0; })) == "low: must be 1 to 1700 Hz");
     CHECK(message(encoderWith([](EncoderParams& p) { p.breakpoints = 0.0; })) ==
           "breakpoints: must be 0.5 to 1000 per second and band");
     CHECK(message(encoderWith([](EncoderParams& p) { p.quantise = 17; })) == "quantise: must be 4 to 16 bits");

@@ -469,9 +469,9 @@ TEST_CASE("The ends of every range of the encoder are allowed and nothing beyond
          {std::pair(0.25, true), std::pair(4.0, true), std::pair(0.249, false), std::pair(4.01, false)})
         CHECK(where([v = value](EncoderParams& p) { p.onsets.sensitivity = v; }).empty() == allowed);
     CHECK(where([](EncoderParams& p) { p.lowFrequency = 1.0, p.highFrequency = 1800.0; }).empty());
-    CHECK(where([](EncoderParams& p) { p.lowFrequency = 0.99; }) == "frequency range");
-    CHECK(where([](EncoderParams& p) { p.highFrequency = 1800.1; }) == "frequency range");
-    CHECK(where([](EncoderParams& p) { p.lowFrequency = p.highFrequency = 500.0; }) == "frequency range");
+    CHECK(where([](EncoderParams& p) { p.lowFrequency = 0.99; }) == "low");
+    CHECK(where([](EncoderParams& p) { p.highFrequency = 1800.1; }) == "high");
+    CHECK(where([](EncoderParams& p) { p.lowFrequency = p.highFrequency = 500.0; }) == "low");
 }
 
 namespace

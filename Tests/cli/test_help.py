@@ -51,9 +51,10 @@ class Help(CommandTest):
 
     def test_ranges_defaults_and_choices_are_told_once(self):
         text = " ".join(self.succeeds("help", "encode").split())
+        self.assertIn("Other formats: --points X Most points of amplitude", text)
         self.assertIn("--bands N Number of frequency bands (1 to 32) [12]", text)
         self.assertIn("How bands are spaced: log or linear [log]", text)
-        self.assertIn("--low X Lower end of the bands, Hz (1 to 1700) [30]", text)
+        self.assertIn("--low X Lower end of the bands (1 to 1700 Hz) [30]", text)
         text = " ".join(self.succeeds("help", "plot").split())
         self.assertIn("--from S Start of the part to show, s (0 to 86400 = 24 h) [0]", text)
 

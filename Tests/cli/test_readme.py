@@ -334,7 +334,8 @@ class Options(CommandTest):
     # Of the programs with a window, which are not built everywhere: the page, and the file that declares its options.
     OTHER_PROGRAMS = {PAGES + "plugin.md": "Source/app/Settings.cpp"}
     # The commands whose options a page describes without naming the command, with their defaults.
-    COMMANDS = {PAGES + "getting-started.md": ["encode"], PAGES + "scenes.md": ["render"], PAGES + "profiles.md": ["render"],
+    COMMANDS = {PAGES + "getting-started.md": ["encode"], PAGES + "settings.md": ["encode"],
+                PAGES + "scenes.md": ["render"], PAGES + "profiles.md": ["render"],
                 PAGES + "devices.md": ["play"],
                 PAGES + "measuring.md": ["measure sweep", "measure analyse", "measure fit", "measure verify",
                                          "measure simulate"]}

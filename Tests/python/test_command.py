@@ -36,10 +36,22 @@ class SameAsCommand(FolderTest):
                 ["--audible", 0, "--sensitivity", 2, "--keep-level"],
             ),
             ({"method": "thesis", "bands": 8}, ["--method", "thesis", "--bands", 8]),
+            ({"minimum_gap": 0.1, "silence": -40}, ["--minimum-gap", 0.1, "--silence", -40]),
+            (
+                {"method": "envelope-sine", "attack": 0.05, "crest_adaptive": True},
+                ["--method", "envelope-sine", "--attack", 0.05, "--crest-adaptive"],
+            ),
         ):
             with self.subTest(options=options):
                 run("encode", sound, "-o", self.folder / "clip.pacb", "--overwrite", "--force", "-q", *words)
                 self.assertEqual(pacini.encode(sound, **options).to_bytes(), (self.folder / "clip.pacb").read_bytes())
+
+    def test_parameters_are_described_as_by_the_command(self):
+        from pacini import _parameters
+
+        described = json.loads(run("encode", "--print-settings", "--json"))["parameters"]
+        self.assertEqual(list(_parameters.ENCODE.values()), described["encode"])
+        self.assertEqual(list(_parameters.EXPORT.values()), described["export"])
 
     def test_methods_that_make_clips_or_signals_make_the_same(self):
         sound = DEMO[0]

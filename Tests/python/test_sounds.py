@@ -1,6 +1,8 @@
 """Sounds in arrays of every kind, good and bad; threads, processes and Ctrl+C."""
 
 import dataclasses
+import inspect
+import json
 import multiprocessing
 import os
 import signal
@@ -118,6 +120,57 @@ class Arrays(FolderTest):
         self.refuses("method", "invalidArgument", pacini.encode, mono, RATE, method="magic")
         self.refuses("method", "invalidArgument", pacini.encode, mono, RATE, method="lowpass")
         self.refuses("spacing", "invalidArgument", pacini.encode, mono, RATE, method="thesis", spacing="log")
+
+    def test_options_are_those_that_are_described_and_the_nearest_is_named(self):
+        mono = knocks(0.5)
+        self.refuses("minimum_gap", "invalidArgument", pacini.encode, mono, RATE, minimum_gap=2)
+        with self.assertRaisesRegex(pacini.Error, "must be log or linear, not 'linaer'; did you mean linear"):
+            pacini.encode(mono, RATE, spacing="linaer")
+        with self.assertRaisesRegex(pacini.Error, "did you mean thesis"):
+            pacini.encode(mono, RATE, method="tehsis")
+        with self.assertRaisesRegex(TypeError, "'minimal_gap'; did you mean minimum_gap"):
+            pacini.encode(mono, RATE, minimal_gap=0.1)
+        with self.assertRaisesRegex(TypeError, "'pionts'; did you mean points"):
+            pacini.encode(mono, RATE).to_bytes("haptic", pionts=4)
+        self.refuses("sample_rate", "invalidArgument", pacini.encode(mono, RATE).to_bytes, "openxr", sample_rate=100)
+        self.assertEqual(pacini.encode(mono, RATE, bands=np.int16(5)), pacini.encode(mono, RATE, bands=5.0))
+
+    def test_a_parameter_that_is_described_is_a_keyword(self):
+        from pacini import _parameters
+
+        shown = inspect.signature(pacini.encode).parameters
+        self.assertTrue(set(_parameters.ENCODE) < set(shown))
+        self.assertNotIn("options", shown)
+        for name, one in _parameters.ENCODE.items():
+            self.assertIn(f"{name}: {one['text']}", pacini.encode.__doc__)
+
+        depth = {"kind": "number", "text": "How much", "lowest": 0, "highest": 6, "unit": "dB", "default": 1}
+        made_up = {"shimmer_depth": depth}
+
+        @_parameters.with_keywords(made_up)
+        def shimmer(sound, **options):
+            """Shimmers."""
+            _parameters.check_names("shimmer", options, made_up)
+
+        self.assertEqual(list(inspect.signature(shimmer).parameters), ["sound", "shimmer_depth"])
+        self.assertIn("shimmer_depth: How much (0 to 6 dB) [1]", shimmer.__doc__)
+        self.assertRaises(TypeError, shimmer, None, shimmer_dept=1)
+
+    def test_settings_are_a_file_or_its_object(self):
+        settings = {"format": "pacini.settings", "version": 1, "encode": {"bands": 5, "minimumGap": 0.05}}
+        mono = knocks(0.5)
+        wanted = pacini.encode(mono, RATE, bands=5, minimum_gap=0.05)
+        self.assertEqual(pacini.encode(mono, RATE, settings=settings), wanted)
+        (self.folder / "mine.json").write_text(json.dumps(settings))
+        self.assertEqual(pacini.encode(mono, RATE, settings=self.folder / "mine.json"), wanted)
+        self.assertEqual(len(pacini.encode(mono, RATE, settings=settings, bands=4).bands), 4)
+        settings["encode"]["bnads"] = 3
+        with self.assertWarnsRegex(UserWarning, "bnads: is not known; did you mean"):
+            pacini.encode(mono, RATE, settings=settings)
+        settings["encode"] = {"bands": 99}
+        self.refuses("encode.bands", "invalidArgument", pacini.encode, mono, RATE, settings=settings)
+        missing = self.folder / "none.json"
+        self.refuses(str(missing), "io", pacini.encode, mono, RATE, settings=missing)
 
     def test_bad_files_are_refused_with_their_name(self):
         missing = self.folder / "missing.wav"

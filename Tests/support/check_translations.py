@@ -71,6 +71,8 @@ LITERALS = {
     "places in errors and identifiers": [
         "plays[",         "sample rate", "sound", "strength", "lane", "format", "plays[0]", ".bands", "' is not known",
         "channels[", "sweep.", "measurement.", "sweeps[", "clock", "channels"],
+    "names of parameters, by which their descriptions are found": [
+        "bands", "low", "high", "breakpoints", "sensitivity", "audible", "quantise"],
     "errors of settings that the windows cannot make": ["must be 8 to 768 kHz to be encoded", "must be 0 to 1",
         "must have 1 to 8 actuators",
         "is not one of the project's sounds"],

@@ -34,7 +34,7 @@ try {
   execFileSync('npm', ['install', '--silent', '--no-audit', '--no-fund', join(folder, packed)], { cwd: folder })
   const installed = join(folder, 'node_modules/pacini')
   const pacini = await import(join(installed, 'index.js'))
-  const { encode, read, write, lint, render, felt, compare, formats, profileNames, profileInfo, readWav, reports, spectrogram, PaciniError } = pacini
+  const { encode, read, write, lint, render, felt, compare, formats, profileNames, profileInfo, readWav, reports, spectrogram, parameters, exportParameters, PaciniError } = pacini
 
   let differing = 0, rendered = 0
   const names = readdirSync(sounds).filter((name) => name.endsWith('.wav')).sort()
@@ -124,6 +124,17 @@ try {
   const sceneDrive = await fails(async () => check('a scene is rendered', (await render(scene, { clips: [clip] })).samples.length > 0))
   if (sceneDrive) check('a scene is rendered', false, sceneDrive.message)
 
+  // Parameters are described as the program describes them, and settings are options.
+  const settings = (encode) => ({ format: 'pacini.settings', version: 1, encode })
+  const told = JSON.parse(native('encode', '--print-settings', '--json')).parameters
+  check('parameters are described as by the program', told.encode.length > 20 && JSON.stringify(await parameters()) === JSON.stringify(told.encode), `${told.encode.length} parameters`)
+  check('and so are those of exports', told.export.length > 9 && JSON.stringify(await exportParameters()) === JSON.stringify(told.export), `${told.export.length} parameters`)
+  const chosen = { bands: 4, minimumGap: 0.05, spacing: 'linear', keepLevel: true }
+  const byOptions = await encode(sound, { ...chosen, format: 'packed' })
+  check('settings do what options do', same(byOptions, await encode(sound, { settings: settings(chosen), format: 'packed' })))
+  check('options come before settings', same(byOptions, await encode(sound, { ...chosen, settings: settings({ bands: 9 }), format: 'packed' })))
+  check('a method of settings is that of the option', (await encode(sound, { settings: settings({ method: 'thesis', attack: 0.1 }) })).encoder.attack === 0.1)
+
   // What is wrong.
   const broken = (value) => {
     const samples = Float32Array.from(Array.isArray(sound.samples) ? sound.samples[0] : sound.samples)
@@ -143,6 +154,15 @@ try {
     ['an unknown method', () => encode(sound, { method: 'x' }), 'method'],
     ['an option out of range', () => encode(sound, { bands: 33 }), 'bands'],
     ['an option of another method', () => encode(sound, { method: 'decomposition', bands: 4 }), 'bands'],
+    ['an option that is not known', () => encode(sound, { bnads: 4 }), 'bnads'],
+    ['a choice that is not known', () => encode(sound, { spacing: 'linaer' }), 'spacing'],
+    ['settings of another kind', () => encode(sound, { settings: { format: 'pacini.clip', version: 1 } }), 'settings.format'],
+    ['a wrong setting', () => encode(sound, { settings: settings({ bands: 99 }) }), 'settings.encode.bands'],
+    ['an absurdly large sample', () => encode({ samples: new Float32Array([0, 1e30]), sampleRate: 48000 }), 'frame 1, channel 0'],
+    ['an export option that changes nothing', () => write(clip, { format: 'haptic', sampleRate: 4000 }), 'sampleRate'],
+    ['an export option of Pacini\'s own format', () => write(clip, { points: 4 }), 'points'],
+    ['a sample rate that the writer does not take', () => write(clip, { format: 'openxr', sampleRate: 100000 }), 'sampleRate'],
+    ['no points', () => write(clip, { format: 'haptic', points: 0 }), 'points'],
     ['garbage', () => read(new Uint8Array([1, 2, 3])), ''],
     ['an unknown format', () => write(clip, { format: 'x' }), 'format'],
     ['an edit of an unknown kind', () => pacini.reapply(clip, clip, [{ kind: 'x' }]), 'edits[0].kind'],

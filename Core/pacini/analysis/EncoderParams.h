@@ -1,76 +1,157 @@
 #pragma once
 
-// Parameters of the encoder, without its algorithms.
+// Parameters of the encoder and their description, without its algorithms.
 
 #include <pacini/analysis/OnsetParams.h>
 #include <pacini/clip/Clip.h>
 #include <pacini/foundation/BandSpacing.h>
+#include <pacini/foundation/Description.h>
 #include <pacini/foundation/Result.h>
 
+#include <array>
 #include <string>
-#include <utility>
+#include <string_view>
 #include <vector>
 
 namespace pacini
 {
 
-/// Parameters of the encoder.
+/// Parameters of the encoder; encoderParameters describes them.
 struct EncoderParams
 {
-    int bands = 12;                ///< 1 to 32
-    double lowFrequency = 30.0;    ///< Hz
-    double highFrequency = 1000.0; ///< Hz
+    int bands = 12;
+    double lowFrequency = 30.0;
+    double highFrequency = 1000.0;
     BandSpacing spacing = BandSpacing::logarithmic;
-    double breakpoints = 20.0; ///< at most this many per second of sound and band, all curves together
-    int quantise = 6;          ///< bits of the grids, 4 to 16; see PackParams
+    double breakpoints = 20.0; ///< of all curves together
+    int quantise = 6;          ///< see PackParams
     bool normalise = true;     ///< scale to full drive; otherwise full scale is full drive, and sounds more than 54 dB
                                ///< above it are scaled down to that
-    double audible = 1.0; ///< 0 to 1: how far loudness drives what lives above the range of touch; see AudibleBlend
-    OnsetParams onsets;   ///< what counts as an event; see Onset
+    double audible = 1.0;      ///< see AudibleBlend
+    OnsetParams onsets;        ///< what counts as an event; see Onset
     bool operator==(const EncoderParams&) const = default;
+};
+
+inline constexpr std::array<std::string_view, 2> spacingNames{"log", "linear"};
+inline constexpr std::array<std::string_view, 2> spacingMembers{"logarithmic", "linear"};
+
+/// What users can set of EncoderParams, in the order of help texts and records.
+inline constexpr std::array encoderParameters{
+    described<&EncoderParams::bands>({.name = "bands",
+                                      .text = "Number of frequency bands",
+                                      .range = {1, 32},
+                                      .group = "Analysis",
+                                      .alwaysRecorded = true}),
+    described<&EncoderParams::breakpoints>({.name = "breakpoints",
+                                            .text = "Most breakpoints; simple sounds take fewer",
+                                            .unit = "per second and band",
+                                            .range = {0.5, 1000},
+                                            .group = "Analysis",
+                                            .alwaysRecorded = true}),
+    described<&EncoderParams::quantise>({.name = "quantise",
+                                         .text = "Resolution of each value",
+                                         .unit = "bits",
+                                         .range = {4, 16},
+                                         .group = "Analysis",
+                                         .alwaysRecorded = true}),
+    described<&EncoderParams::lowFrequency>({.name = "low",
+                                             .member = "lowFrequency",
+                                             .text = "Lower end of the bands",
+                                             .unit = "Hz",
+                                             .range = {1, 1700},
+                                             .group = "Analysis"}),
+    described<&EncoderParams::highFrequency>({.name = "high",
+                                              .member = "highFrequency",
+                                              .text = "Upper end of the bands",
+                                              .unit = "Hz",
+                                              .range = {2, 1800},
+                                              .group = "Analysis"}),
+    described<&EncoderParams::spacing>({.name = "spacing",
+                                        .text = "How bands are spaced: log or linear",
+                                        .choices = spacingNames,
+                                        .memberChoices = spacingMembers,
+                                        .group = "Analysis"}),
+    described<&EncoderParams::onsets, &OnsetParams::sensitivity>(
+        {.name = "sensitivity",
+         .text = "Above 1 more and weaker events become transients, below 1 fewer",
+         .range = {0.25, 4},
+         .group = "Analysis"}),
+    described<&EncoderParams::audible>(
+        {.name = "audible",
+         .text =
+             "How far loudness drives what lives above the range of touch (rain, ticks, birds); 0 keeps the beat of "
+             "music",
+         .range = {0, 1},
+         .group = "Analysis",
+         .alwaysRecorded = true}), // clips without it are from before there was such a thing
+    described<&EncoderParams::normalise>({.name = "keepLevel",
+                                          .member = "normalise",
+                                          .text = "Keep the level of the sound instead of raising it to full drive",
+                                          .group = "Analysis",
+                                          .negated = true}),
+    described<&EncoderParams::onsets, &OnsetParams::minimumGap>(
+        {.name = "minimumGap",
+         .text = "Least time between two events; of two closer ones the first stays",
+         .unit = "s",
+         .range = {0, 1},
+         .group = "Events"}),
+    described<&EncoderParams::onsets, &OnsetParams::maskMargin>(
+        {.name = "maskMargin",
+         .text = "An event less than this below its louder neighbours counts like one alone",
+         .unit = "dB",
+         .range = {0, 120},
+         .group = "Events"}),
+    described<&EncoderParams::onsets, &OnsetParams::maskSlope>(
+        {.name = "maskSlope",
+         .text = "How much clearer an event must be for each dB below that margin, as a fraction of the threshold",
+         .unit = "per dB",
+         .range = {0, 1},
+         .group = "Events"}),
+    described<&EncoderParams::onsets, &OnsetParams::maskRecovery>(
+        {.name = "maskRecovery",
+         .text = "How fast the masking by a louder event falls with the distance in time",
+         .unit = "dB/s",
+         .range = {20, 1000}, // below 20, masking would reach beyond SoundSection::secondsAhead
+         .group = "Events"}),
+    described<&EncoderParams::onsets, &OnsetParams::maskLimit>(
+        {.name = "maskLimit",
+         .text = "An event further than this below its louder neighbours is dropped however clear it is",
+         .unit = "dB",
+         .range = {0, 120},
+         .group = "Events"}),
+    described<&EncoderParams::onsets, &OnsetParams::silence>({.name = "silence",
+                                                              .text = "Events below this level are dropped",
+                                                              .unit = "dB",
+                                                              .range = {-120, 0},
+                                                              .group = "Events"}),
 };
 
 /// Checks the ranges of EncoderParams.
 [[nodiscard]] inline Result<void> validate(const EncoderParams& params)
 {
-    const auto wrong = [](std::string where, std::string message) -> Result<void>
-    {
-        return Error{ErrorCode::invalidArgument, std::move(where), std::move(message)};
-    };
-    if (params.bands < 1 || params.bands > 32)
-        return wrong("bands", "must be 1 to 32");
-    if (!(params.lowFrequency >= 1.0 && params.highFrequency <= 1800.0 && params.lowFrequency < params.highFrequency))
-        return wrong("frequency range", "must lie within 1 to 1800 Hz, the low end below the high end");
-    if (!(params.breakpoints >= 0.5 && params.breakpoints <= 1000.0))
-        return wrong("breakpoints", "must be 0.5 to 1000 per second and band");
-    if (params.quantise < 4 || params.quantise > 16)
-        return wrong("quantise", "must be 4 to 16 bits");
-    if (!(params.audible >= 0.0 && params.audible <= 1.0))
-        return wrong("audible", "must be 0 to 1");
-    if (!(params.onsets.sensitivity >= 0.25 && params.onsets.sensitivity <= 4.0))
-        return wrong("sensitivity", "must be 0.25 to 4");
+    if (auto allowed = checkParameters(encoderParameters, params); !allowed)
+        return allowed;
+    if (params.lowFrequency >= params.highFrequency)
+        return Error{ErrorCode::invalidArgument, "low", "must be lower than high"};
     return {};
 }
 
 /// The parameters as a clip keeps them; the gain, which depends on the sound, comes on top.
 [[nodiscard]] inline std::vector<EncoderParameter> encoderRecord(const EncoderParams& params)
 {
-    std::vector<EncoderParameter> record = {{"method", std::string("a2vt")},
-                                            {"bands", static_cast<double>(params.bands)},
-                                            {"breakpoints", params.breakpoints},
-                                            {"quantise", static_cast<double>(params.quantise)}};
-    const EncoderParams usual;
-    if (params.lowFrequency != usual.lowFrequency)
-        record.push_back({"low", params.lowFrequency});
-    if (params.highFrequency != usual.highFrequency)
-        record.push_back({"high", params.highFrequency});
-    if (params.spacing != usual.spacing)
-        record.push_back({"spacing", std::string("linear")});
-    if (params.onsets.sensitivity != usual.onsets.sensitivity)
-        record.push_back({"sensitivity", params.onsets.sensitivity});
-    record.push_back({"audible", params.audible}); // always: clips without it are from before there was such a thing
-    if (params.normalise != usual.normalise)
-        record.push_back({"normalise", params.normalise});
+    std::vector<EncoderParameter> record = {{"method", std::string("a2vt")}};
+    for (const auto& parameter : encoderParameters)
+    {
+        const double value = parameter.get(params);
+        if (!parameter.alwaysRecorded && value == parameter.usual())
+            continue;
+        if (parameter.kind == ParameterKind::truth) // under the name of the member: `normalise` since the first clips
+            record.push_back({std::string(parameter.member), (value != 0.0) != parameter.negated});
+        else if (parameter.kind == ParameterKind::choice)
+            record.push_back({std::string(parameter.name), valueText(parameter, value)});
+        else
+            record.push_back({std::string(parameter.name), value});
+    }
     return record;
 }
 

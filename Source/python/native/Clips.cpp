@@ -3,12 +3,15 @@
 #include "io/ClipFile.h"
 #include "io/ClipSeal.h"
 #include "io/FileExtension.h"
+#include "io/formats/ExportParameters.h"
 #include "io/formats/json/ClipJson.h"
 #include "python/native/ClipHandle.h"
+#include "python/native/Options.h"
 #include "python/native/Overwriting.h"
 #include "python/native/ProfileHandle.h"
 #include "python/native/Support.h"
 
+#include <pacini/analysis/EncoderParams.h>
 #include <pacini/clip/PackedClip.h>
 #include <pacini/clip/edits/Lane.h>
 #include <pacini/clip/edits/RangeEdits.h>
@@ -195,20 +198,11 @@ nb::object simplifyRows(const Rows& rows, const SimplifyParams& params)
     return toArray(std::move(values), {points, 2});
 }
 
-/// Options of formats of other programs, none: as usual for the format.
+/// Options of formats of other programs by their names in Python; what is missing is as usual for the format.
 struct ExportOptions
 {
-    std::optional<double> points;
-    std::optional<double> frequencyPoints;
-    std::optional<int> sampleRate;
-    std::optional<bool> split;
-    std::optional<bool> quick;
-    std::optional<std::string> events;
-    std::optional<std::size_t> maxPoints;
-    std::optional<std::int64_t> minSegment;
-    std::optional<std::int64_t> maxSegment;
+    nb::dict options;
     const ProfileHandle* profile = nullptr;
-    std::optional<double> strength;
 };
 
 const ClipFormat& formatNamed(const std::string& name)
@@ -222,69 +216,9 @@ const ClipFormat& formatNamed(const std::string& name)
 
 ExportParams exportParams(const ClipFormat& format, const ExportOptions& options)
 {
-    const auto check = [&](bool given, const char* name, bool has)
-    {
-        if (given && !has)
-            raise({ErrorCode::invalidArgument, name,
-                   "changes nothing in " + std::string(format.name) + "; leave it out"});
-    };
-    const ExportChoices& has = format.choices;
-    check(options.points.has_value(), "points", has.amplitudePoints);
-    check(options.frequencyPoints.has_value(), "frequency_points", has.frequencyPoints);
-    check(options.sampleRate.has_value(), "sample_rate", has.drive);
-    check(options.split.has_value(), "split", has.split);
-    check(options.quick.has_value(), "quick", has.quick);
-    check(options.events.has_value(), "events", format.events.has_value());
-    check(options.maxPoints.has_value(), "max_points", has.envelope);
-    check(options.minSegment.has_value(), "min_segment", has.envelope);
-    check(options.maxSegment.has_value(), "max_segment", has.envelope);
-    check(options.profile != nullptr, "profile", has.profile);
-    check(options.strength.has_value(), "strength", has.drive);
-    const auto range = [](const char* where, double value, double low, double high)
-    {
-        if (!(value >= low && value <= high))
-            raise({ErrorCode::invalidArgument, where, "is out of its range"});
-    };
-    ExportParams params;
-    constexpr double frequencyShare = 0.75;
-    if (options.points)
-    {
-        range("points", *options.points, 0.5, 10000.0);
-        params.amplitudePoints = options.points;
-        params.frequencyPoints = frequencyShare * *options.points;
-    }
-    if (options.frequencyPoints)
-    {
-        range("frequency_points", *options.frequencyPoints, 0.5, 10000.0);
-        params.frequencyPoints = options.frequencyPoints;
-    }
-    if (options.sampleRate)
-        range("sample_rate", *options.sampleRate, 100, 384000);
-    params.sampleRate = options.sampleRate;
-    params.split = options.split.value_or(false);
-    params.quick = options.quick.value_or(false);
-    if (options.events)
-    {
-        if (*options.events != "transients" && *options.events != "merged")
-            raise({ErrorCode::invalidArgument, "events", "must be transients or merged"});
-        params.events = *options.events == "merged" ? EventExport::merged : EventExport::transients;
-    }
-    EnvelopeLimits envelope;
-    envelope.points = options.maxPoints.value_or(envelope.points);
-    envelope.shortest = options.minSegment.value_or(envelope.shortest);
-    envelope.longest = options.maxSegment.value_or(envelope.longest);
-    if (options.maxPoints)
-        range("max_points", static_cast<double>(envelope.points), 2, 1000);
-    range("min_segment", static_cast<double>(envelope.shortest), 1, 10000);
-    range("max_segment", static_cast<double>(envelope.longest), 2, 100000);
-    if (envelope != EnvelopeLimits())
-        params.envelope = envelope;
-    if (options.profile != nullptr)
-        params.profile = options.profile->profile();
-    if (options.strength)
-        range("strength", *options.strength, 0.0, 1.0);
-    params.strength = options.strength.value_or(params.strength);
-    return params;
+    const auto given = givenOptions(options.options, exportParameterInfos());
+    return takeNamed(exportParamsOf(
+        format, given, options.profile != nullptr ? std::optional(options.profile->profile()) : std::nullopt));
 }
 
 /// What a format loses: kind, time, duration, error, message.
@@ -302,8 +236,8 @@ ExportedClip exported(const ClipHandle& handle, const std::string& format, const
 {
     const ClipFormat& wanted = formatNamed(format);
     const ExportParams params = exportParams(wanted, options);
-    if (quantise != 0 && (quantise < 4 || quantise > 16))
-        raise({ErrorCode::invalidArgument, "quantise", "must be 4 to 16 bits"});
+    if (quantise != 0)
+        take(checkValue(parameterNamed(encoderParameters, "quantise"), quantise));
     auto work = [clip = handle.clip(), &wanted, params, quantise]() mutable
     {
         if (quantise > 0)
@@ -362,20 +296,10 @@ void bindClip(nb::module_& module)
     nb::class_<ExportOptions>(module, "ExportOptions")
         .def(
             "__init__",
-            [](ExportOptions* self, std::optional<double> points, std::optional<double> frequencyPoints,
-               std::optional<int> sampleRate, std::optional<bool> split, std::optional<bool> quick,
-               std::optional<std::string> events, std::optional<std::size_t> maxPoints,
-               std::optional<std::int64_t> minSegment, std::optional<std::int64_t> maxSegment,
-               const ProfileHandle* profile, std::optional<double> strength)
-            {
-                new (self) ExportOptions{points,    frequencyPoints, sampleRate, split,   quick,   std::move(events),
-                                         maxPoints, minSegment,      maxSegment, profile, strength};
+            [](ExportOptions* self, nb::dict options, const ProfileHandle* profile) {
+                new (self) ExportOptions{std::move(options), profile};
             },
-            "points"_a.none() = nb::none(), "frequency_points"_a.none() = nb::none(),
-            "sample_rate"_a.none() = nb::none(), "split"_a.none() = nb::none(), "quick"_a.none() = nb::none(),
-            "events"_a.none() = nb::none(), "max_points"_a.none() = nb::none(), "min_segment"_a.none() = nb::none(),
-            "max_segment"_a.none() = nb::none(), "profile"_a.none() = nb::none(), "strength"_a.none() = nb::none(),
-            nb::keep_alive<1, 11>());
+            "options"_a, "profile"_a.none(), nb::keep_alive<1, 3>());
 
     nb::class_<ClipHandle>(module, "ClipHandle")
         .def(
@@ -554,6 +478,7 @@ void bindClip(nb::module_& module)
         .def(
             "__eq__", [](const ClipHandle& self, const ClipHandle& other) { return self.clip() == other.clip(); },
             nb::is_operator());
+    module.def("export_parameters", [] { return exportDescriptionsJson().dump(); });
     module.def("read_clip", &readFile, "path"_a, "strict"_a);
     module.def("read_clip_bytes", &readBytes, "data"_a, "extension"_a, "strict"_a);
     module.def(

@@ -1,14 +1,16 @@
 // Sounds to clips, or to drive signals by methods that make no clip.
 
+#include "io/Settings.h"
 #include "io/SoundEncoder.h"
 #include "python/native/ClipHandle.h"
+#include "python/native/Options.h"
 #include "python/native/Support.h"
 
 #include <nanobind/stl/filesystem.h>
-#include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
+#include <nlohmann/json.hpp>
 
 #include <filesystem>
 #include <memory>
@@ -24,19 +26,12 @@ namespace pacini::python
 
 namespace
 {
-/// What a method was told, nothing where it is to decide by itself.
+/// How sounds are encoded: options by their names in Python before those of `settings`, the text of a document.
 struct EncodeOptions
 {
-    std::string method;
-    std::optional<int> bands;
-    std::optional<double> breakpoints;
-    std::optional<int> quantise;
-    std::optional<double> low;
-    std::optional<double> high;
-    std::optional<std::string> spacing;
-    std::optional<double> audible;
-    std::optional<double> sensitivity;
-    std::optional<bool> keepLevel;
+    std::string method; ///< empty: that of `settings`, else a2vt
+    nb::dict options;
+    std::string settings; ///< empty: none
     bool allowNan = false;
     bool allowTruncated = false;
 };
@@ -46,49 +41,17 @@ struct EncodeOptions
     raise({ErrorCode::invalidArgument, std::move(where), std::move(message)});
 }
 
-SoundEncoderParams paramsOf(const EncodeOptions& options)
+SoundEncoderParams paramsOf(const EncodeOptions& options, ReadWarnings& warnings)
 {
-    const auto method = methodNamed(options.method);
-    if (!method)
-        wrong("method", "is none of those that pacini.methods() lists");
-    const MethodInfo& info = methodInfo(*method);
-    const auto check = [&](bool given, std::string_view name)
-    {
-        if (given && !hasOption(info, name))
-            wrong(std::string(name), "is no option of the method " + options.method + "; leave it out");
-    };
-    check(options.bands.has_value(), "bands");
-    check(options.breakpoints.has_value(), "breakpoints");
-    check(options.quantise.has_value(), "quantise");
-    check(options.low.has_value(), "low");
-    check(options.high.has_value(), "high");
-    check(options.spacing.has_value(), "spacing");
-    check(options.audible.has_value(), "audible");
-    check(options.sensitivity.has_value(), "sensitivity");
-    check(options.keepLevel.has_value(), "keep_level");
-
+    Settings settings;
+    if (!options.settings.empty())
+        settings = take(readSettings(options.settings, &warnings));
+    if (!options.method.empty())
+        settings.method = options.method;
+    for (const auto& [parameter, value] : givenOptions(options.options, translationParameters()))
+        settings.encode.set(*parameter, value);
     SoundEncoderParams params;
-    params.method = *method;
-    EncoderParams& own = params.params;
-    own.bands = options.bands.value_or(own.bands);
-    own.breakpoints = options.breakpoints.value_or(own.breakpoints);
-    own.quantise = options.quantise.value_or(own.quantise);
-    own.lowFrequency = options.low.value_or(own.lowFrequency);
-    own.highFrequency = options.high.value_or(own.highFrequency);
-    own.audible = options.audible.value_or(own.audible);
-    own.onsets.sensitivity = options.sensitivity.value_or(own.onsets.sensitivity);
-    own.normalise = !options.keepLevel.value_or(false);
-    const std::string spacing = options.spacing.value_or("log");
-    if (spacing != "log" && spacing != "linear")
-        wrong("spacing", "must be log or linear");
-    own.spacing = spacing == "log" ? BandSpacing::logarithmic : BandSpacing::linear;
-    take(validate(own));
-    params.choices.breakpoints = options.breakpoints;
-    if (options.bands)
-        params.choices.bands = static_cast<std::size_t>(*options.bands);
-    params.choices.lowFrequency = options.low;
-    params.choices.highFrequency = options.high;
-    params.choices.quantise = options.quantise;
+    static_cast<TranslationParams&>(params) = takeNamed(translationOf(settings));
     params.reading = {options.allowTruncated, options.allowNan};
     return params;
 }
@@ -101,7 +64,7 @@ class EncoderHandle
 {
 public:
     explicit EncoderHandle(const EncodeOptions& options)
-        : params(paramsOf(options)), encoder(std::make_shared<SoundEncoder>(params))
+        : params(paramsOf(options, warnings)), encoder(std::make_shared<SoundEncoder>(params))
     {
     }
 
@@ -177,6 +140,9 @@ public:
         return methodInfo(params.method).output == MethodOutput::clip ? result : nb::make_tuple(result, rate);
     }
 
+    /// What was let pass in the settings.
+    [[nodiscard]] std::vector<std::string> doubts() const { return warnings.texts(); }
+
     [[nodiscard]] bool makesClip() const { return methodInfo(params.method).output == MethodOutput::clip; }
 
 private:
@@ -226,6 +192,7 @@ private:
         return toArray(std::get<std::vector<float>>(std::move(made)));
     }
 
+    ReadWarnings warnings;
     SoundEncoderParams params;
     std::shared_ptr<SoundEncoder> encoder;
 };
@@ -244,23 +211,20 @@ void bindEncode(nb::module_& module)
     nb::class_<EncoderHandle>(module, "EncoderHandle")
         .def(
             "__init__",
-            [](EncoderHandle* self, std::string method, std::optional<int> bands, std::optional<double> breakpoints,
-               std::optional<int> quantise, std::optional<double> low, std::optional<double> high,
-               std::optional<std::string> spacing, std::optional<double> audible, std::optional<double> sensitivity,
-               std::optional<bool> keepLevel, bool allowNan, bool allowTruncated)
+            [](EncoderHandle* self, std::string method, nb::dict options, std::string settings, bool allowNan,
+               bool allowTruncated)
             {
-                new (self) EncoderHandle(EncodeOptions{std::move(method), bands, breakpoints, quantise, low, high,
-                                                       std::move(spacing), audible, sensitivity, keepLevel, allowNan,
-                                                       allowTruncated});
+                new (self) EncoderHandle(EncodeOptions{std::move(method), std::move(options), std::move(settings),
+                                                       allowNan, allowTruncated});
             },
-            "method"_a, "bands"_a.none(), "breakpoints"_a.none(), "quantise"_a.none(), "low"_a.none(), "high"_a.none(),
-            "spacing"_a.none(), "audible"_a.none(), "sensitivity"_a.none(), "keep_level"_a.none(), "allow_nan"_a,
-            "allow_truncated"_a)
+            "method"_a, "options"_a, "settings"_a, "allow_nan"_a, "allow_truncated"_a)
         .def("encode_array", &EncoderHandle::encodeArray, "sound"_a, "sample_rate"_a, "name"_a, "source"_a,
              "progress"_a.none())
         .def("encode_file", &EncoderHandle::encodeFile, "path"_a, "progress"_a.none())
+        .def_prop_ro("doubts", &EncoderHandle::doubts)
         .def_prop_ro("makes_clip", &EncoderHandle::makesClip);
     module.def("methods", &methodList);
+    module.def("encode_parameters", [] { return translationDescriptionsJson().dump(); });
 }
 
 } // namespace pacini::python

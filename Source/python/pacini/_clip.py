@@ -327,12 +327,12 @@ class Clip:
         A clip that is there is replaced, and no file of another kind unless `overwrite` is True; with False nothing
         is. The recording that the clip was made from never is."""
         name = format_for(path, format)
-        _, losses = self._handle.save(os.fspath(path), name, export_options(options), quantise or 0, overwrite)
+        _, losses = self._handle.save(os.fspath(path), name, export_options("save", options), quantise or 0, overwrite)
         return losses_of(losses)
 
     def to_bytes(self, format: str = "packed", *, quantise: Optional[int] = None, **options: Any) -> bytes:
         """The bytes of a file in a format that is one file."""
-        files, _ = self._handle.written(format, export_options(options), quantise or 0)
+        files, _ = self._handle.written(format, export_options("to_bytes", options), quantise or 0)
         if len(files) != 1:
             raise Error("makes several files; save it to a folder", "format")
         return files[0][1]
@@ -361,7 +361,7 @@ class Clip:
 
     def lint(self, format: str, **options: Any) -> list[Loss]:
         """What the format would lose."""
-        _, losses = self._handle.written(format, export_options(options), 0)
+        _, losses = self._handle.written(format, export_options("lint", options), 0)
         return losses_of(losses)
 
     # As an object of Python.

@@ -10,6 +10,7 @@ from typing import Any, Optional
 from . import _native
 from ._arrays import PathLike
 from ._errors import Error
+from ._parameters import EXPORT, check_names
 
 
 @dataclass(frozen=True)
@@ -55,13 +56,13 @@ def format_for(path: PathLike, format: Optional[str]) -> str:
     return found
 
 
-def export_options(options: dict[str, Any]) -> _native.ExportOptions:
-    """Options of formats: points, frequency_points, sample_rate, split, quick, events, max_points, min_segment,
-    max_segment, profile, strength."""
+def export_options(function: str, options: dict[str, Any]) -> _native.ExportOptions:
+    """Options of formats, those of ``pacini convert``, and `profile`."""
+    check_names(function, options, EXPORT)
     given = dict(options)
     profile = given.pop("profile", None)
-    if profile is not None:
-        from ._profile import as_profile
+    if profile is None:
+        return _native.ExportOptions(given, None)
+    from ._profile import as_profile
 
-        given["profile"] = as_profile(profile)._handle
-    return _native.ExportOptions(**given)
+    return _native.ExportOptions(given, as_profile(profile)._handle)

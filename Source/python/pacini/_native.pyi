@@ -20,20 +20,7 @@ _Loss = tuple[str, float, float, float, str]
 _Rendered = tuple[npt.NDArray[np.float32], float, float, list[tuple[str, str]], list[tuple[str, str, float]]]
 
 class ExportOptions:
-    def __init__(
-        self,
-        points: float | None = None,
-        frequency_points: float | None = None,
-        sample_rate: int | None = None,
-        split: bool | None = None,
-        quick: bool | None = None,
-        events: str | None = None,
-        max_points: int | None = None,
-        min_segment: int | None = None,
-        max_segment: int | None = None,
-        profile: ProfileHandle | None = None,
-        strength: float | None = None,
-    ) -> None: ...
+    def __init__(self, options: dict[str, Any], profile: ProfileHandle | None) -> None: ...
 
 class ClipHandle:
     def __init__(self, duration: float) -> None: ...
@@ -133,20 +120,15 @@ class EncoderHandle:
     def __init__(
         self,
         method: str,
-        bands: int | None,
-        breakpoints: float | None,
-        quantise: int | None,
-        low: float | None,
-        high: float | None,
-        spacing: str | None,
-        audible: float | None,
-        sensitivity: float | None,
-        keep_level: bool | None,
+        options: dict[str, Any],
+        settings: str,
         allow_nan: bool,
         allow_truncated: bool,
     ) -> None: ...
     def encode_array(self, sound: FloatArray, sample_rate: int, name: str, source: str, progress: _Progress) -> Any: ...
     def encode_file(self, path: str, progress: _Progress) -> Any: ...
+    @property
+    def doubts(self) -> list[str]: ...
     @property
     def makes_clip(self) -> bool: ...
 
@@ -210,6 +192,8 @@ class RecordingHandle:
     @property
     def warnings(self) -> list[tuple[str, str]]: ...
 
+def encode_parameters() -> str: ...
+def export_parameters() -> str: ...
 def methods() -> list[tuple[str, str, str]]: ...
 def formats() -> list[tuple[str, str, str, bool, bool, str]]: ...
 def format_written_to(extension: str) -> str | None: ...

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-import difflib
+import json
 import os
 import threading
-from collections.abc import Iterable, Iterator, Sequence
+import warnings
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from dataclasses import dataclass
-from typing import Any, Optional, Union
+from typing import TYPE_CHECKING, Any, NamedTuple, Optional, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -17,11 +18,18 @@ from . import _native
 from ._arrays import FloatArray, PathLike, as_rate, as_sound, is_path
 from ._clip import Clip
 from ._errors import Error
+from ._parameters import ENCODE, check_names, unknown, with_keywords
 from ._profile import AnyProfile, as_profile
 from ._progress import Progress, counted, shown
 from ._scene import Scene
 
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from ._options import EncodeOptions
+
 Sound = Union[PathLike, FloatArray, Sequence[float]]
+AnySettings = Union[PathLike, Mapping[str, Any]]
 
 
 @dataclass(frozen=True)
@@ -38,46 +46,58 @@ def methods() -> list[Method]:
     return [Method(*entry) for entry in _native.methods()]
 
 
-# Options of encoders, as they are when they are not given.
-_OPTIONS: dict[str, Any] = {
-    "method": "a2vt",
-    "bands": None,
-    "breakpoints": None,
-    "quantise": None,
-    "low": None,
-    "high": None,
-    "spacing": None,
-    "audible": None,
-    "sensitivity": None,
-    "keep_level": None,
-    "allow_nan": False,
-    "allow_truncated": False,
-}
+class _Wanted(NamedTuple):
+    """How sounds are encoded: what the native encoder is made of."""
+
+    method: str
+    options: dict[str, Any]
+    settings: str
+    allow_nan: bool
+    allow_truncated: bool
+
+
+def _settings_text(settings: Optional[AnySettings]) -> str:
+    if settings is None:
+        return ""
+    if not is_path(settings):
+        return json.dumps(settings)
+    try:
+        with open(settings, encoding="utf-8") as file:  # type: ignore[arg-type]
+            return file.read()
+    except OSError as error:
+        raise Error(error.strerror or "cannot be read", os.fspath(settings), "io") from None  # type: ignore[arg-type]
 
 
 def check_options(options: dict[str, Any]) -> None:
     """Raises what :func:`encode` would raise of every sound: for many of them this is known before the first."""
-    for name in options:
-        if name not in _OPTIONS:
-            near = difflib.get_close_matches(name, _OPTIONS, 1)
-            raise Error(f"is no option of pacini.encode(){f'; did you mean {near[0]}?' if near else ''}", name)
-    _native.EncoderHandle(**{**_OPTIONS, **options})
+    own = {"method": "", "settings": None, "allow_nan": False, "allow_truncated": False}
+    given = {name: value for name, value in options.items() if name not in own and value is not None}
+    if found := unknown(given, ENCODE):
+        raise Error(f"is no option of pacini.encode(){found[1]}", found[0])
+    chosen = {**own, **{name: value for name, value in options.items() if name in own and value is not None}}
+    _native.EncoderHandle(
+        str(chosen["method"]), given, _settings_text(chosen["settings"]), bool(chosen["allow_nan"]),
+        bool(chosen["allow_truncated"]),
+    )  # fmt: skip
 
 
 class _Encoders(threading.local):
     """The encoder that a thread used last, with its filters and transforms."""
 
-    key: Optional[tuple[Any, ...]] = None
+    wanted: Optional[_Wanted] = None
     handle: Optional[_native.EncoderHandle] = None
 
-    def take(self, **options: Any) -> _native.EncoderHandle:
-        key = tuple(options.values())
-        handle = self.handle if key == self.key else None
-        self.key = self.handle = None  # not while it works: it may be left in its midst
-        return handle if handle is not None else _native.EncoderHandle(**options)
+    def take(self, wanted: _Wanted) -> _native.EncoderHandle:
+        handle = self.handle if wanted == self.wanted else None
+        self.wanted = self.handle = None  # not while it works: it may be left in its midst
+        if handle is None:
+            handle = _native.EncoderHandle(*wanted)
+            for doubt in handle.doubts:
+                warnings.warn(f"settings: {doubt}", stacklevel=5)
+        return handle
 
-    def give_back(self, handle: _native.EncoderHandle, **options: Any) -> None:
-        self.key, self.handle = tuple(options.values()), handle
+    def give_back(self, handle: _native.EncoderHandle, wanted: _Wanted) -> None:
+        self.wanted, self.handle = wanted, handle
 
 
 _encoders = _Encoders()
@@ -90,15 +110,16 @@ def _translated(
     name: str,
     source: str,
     progress: Progress,
-    wanted: str,
-    options: dict[str, Any],
+    result_kind: str,
+    wanted: _Wanted,
 ) -> Any:
-    handle = _encoders.take(**options)
-    if handle.makes_clip != (wanted == "clip"):
+    handle = _encoders.take(wanted)
+    if handle.makes_clip != (result_kind == "clip"):
+        method = wanted.method or "the method of the settings"
         raise Error(
-            f"{options['method']} makes a drive signal; use pacini.translate()"
-            if wanted == "clip"
-            else f"{options['method']} makes a clip; use pacini.encode()",
+            f"{method} makes a drive signal; use pacini.translate()"
+            if result_kind == "clip"
+            else f"{method} makes a clip; use pacini.encode()",
             "method",
         )
     if is_path(sound):
@@ -111,56 +132,40 @@ def _translated(
         rate = as_rate(sample_rate)
         with shown(progress, name or "sound") as tell:
             result = handle.encode_array(samples, rate, name, source, tell)
-        if wanted == "signal":
+        if result_kind == "signal":
             result = (result, rate)
-    _encoders.give_back(handle, **options)
+    _encoders.give_back(handle, wanted)
     return result
 
 
+@with_keywords(ENCODE)
 def encode(
     sound: Sound,
     sample_rate: Optional[float] = None,
     *,
     axis: int = -1,
-    method: str = "a2vt",
-    bands: Optional[int] = None,
-    breakpoints: Optional[float] = None,
-    quantise: Optional[int] = None,
-    low: Optional[float] = None,
-    high: Optional[float] = None,
-    spacing: Optional[str] = None,
-    audible: Optional[float] = None,
-    sensitivity: Optional[float] = None,
-    keep_level: Optional[bool] = None,
+    method: Optional[str] = None,
+    settings: Optional[AnySettings] = None,
     allow_nan: bool = False,
     allow_truncated: bool = False,
     name: str = "",
     source: str = "",
     progress: Progress = None,
+    **options: Unpack[EncodeOptions],
 ) -> Clip:
     """The clip of a sound: a file, or samples as (frames,) or (channels, frames) with their rate in Hz.
 
     `axis` is the one that the frames of an array are on. float32 samples that lie in memory frame by frame (one
     channel, or (frames, channels) in C order with ``axis=0``) are read where they are; others are converted piece by
-    piece. The other parameters are the options of ``pacini encode``; None is the method's own. `name` and `source` (a
-    file name) go into clips of arrays. The interpreter's lock is free meanwhile; `progress` is True for a bar of tqdm,
-    or a function of the share that is done. Raises :class:`pacini.Error`.
+    piece. `settings` is a file as of ``pacini encode --print-settings``, or its object; `method` (a2vt) and the other
+    options, those of ``pacini encode``, come before it. None is the method's own. `name` and `source` (a file name) go
+    into clips of arrays. The interpreter's lock is free meanwhile; `progress` is True for a bar of tqdm, or a function
+    of the share that is done. Raises :class:`pacini.Error`.
     """
-    options = {
-        "method": method,
-        "bands": bands,
-        "breakpoints": breakpoints,
-        "quantise": quantise,
-        "low": low,
-        "high": high,
-        "spacing": spacing,
-        "audible": audible,
-        "sensitivity": sensitivity,
-        "keep_level": keep_level,
-        "allow_nan": allow_nan,
-        "allow_truncated": allow_truncated,
-    }
-    return Clip._of(_translated(sound, sample_rate, axis, name, source, progress, "clip", options))
+    given = {name: value for name, value in options.items() if value is not None}
+    check_names("encode", given, ENCODE)
+    wanted = _Wanted(method or "", given, _settings_text(settings), allow_nan, allow_truncated)
+    return Clip._of(_translated(sound, sample_rate, axis, name, source, progress, "clip", wanted))
 
 
 def translate(
@@ -175,8 +180,8 @@ def translate(
 ) -> tuple[npt.NDArray[np.float32], int]:
     """The drive signal that a method makes of a sound, and its rate: for methods that make no clip, see
     :func:`methods`. The sound is given as to :func:`encode`."""
-    options = {**_OPTIONS, "method": method, "allow_nan": allow_nan, "allow_truncated": allow_truncated}
-    signal, rate = _translated(sound, sample_rate, axis, "", "", progress, "signal", options)
+    wanted = _Wanted(method, {}, "", allow_nan, allow_truncated)
+    signal, rate = _translated(sound, sample_rate, axis, "", "", progress, "signal", wanted)
     return signal, rate
 
 

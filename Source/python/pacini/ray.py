@@ -22,7 +22,7 @@ import os
 import sys
 import tempfile
 import time
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from typing import Any, Optional, Union
@@ -31,8 +31,9 @@ import pacini
 
 from ._arrays import PathLike
 from ._errors import Error
+from ._parameters import ENCODE
 from ._progress import Progress, counted
-from ._sound import check_options
+from ._sound import _settings_text, check_options
 
 SOUNDS = (".wav", ".flac", ".ogg", ".opus", ".mp3", ".aif", ".aiff", ".caf", ".w64", ".au")
 TABLE = "run.parquet"
@@ -422,6 +423,11 @@ def encode(
     if format not in known:
         raise Error(f"is {format!r}; must be one of {', '.join(known)}", "format")
     target = os.fspath(output)
+    if options.get("settings") is not None:  # by content: workers may not see the file
+        try:
+            options["settings"] = json.loads(_settings_text(options["settings"]))
+        except ValueError as error:
+            raise Error(f"is no JSON ({error})", "settings") from None
     given = {name: value for name, value in options.items() if value is not None}
     check_options(given)
     settings = _Settings(format, given, compare, overwrite)
@@ -486,17 +492,16 @@ def main(arguments: Optional[Sequence[str]] = None) -> int:
     parser.add_argument("--batch", type=int, default=32, help="sounds that a worker gets at a time (32)")
     parser.add_argument("--retries", type=int, default=3, help="after the death of a worker (3)")
     parser.add_argument("-q", "--quiet", action="store_true", help="no progress")
-    for name, kind in (("bands", int), ("breakpoints", float), ("quantise", int), ("low", float), ("high", float),
-                       ("audible", float), ("sensitivity", float)):  # fmt: skip
-        parser.add_argument(f"--{name}", type=kind, help="as of pacini encode")
-    for name in ("method", "spacing"):
+    for name in ("method", "settings"):
         parser.add_argument(f"--{name}", help="as of pacini encode")
-    for name, help in (
-        ("keep-level", "as of pacini encode"),
-        ("allow-nan", "as of pacini encode"),
-        ("allow-truncated", "as of pacini encode"),
-    ):
-        parser.add_argument(f"--{name}", action="store_const", const=True, help=help)
+    kinds: dict[str, Callable[[str], Any]] = {"number": float, "whole": int, "choice": str}
+    for one in ENCODE.values():
+        if one["kind"] == "truth":
+            parser.add_argument(one["option"], action="store_const", const=True, help=one["text"])
+        else:
+            parser.add_argument(one["option"], type=kinds[one["kind"]], help=one["text"])
+    for name in ("allow-nan", "allow-truncated"):
+        parser.add_argument(f"--{name}", action="store_const", const=True, help="as of pacini encode")
     wanted = vars(parser.parse_args(arguments))
     sounds, quiet = wanted.pop("sounds"), wanted.pop("quiet")
     if wanted["method"] is None:

@@ -65,6 +65,15 @@ std::string Call::word(const char* name, std::string_view usual)
     return value.empty() ? std::string(usual) : value;
 }
 
+Result<void> Call::finishOptions()
+{
+    reader.finish();
+    if (!reader.error)
+        return {};
+    reader.error->code = ErrorCode::invalidArgument;
+    return *reader.error;
+}
+
 Result<Clip> clipOf(const Call& call, std::size_t input, std::string_view extension)
 {
     const ClipFormat* format = clipFormatOf(extension, call.text(input));

@@ -3,6 +3,7 @@
 // Calls from JavaScript: a name, options as JSON and buffers in; a value as JSON and buffers out.
 
 #include "io/FieldsReader.h"
+#include "io/ReadWarnings.h"
 
 #include <pacini/actuator/Profile.h>
 #include <pacini/clip/Clip.h>
@@ -31,11 +32,12 @@ class Call
 {
 public:
     Call(const nlohmann::json& options, std::vector<std::span<const std::byte>> inputs, Pull pull)
-        : reader(options), pullSound(std::move(pull)), given(std::move(inputs))
+        : reader(options, &doubts), pullSound(std::move(pull)), given(std::move(inputs))
     {
     }
 
-    FieldsReader reader; ///< of the options
+    ReadWarnings doubts{true}; ///< strict: options that are not known are errors, see finishOptions()
+    FieldsReader reader;       ///< of the options
     Pull pullSound;
     Json value; ///< what comes back
     std::vector<std::vector<std::byte>> outputs;
@@ -52,6 +54,9 @@ public:
     [[nodiscard]] std::optional<double> optionalNumber(const char* name, double low, double high);
     [[nodiscard]] bool truth(const char* name, bool usual);
     [[nodiscard]] std::string word(const char* name, std::string_view usual);
+
+    /// To be called when all options have been read: what is wrong with one, or that one is not known.
+    [[nodiscard]] Result<void> finishOptions();
 
 private:
     std::vector<std::span<const std::byte>> given;
@@ -72,11 +77,13 @@ struct NamedHandler
 [[nodiscard]] Result<void> encodeSound(Call& call);
 [[nodiscard]] Result<void> translateSound(Call& call);
 [[nodiscard]] Result<void> tellDefaults(Call& call);
+[[nodiscard]] Result<void> describeParameters(Call& call);
 [[nodiscard]] Result<void> readClipBytes(Call& call);
 [[nodiscard]] Result<void> writeClipBytes(Call& call);
 [[nodiscard]] Result<void> listFormats(Call& call);
 [[nodiscard]] Result<void> renderClipOrScene(Call& call);
 [[nodiscard]] Result<void> compareSounds(Call& call);
+[[nodiscard]] Result<void> describeExports(Call& call);
 [[nodiscard]] Result<void> describeProfile(Call& call);
 [[nodiscard]] Result<void> lintClip(Call& call);
 [[nodiscard]] Result<void> reapplyEdits(Call& call);

@@ -1,10 +1,12 @@
-// The calls `read`, `write`, `formats`, `profile` and `lint`: clips between formats, and what is lost on the way.
+// The calls `read`, `write`, `formats`, `exportParameters`, `profile` and `lint`: clips between formats, and what is
+// lost on the way.
 
 #include "io/formats/ClipFormat.h"
+#include "io/formats/ExportParameters.h"
 #include "web/core/Call.h"
 
-#include <pacini/actuator/Strength.h>
-
+#include <optional>
+#include <string>
 #include <utility>
 
 namespace pacini::web
@@ -32,28 +34,28 @@ Result<ExportedClip> exported(Call& call)
     if (format == nullptr || !format->isWritten())
         return Error{ErrorCode::invalidArgument, "format",
                      fmt::format("'{}' is no format that is written; formats() lists them", name)};
-    ExportParams params;
-    constexpr double most = 100000.0;
-    params.name = call.word("name", "");
-    params.amplitudePoints = call.optionalNumber("amplitudePoints", 0.0, most);
-    params.frequencyPoints = call.optionalNumber("frequencyPoints", 0.0, most);
-    if (const auto rate = call.optionalNumber("sampleRate", 2000.0, 768000.0))
-        params.sampleRate = static_cast<int>(*rate);
-    params.split = call.truth("split", false);
-    params.strength = call.number("strength", standardStrength, 0.0, 1.0);
-    auto clip = clipOf(call, 0, call.word("extension", ""));
-    if (!clip)
-        return clip.error();
+    GivenParameters given;
+    readParameters(call.reader, exportParameterInfos(), given);
+    const std::string title = call.word("name", "");
+    const std::string extension = call.word("extension", "");
+    if (auto known = call.finishOptions(); !known)
+        return known.error();
+    std::optional<Profile> profile;
     if (call.inputs() > 1)
     {
-        auto profile = profileOf(call, 1);
-        if (!profile)
-            return profile.error();
-        params.profile = std::move(*profile);
+        auto read = profileOf(call, 1);
+        if (!read)
+            return read.error();
+        profile = std::move(*read);
     }
-    if (call.reader.error)
-        return *call.reader.error;
-    return format->write(*clip, params);
+    auto params = exportParamsOf(*format, given, std::move(profile));
+    if (!params)
+        return params.error();
+    params->name = title;
+    const auto clip = clipOf(call, 0, extension);
+    if (!clip)
+        return clip.error();
+    return format->write(*clip, *params);
 }
 } // namespace
 
@@ -103,6 +105,12 @@ Result<void> listFormats(Call& call)
                         {"writes", format.isWritten},
                         {"samples", format.isSamples}});
     call.value["formats"] = std::move(list);
+    return {};
+}
+
+Result<void> describeExports(Call& call)
+{
+    call.value["parameters"] = exportDescriptionsJson();
     return {};
 }
 

@@ -44,7 +44,7 @@ public:
 
     [[nodiscard]] SoundFormat sound() const { return {rate, channels, frames, std::nullopt}; }
 
-    /// The next part, empty at the end. Errors: notFinite.
+    /// The next part, empty at the end. Errors: notFinite, also beyond limits::sample.
     [[nodiscard]] SoundPart operator()()
     {
         const std::size_t got = call.pullSound(buffer);

@@ -36,21 +36,58 @@ export interface EncodeOptions extends Stoppable {
   format?: 'json' | 'text' | 'packed'
   /** `a2vt` unless another one is named. */
   method?: string
+  /** As `pacini encode --print-settings` writes it; the other options come before it. */
+  settings?: object
+  // parameters: encode
+  /** Number of frequency bands (1 to 32) [12] */
   bands?: number
-  /** Per second and band. */
+  /** Most breakpoints; simple sounds take fewer (0.5 to 1000 per second and band) [20] */
   breakpoints?: number
-  /** Bits. */
+  /** Resolution of each value (4 to 16 bits) [6] */
   quantise?: number
-  /** Hz. */
+  /** Lower end of the bands (1 to 1700 Hz) [30] */
   low?: number
-  /** Hz. */
+  /** Upper end of the bands (2 to 1800 Hz) [1000] */
   high?: number
+  /** How bands are spaced: log or linear [log] */
   spacing?: 'log' | 'linear'
-  /** 0 to 1. */
-  audible?: number
-  /** Of events, 0.25 to 4: above 1 there are more. */
+  /** Above 1 more and weaker events become transients, below 1 fewer (0.25 to 4) [1] */
   sensitivity?: number
+  /** How far loudness drives what lives above the range of touch (rain, ticks, birds); 0 keeps the beat of music (0 to 1) [1] */
+  audible?: number
+  /** Keep the level of the sound instead of raising it to full drive [off] */
   keepLevel?: boolean
+  /** Least time between two events; of two closer ones the first stays (0 to 1 s) [0.01] */
+  minimumGap?: number
+  /** An event less than this below its louder neighbours counts like one alone (0 to 120 dB) [8] */
+  maskMargin?: number
+  /** How much clearer an event must be for each dB below that margin, as a fraction of the threshold (0 to 1 per dB) [0.06] */
+  maskSlope?: number
+  /** How fast the masking by a louder event falls with the distance in time (20 to 1000 dB/s) [20] */
+  maskRecovery?: number
+  /** An event further than this below its louder neighbours is dropped however clear it is (0 to 120 dB) [27] */
+  maskLimit?: number
+  /** Events below this level are dropped (-120 to 0 dB) [-90] */
+  silence?: number
+  /** Attack of the envelope follower (0 to 10 s) [the method's own] */
+  attack?: number
+  /** Time that the envelope stands before it falls (0 to 10 s) [the method's own] */
+  hold?: number
+  /** Release of the envelope follower (0 to 10 s) [the method's own] */
+  release?: number
+  /** Shorten attack and release by the crest factor of the sound; they are the longest then [the method's own] */
+  crestAdaptive?: boolean
+  /** Time constant of the averages behind the crest factor (0.001 to 10 s) [the method's own] */
+  crestMemory?: number
+  /** High-pass before the analysis; 0 leaves it out (0 to 1000 Hz) [the method's own] */
+  lowLimit?: number
+  /** Low-pass before the analysis; near half the sample rate and above it is left out (10 to 384000 Hz) [the method's own] */
+  highLimit?: number
+  /** Difference of a fast and a slow envelope from which on there is a transient (0 to 10) [the method's own] */
+  transientThreshold?: number
+  /** Transients of a smaller peak are dropped (0 to 1) [the method's own] */
+  transientAmplitude?: number
+  // end
   /** Of the clip. */
   name?: string
   /** Of the sound's file. */
@@ -76,6 +113,30 @@ export interface Edit {
 /** Edits over the clip `before`, applied to `after`, another analysis of its sound; those that do not fit wait among `edits`. */
 export function reapply(before: ClipInput, after: ClipInput, edits: Edit[], options?: Stoppable):
   Promise<{ clip: Clip, edits: Edit[], unfitting: { edit: number, reason: string }[] }>
+/** What can be set, as it is described everywhere. */
+export interface Parameter {
+  name: string
+  /** Of the command. */
+  option: string
+  kind: 'number' | 'whole' | 'truth' | 'choice' | 'profile'
+  unit: string
+  choices?: string[]
+  lowest?: number
+  highest?: number
+  /** Missing where each method has its own. */
+  default?: number | boolean | string
+  text: string
+  group: string
+  since: string
+  /** Of encoding, that have it. */
+  methods?: string[]
+  /** Of exports, that have it. */
+  formats?: string[]
+}
+/** Of encode(). */
+export function parameters(options?: Stoppable): Promise<Parameter[]>
+/** Of write() and lint(), beside the format. */
+export function exportParameters(options?: Stoppable): Promise<Parameter[]>
 
 /** What encode() and render() do unless they are told otherwise. */
 export function defaults(options?: Stoppable): Promise<{ bands: number, breakpoints: number, sensitivity: number, strength: number }>
@@ -102,13 +163,28 @@ export interface WriteOptions extends Stoppable {
   format?: string
   name?: string
   profile?: ProfileInput
-  amplitudePoints?: number
+  // parameters: export
+  /** Most points of amplitude; without it a clip of one voice keeps its points (0.5 to 10000 per second) [as usual for the format] */
+  points?: number
+  /** Most points of frequency (0.5 to 10000 per second) [three quarters of the points of amplitude] */
   frequencyPoints?: number
-  /** Hz, of formats that are samples. */
-  sampleRate?: number
+  /** For formats that can be one file or several: write several [off] */
   split?: boolean
-  /** Of drive signals for the profile, 0 to 1. */
+  /** Write without a search for the best file (hjif): much faster, mostly a little less like the sound [off] */
+  quick?: boolean
+  /** Events: each a transient of its own, with the voice ducked around it, or merged into the voice where that is as strong (haptic, ahap, hjif) [transients; in hjif merged] */
+  events?: 'transients' | 'merged'
+  /** Most control points in an envelope of Android, whatever that costs (2 to 1000) [any number] */
+  maxPoints?: number
+  /** Least time from one control point to the next; every device plays 20 (1 to 10000 ms) [1] */
+  minSegment?: number
+  /** Most time from one control point to the next; every device plays 1000 (2 to 100000 ms) [1000] */
+  maxSegment?: number
+  /** Sample rate of formats that hold samples (2000 to 48000 Hz) [the format's own] */
+  sampleRate?: number
+  /** Trade of likeness for strength on resonant actuators, in formats that hold samples: 0 plays as flat as can be, 1 all of it on the resonance (0 to 1) [0.4] */
   strength?: number
+  // end
   extension?: string
 }
 export function write(clip: ClipInput, options?: WriteOptions): Promise<{ files: { suffix: string, bytes: Uint8Array }[], losses: Loss[] }>

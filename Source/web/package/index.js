@@ -47,9 +47,6 @@ const ownBytes = async (clip, signal) => {
   if (isOwn(bytes)) return bytes
   return (await ready('formats', signal)).call('read', {}, [bytes]).outputs[0]
 }
-const given = (options, names) =>
-  Object.fromEntries(names.filter((name) => options[name] !== undefined).map((name) => [name, options[name]]))
-
 /** Names of the actuators that come with Pacini. */
 export const profileNames = () => Object.keys(profileTable)
 
@@ -62,15 +59,13 @@ export const profileInfo = async (profile, { signal } = {}) =>
  * a `.pacb` file (`format: 'packed'`); a Float32Array by methods that make a drive signal.
  */
 export const encode = async (sound, options = {}) => {
-  const { signal, progress } = options
+  const { signal, progress, ...settings } = options
   const { sampleRate, channels, frames, reader } = soundOf(sound)
-  const own = (options.method ?? 'a2vt') === 'a2vt'
+  const own = (options.method ?? options.settings?.encode?.method ?? 'a2vt') === 'a2vt'
   const name = own ? 'encode' : 'research'
   const module = await ready(name, signal)
   const read = reader()
   let done = 0
-  const settings = given(options, [...(own ? [] : ['method']), 'bands', 'breakpoints', 'quantise', 'low', 'high', 'spacing', 'audible',
-    'sensitivity', 'keepLevel', 'name', 'source'])
   settings.format = options.format === 'packed' ? 'packed' : 'json'
   try {
     const { value, outputs } = module.call(own ? 'encode' : 'translate', { ...settings, sampleRate, channels, frames }, [], {
@@ -105,6 +100,11 @@ export const reapply = async (before, after, edits, { signal } = {}) => {
   const [clip, rest] = outputs.map((bytes) => JSON.parse(new TextDecoder().decode(bytes)))
   return { clip, ...rest, ...value }
 }
+/** What can be set of encode(), as it is described everywhere: names, units, ranges, defaults, and the methods that have it. */
+export const parameters = async ({ signal } = {}) => (await ready('encode', signal)).call('parameters').value.parameters
+
+/** What can be set of write() and lint(), beside the format, and the formats that each changes anything in. */
+export const exportParameters = async ({ signal } = {}) => (await ready('formats', signal)).call('exportParameters').value.parameters
 
 /** What encode() and render() do unless they are told otherwise: bands, breakpoints, sensitivity, strength. */
 export const defaults = async ({ signal } = {}) => (await ready('render', signal)).call('defaults').value
@@ -117,12 +117,11 @@ export const read = async (bytes, { extension = '', strict = false, signal } = {
   return { clip: JSON.parse(new TextDecoder().decode(outputs[0])), ...value }
 }
 
-const exporting = ['format', 'name', 'amplitudePoints', 'frequencyPoints', 'sampleRate', 'split', 'strength', 'extension']
-const exported = async (name, clip, options) => {
+const exported = async (name, clip, { signal, profile, ...options }) => {
   const inputs = [bytesOf(clip)]
-  if (options.profile !== undefined) inputs.push(profileBytes(options.profile))
+  if (profile !== undefined) inputs.push(profileBytes(profile))
   const own = ['json', 'packed'].includes(options.format ?? 'json') && isOwn(inputs[0])
-  return (await ready(own ? 'render' : 'formats', options.signal)).call(name, given(options, exporting), inputs)
+  return (await ready(own ? 'render' : 'formats', signal)).call(name, options, inputs)
 }
 
 /** The files that a clip becomes in a format, and what is lost on the way. */
@@ -137,15 +136,12 @@ export const lint = async (clip, options = {}) => (await exported('lint', clip, 
 /** All formats, Pacini's own first. */
 export const formats = async ({ signal } = {}) => (await ready('render', signal)).call('formats').value.formats
 
-const rendering = ['sampleRate', 'leaveOut', 'adapt', 'strength', 'gain', 'transpose', 'stretch', 'wearer', 'fullScale',
-  'protect']
-const rendered = async (what, options, more) => {
-  const scene = options.clips !== undefined
-  const inputs = [scene ? bytesOf(what) : await ownBytes(what, options.signal)]
-  if (options.profile !== undefined) inputs.push(profileBytes(options.profile))
-  for (const clip of options.clips ?? []) inputs.push(await ownBytes(clip, options.signal))
-  const { value, outputs } = (await ready('render', options.signal)).call('render',
-    { ...given(options, rendering), ...more, scene, withProfile: options.profile !== undefined }, inputs)
+const rendered = async (what, { signal, profile, clips, ...options }, more) => {
+  const inputs = [clips !== undefined ? bytesOf(what) : await ownBytes(what, signal)]
+  if (profile !== undefined) inputs.push(profileBytes(profile))
+  for (const clip of clips ?? []) inputs.push(await ownBytes(clip, signal))
+  const { value, outputs } = (await ready('render', signal)).call('render',
+    { ...options, ...more, scene: clips !== undefined, withProfile: profile !== undefined }, inputs)
   const channels = outputs.map(floats)
   return { samples: channels.length === 1 ? channels[0] : channels, sampleRate: options.sampleRate ?? 48000, ...value }
 }

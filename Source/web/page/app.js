@@ -385,12 +385,19 @@ const compare = async () => {
 
 let formatList = []
 const formatNamed = (wanted) => formatList.find((format) => format.name === wanted)
-const exportOptions = (format, name = history.now.name) => ({ format: format.name, name, ...strength(), ...profileOption() })
+let exportable
+/** Options for a format, without those that change nothing in it. */
+const exportOptions = async (format, name = history.now.name) => {
+  exportable ??= await side.call('exportParameters')
+  const has = (option) => exportable.some((one) => one.name === option && one.formats.includes(format.name))
+  const chosen = Object.entries({ ...strength(), ...profileOption() }).filter(([option]) => has(option))
+  return { format: format.name, name, ...Object.fromEntries(chosen) }
+}
 const lostText = (losses) => `Lost here: ${losses.slice(0, 3).map((loss) => loss.message).join('; ')}${losses.length > 3 ? `; and ${losses.length - 3} more` : ''}.`
 const showLosses = async () => {
   const format = formatNamed(element('format').value)
   if (!format || !view.clip) return
-  const { losses } = await side.call('write', view.clip, exportOptions(format))
+  const { losses } = await side.call('write', view.clip, await exportOptions(format))
   element('losses').textContent = losses.length === 0 ? format.keeps : `${format.keeps} ${lostText(losses)}`
 }
 
@@ -403,14 +410,14 @@ const download = (parts, file) => {
 }
 const save = async () => {
   const format = formatNamed(element('format').value), { name } = history.now
-  const { files } = await side.call('write', view.clip, exportOptions(format))
+  const { files } = await side.call('write', view.clip, await exportOptions(format))
   for (const { suffix, bytes } of files) download([bytes], `${name}${suffix}${format.extension}`)
 }
 const saveAll = async () => {
   const { name, clip } = history.now, all = [], refused = []
   for (const format of formatList) {
     try {
-      const { files } = await side.call('write', clip, exportOptions(format, name))
+      const { files } = await side.call('write', clip, await exportOptions(format, name))
       for (const { suffix, bytes } of files) all.push({ name: `${name}/${format.name}/${name}${suffix}${format.extension}`, bytes })
     } catch (error) {
       refused.push(`${format.title} (${error.message})`)

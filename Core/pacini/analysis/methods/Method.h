@@ -8,6 +8,7 @@
 #include <pacini/analysis/methods/EnvelopeSine.h>
 #include <pacini/analysis/methods/FrequencyShift.h>
 #include <pacini/analysis/methods/HapticGen.h>
+#include <pacini/analysis/methods/MethodChoices.h>
 #include <pacini/analysis/methods/PerceptTranslation.h>
 #include <pacini/analysis/methods/PitchMatch.h>
 #include <pacini/analysis/methods/PitchShift.h>
@@ -16,117 +17,89 @@
 #include <pacini/analysis/methods/ZeroPhaseLowpass.h>
 #include <pacini/clip/Clip.h>
 
-#include <array>
+#include <algorithm>
 #include <cassert>
-#include <cstddef>
-#include <optional>
+#include <cmath>
 #include <span>
-#include <string_view>
+#include <string>
+#include <type_traits>
 #include <vector>
 
 namespace pacini
 {
 
-/// Translation method.
-enum class Method
+namespace detail
 {
-    a2vt,
-    thesis,
-    decomposition,
-    envelopeSine,
-    envelopeCentroid,
-    vocoder16,
-    centroidFlatness,
-    lowpass,
-    pitchShift,
-    hapticGen,
-    frequencyShift,
-    percept,
-    pitchMatch,
-};
 
-/// What a translation method makes: clips or samples.
-enum class MethodOutput
+/// Visits each field of a method's parameters with the choice that it can be set by.
+template <typename Params, typename Choices, typename Visit>
+void pairWithChoices(Params& params, Choices& choices, Visit visit)
 {
-    clip,   ///< few breakpoints, to be decoded
-    signal, ///< a drive signal as it is
-};
-
-/// Name and description of a translation method.
-struct MethodInfo
-{
-    Method method;
-    std::string_view name; ///< on the command line and in a clip's record of its encoder
-    MethodOutput output;
-    std::string_view description; ///< one line
-};
-
-/// All methods, in the order of Method.
-inline constexpr std::array<MethodInfo, 13> methodTable{{
-    {Method::a2vt, "a2vt", MethodOutput::clip, "Pacini's own: band envelopes and pitches at the best price per point"},
-    {Method::thesis, "thesis", MethodOutput::clip, "Weber 2020, literally: six bands on fixed sines, and transients"},
-    {Method::decomposition, "decomposition", MethodOutput::clip,
-     "Weber 2020, its full proposal: tracked partials, events, and bands of noise"},
-    {Method::envelopeSine, "envelope-sine", MethodOutput::clip, "the envelope of the sound on a sine of 80 Hz"},
-    {Method::envelopeCentroid, "envelope-centroid", MethodOutput::clip,
-     "the envelope of the sound on a sine that follows the spectral centroid"},
-    {Method::vocoder16, "vocoder16", MethodOutput::clip,
-     "the envelopes of sixteen third octaves from 200 Hz up, all on 100 Hz"},
-    {Method::centroidFlatness, "centroid-flatness", MethodOutput::clip,
-     "the centroid as a pitch of 40 to 400 Hz, tonality as a fade from sine to square wave"},
-    {Method::lowpass, "lowpass", MethodOutput::signal, "the sound below 1 kHz, as it is"},
-    {Method::pitchShift, "pitch-shift", MethodOutput::signal, "the sound two octaves lower, as long as it was"},
-    {Method::hapticGen, "hapticgen", MethodOutput::signal,
-     "Sung 2025: the level on a sine of 200 Hz that rises with it"},
-    {Method::frequencyShift, "freqshift", MethodOutput::signal,
-     "Okazaki 2015: the sound and copies one and two octaves lower, 125 to 375 Hz"},
-    {Method::percept, "percept", MethodOutput::signal,
-     "Lee and Choi 2013: loudness and roughness as those of two sines that beat"},
-    {Method::pitchMatch, "pitchmatch", MethodOutput::signal,
-     "Kim 2024: loudness on a sine whose pitch follows the ear's"},
-}};
-
-/// The entry of a method.
-[[nodiscard]] constexpr const MethodInfo& methodInfo(Method method) noexcept
-{
-    return methodTable[static_cast<std::size_t>(method)];
+    if constexpr (std::is_same_v<std::remove_const_t<Params>, DecompositionParams>)
+        visit(params.breakpoints, choices.breakpoints);
+    else
+    {
+        visit(params.curves.breakpoints, choices.breakpoints);
+        visit(params.curves.follower.attack, choices.attack);
+        visit(params.curves.follower.hold, choices.hold);
+        visit(params.curves.follower.release, choices.release);
+        visit(params.curves.follower.crestAdaptive, choices.crestAdaptive);
+        visit(params.curves.follower.crestMemory, choices.crestMemory);
+        visit(params.range.low, choices.lowLimit);
+        visit(params.range.high, choices.highLimit);
+    }
+    if constexpr (std::is_same_v<std::remove_const_t<Params>, ThesisMethodParams>)
+    {
+        visit(params.layout.bands, choices.bands);
+        visit(params.layout.low, choices.lowFrequency);
+        visit(params.layout.high, choices.highFrequency);
+        visit(params.quantise, choices.quantise);
+        visit(params.transients.minimumDistance, choices.minimumGap);
+        visit(params.transients.threshold, choices.transientThreshold);
+        visit(params.transients.minimumAmplitude, choices.transientAmplitude);
+    }
 }
 
-/// The method of this exact name, if there is one.
-[[nodiscard]] constexpr std::optional<Method> methodNamed(std::string_view name) noexcept
+/// `params` with what was chosen.
+template <typename Params>
+[[nodiscard]] Params withChoices(Params params, const MethodChoices& choices)
 {
-    for (const MethodInfo& info : methodTable)
-        if (info.name == name)
-            return info.method;
-    return std::nullopt;
+    pairWithChoices(params, choices,
+                    [](auto& value, const auto& choice)
+                    {
+                        if (choice)
+                            value = std::remove_reference_t<decltype(value)>(*choice);
+                    });
+    return params;
 }
 
-/// Options that only some methods have, by their names on the command line without the dashes before them.
-inline constexpr std::array<std::string_view, 9> tunedOptions{
-    "bands", "breakpoints", "quantise", "low", "high", "spacing", "audible", "sensitivity", "keep-level"};
-
-/// Whether a method has one of `tunedOptions`; names in Python have `_` for `-`.
-[[nodiscard]] constexpr bool hasOption(const MethodInfo& method, std::string_view option) noexcept
+/// What `params` are set to.
+template <typename Params>
+[[nodiscard]] MethodChoices choicesIn(const Params& params)
 {
-    if (method.method == Method::a2vt)
-        return true;
-    if (method.method == Method::thesis)
-        return option == "bands" || option == "breakpoints" || option == "quantise" || option == "low" ||
-               option == "high";
-    return method.output == MethodOutput::clip && option == "breakpoints";
+    MethodChoices choices;
+    pairWithChoices(params, choices, [](const auto& value, auto& choice) { assignNumber(choice, numberOf(value)); });
+    return choices;
 }
 
-/// Choices that methods share; what is left out is the method's own. Values are clamped as the methods say.
-struct MethodChoices
+/// Adds the choices to the record of a clip that its method does not name itself.
+inline void recordChoices(Clip& clip, Method method, const MethodChoices& choices)
 {
-    std::optional<double> breakpoints;   ///< per second of active time and curve: all methods that make a clip;
-                                         ///< for decomposition as for a2vt no more than that
-    std::optional<std::size_t> bands;    ///< thesis
-    std::optional<double> lowFrequency;  ///< Hz, of the first band: thesis
-    std::optional<double> highFrequency; ///< Hz, of the last band: thesis
-    std::optional<int> quantise;         ///< bits: thesis
-    bool operator==(const MethodChoices&) const = default;
-};
+    for (const MethodParameter& parameter : methodParameters)
+    {
+        const double value = parameter.get(choices);
+        const bool known = std::any_of(clip.encoder.begin(), clip.encoder.end(),
+                                       [&](const EncoderParameter& one) { return one.name == parameter.name; });
+        if (std::isnan(value) || known || !hasParameter(method, parameter.name))
+            continue;
+        if (parameter.kind == ParameterKind::truth)
+            clip.encoder.push_back({std::string(parameter.name), value != 0.0});
+        else
+            clip.encoder.push_back({std::string(parameter.name), value});
+    }
+}
+
+} // namespace detail
 
 /// The clip that a method makes of a mono sound of any length at 8000 to 768000 Hz: valid, of the sound's duration,
 /// with `name` and `source` left to the caller. Only for methods whose output is a clip, and not for a2vt, which takes
@@ -134,36 +107,25 @@ struct MethodChoices
 [[nodiscard]] inline Clip translateToClip(Method method, std::span<const float> mono, double fs,
                                           const MethodChoices& choices = {})
 {
-    const auto withBreakpoints = [&choices](auto params)
+    const auto recorded = [&](Clip clip)
     {
-        params.curves.breakpoints = choices.breakpoints.value_or(params.curves.breakpoints);
-        return params;
+        detail::recordChoices(clip, method, choices);
+        return clip;
     };
     switch (method)
     {
     case Method::thesis:
-    {
-        auto params = withBreakpoints(ThesisMethodParams{});
-        params.layout.bands = choices.bands.value_or(params.layout.bands);
-        params.layout.low = Hertz(choices.lowFrequency.value_or(params.layout.low.value));
-        params.layout.high = Hertz(choices.highFrequency.value_or(params.layout.high.value));
-        params.quantise = choices.quantise.value_or(params.quantise);
-        return thesisClip(mono, fs, params);
-    }
+        return recorded(thesisClip(mono, fs, detail::withChoices(ThesisMethodParams{}, choices)));
     case Method::decomposition:
-    {
-        DecompositionParams params;
-        params.breakpoints = choices.breakpoints.value_or(params.breakpoints);
-        return decompositionClip(mono, fs, params);
-    }
+        return decompositionClip(mono, fs, detail::withChoices(DecompositionParams{}, choices));
     case Method::envelopeSine:
-        return envelopeSineClip(mono, fs, withBreakpoints(EnvelopeSineParams{}));
+        return recorded(envelopeSineClip(mono, fs, detail::withChoices(EnvelopeSineParams{}, choices)));
     case Method::envelopeCentroid:
-        return envelopeCentroidClip(mono, fs, withBreakpoints(EnvelopeCentroidParams{}));
+        return recorded(envelopeCentroidClip(mono, fs, detail::withChoices(EnvelopeCentroidParams{}, choices)));
     case Method::vocoder16:
-        return thirdOctaveVocoderClip(mono, fs, withBreakpoints(ThirdOctaveVocoderParams{}));
+        return recorded(thirdOctaveVocoderClip(mono, fs, detail::withChoices(ThirdOctaveVocoderParams{}, choices)));
     case Method::centroidFlatness:
-        return centroidFlatnessClip(mono, fs, withBreakpoints(CentroidFlatnessParams{}));
+        return recorded(centroidFlatnessClip(mono, fs, detail::withChoices(CentroidFlatnessParams{}, choices)));
     case Method::a2vt:
     case Method::lowpass:
     case Method::pitchShift:
@@ -175,6 +137,28 @@ struct MethodChoices
     }
     assert(false && "no clip is made here by this method");
     return {};
+}
+
+/// The choices that a method makes where nothing else is chosen; none for methods that have none, and for a2vt.
+[[nodiscard]] inline MethodChoices usualChoices(Method method)
+{
+    switch (method)
+    {
+    case Method::thesis:
+        return detail::choicesIn(ThesisMethodParams{});
+    case Method::decomposition:
+        return detail::choicesIn(DecompositionParams{});
+    case Method::envelopeSine:
+        return detail::choicesIn(EnvelopeSineParams{});
+    case Method::envelopeCentroid:
+        return detail::choicesIn(EnvelopeCentroidParams{});
+    case Method::vocoder16:
+        return detail::choicesIn(ThirdOctaveVocoderParams{});
+    case Method::centroidFlatness:
+        return detail::choicesIn(CentroidFlatnessParams{});
+    default:
+        return {};
+    }
 }
 
 /// The drive signal that a method makes of a mono sound, as long as the sound and at its rate. Only for methods whose

@@ -9,6 +9,7 @@
 #include "editor/clip/EditorView.h"
 
 #include <algorithm>
+#include <string_view>
 
 namespace pacini::editor
 {
@@ -99,26 +100,31 @@ AnalysisPanel::AnalysisPanel(EditorView& shown)
         });
     addAll(*this, {&replaceButton, &findButton, &preset, &resetButton, &spacing, &normalise, &edits});
 
-    prepare(bands, "Bands", "", "Number of frequency bands, 1 to 32");
-    knob(bands).setRange(1.0, 32.0, 1.0);
+    const auto range = [this](Which which, std::string_view parameter, double step, double scale = 1.0)
+    {
+        const DescribedRange& described = parameterNamed(encoderParameters, parameter).range;
+        knob(which).setRange(scale * described.lowest, scale * described.highest, step);
+    };
+    prepare(bands, "Bands", "", "Number of frequency bands");
+    range(bands, "bands", 1.0);
     prepare(low, "Lowest", " Hz", "Lower end of the lowest band, in Hz");
-    knob(low).setRange(1.0, 1700.0, 1.0);
+    range(low, "low", 1.0);
     knob(low).setSkewFactorFromMidPoint(60.0);
     prepare(high, "Highest", " Hz", "Upper end of the highest band, in Hz");
-    knob(high).setRange(10.0, 1800.0, 1.0);
+    range(high, "high", 1.0);
     knob(high).setSkewFactorFromMidPoint(400.0);
     prepare(detail, "Detail", " /s", "Max. points per second and band; simple sounds need fewer");
-    knob(detail).setRange(0.5, 200.0, 0.5);
+    range(detail, "breakpoints", 0.5);
     knob(detail).setSkewFactorFromMidPoint(20.0);
     prepare(sensitivity, "Events", " x",
             "Transient sensitivity: above 1 also finds weaker and closer hits, below 1 only clear ones");
-    knob(sensitivity).setRange(0.25, 4.0, 0.05);
+    range(sensitivity, "sensitivity", 0.05);
     knob(sensitivity).setSkewFactorFromMidPoint(1.0);
     prepare(audible, "Audible", " %",
             "How strongly sound above the range of touch (rain, ticks, birds) drives the haptics; 0: not at all");
-    knob(audible).setRange(0.0, 100.0, 1.0);
-    prepare(bits, "Precision", " bit", "Bits per value, 4 to 16; fewer make smaller files and coarser levels");
-    knob(bits).setRange(4.0, 16.0, 1.0);
+    range(audible, "audible", 1.0, 100.0);
+    prepare(bits, "Precision", " bit", "Bits per value; fewer make smaller files and coarser levels");
+    range(bits, "quantise", 1.0);
     // The ends of the bands push each other along.
     knob(low).onValueChange = [this]
     {

@@ -12,6 +12,7 @@ std::span<const NamedHandler> handlers()
     static constexpr std::array all{
         NamedHandler{"encode", encodeSound},
         NamedHandler{"reapply", reapplyEdits},
+        NamedHandler{"parameters", describeParameters},
     };
     return all;
 }

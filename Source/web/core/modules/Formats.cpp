@@ -13,6 +13,7 @@ std::span<const NamedHandler> handlers()
         NamedHandler{"read", readClipBytes},
         NamedHandler{"write", writeClipBytes},
         NamedHandler{"lint", lintClip},
+        NamedHandler{"exportParameters", describeExports},
     };
     return all;
 }

@@ -1,0 +1,159 @@
+#!/usr/bin/env python3
+"""Makes from the descriptions of parameters, which the command prints: tables of options in the documentation, the JSON
+schema of settings, types for JavaScript and for Python.
+
+make_parameters.py [--program PACINI] [--check]
+    --program  else build/release/bin/pacini
+    --check    changes nothing; exit 1 if a file is not as it would be made
+"""
+import argparse
+import json
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent.parent
+SCHEMA = "Resources/schema/pacini.settings.schema.json"
+TYPES = "Source/web/package/index.d.ts"
+PYTHON = "Source/python/pacini/_options.py"
+PAGES = ["Resources/docs/settings.md", "Resources/docs/getting-started.md"]
+WIDTH = 120
+
+
+def limits(one):
+    if one["kind"] == "choice":
+        return " or ".join(one["choices"])
+    if "lowest" not in one:
+        return ""
+    return f"{one['lowest']} to {one['highest']}" + (f" {one['unit']}" if one["unit"] else "")
+
+
+def usual(one):
+    if one["kind"] == "truth" and "default" in one:
+        return "on" if one["default"] else "off"
+    return str(one.get("default", one.get("usually", "")))
+
+
+def told(one):
+    """The sentence, with range and default."""
+    return f"{one['text']}{f' ({limits(one)})' if limits(one) and one['kind'] != 'choice' else ''} [{usual(one)}]"
+
+
+def table(parameters, where):
+    """`where`: the key of what has them, a column of its own, or nothing."""
+    lines = ["| option | meaning | range |" + (f" {where} |" if where else "") + " default |",
+             "|---|---|---|---|" + ("---|" if where else "")]
+    for one in parameters:
+        having = " " + ", ".join(one[where]) + " |" if where else ""
+        lines.append(f"| `{one['option']}` | {one['text']} | {limits(one)} |{having} {usual(one)} |")
+    return "\n".join(lines)
+
+
+def filled(text, opening, closing, inside):
+    """`text` with what stands between each two lines `opening` and `closing` made anew."""
+    pattern = re.compile(rf"^([ ]*{opening}[ ]*\n)(?:.*\n)*?([ ]*{closing}[ ]*)$", re.M)
+    assert pattern.search(text), f"{opening} is missing"
+    return pattern.sub(lambda found: found[1] + inside(found) + "\n" + found[len(found.groups())], text)
+
+
+def page(text, described):
+    def inside(found):
+        part, group = found[2], found[3]
+        chosen = [one for one in described[part] if one["group"] == group]
+        assert chosen, f"nothing is in {part} {group}"
+        return "\n" + table(chosen, {"Other methods": "methods", "Other formats": "formats"}.get(group)) + "\n"
+
+    return filled(text, r"<!-- parameters: (\w+) ([\w ]+?) -->", "<!-- end -->", inside)
+
+
+def schema_of(one):
+    made = {"description": one["text"] + (f", {one['unit']}" if one["unit"] else "")}
+    if one["kind"] == "choice":
+        made["enum"] = one["choices"]
+    elif one["kind"] == "truth":
+        made["type"] = "boolean"
+    else:
+        made.update(type="integer" if one["kind"] == "whole" else "number", minimum=one["lowest"], maximum=one["highest"])
+    if "default" in one:
+        made["default"] = one["default"]
+    return made
+
+
+def schema(described, methods):
+    parts = {"encode": {
+        "description": "Of encoding, as options of `pacini encode`. A method takes the parameters that it has.",
+        "type": "object",
+        "properties": {"method": {"description": "How sound is translated.", "enum": methods, "default": "a2vt"},
+                       **{one["name"]: schema_of(one) for one in described["encode"]}}},
+             "export": {
+        "description": "Of formats of other programs. Each entry counts for the formats that have it.",
+        "type": "object",
+        "properties": {one["name"]: schema_of(one) for one in described["export"]}}}
+    whole = {
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "$id": "urn:pacini:settings:1",
+        "title": "Pacini settings, version 1",
+        "description": "Values of what can be set. What is left out keeps its default. Unknown keys are passed over with a warning.",
+        "type": "object",
+        "required": ["format", "version"],
+        "properties": {"format": {"const": "pacini.settings"}, "version": {"const": 1}, **parts}}
+    return json.dumps(whole, indent=2) + "\n"
+
+
+def types(text, described):
+    script = {"number": "number", "whole": "number", "truth": "boolean"}
+
+    def lines(part):
+        made = []
+        for one in described[part]:
+            kind = script.get(one["kind"]) or " | ".join(f"'{choice}'" for choice in one["choices"])
+            made.append(f"  /** {told(one)} */\n  {one['name']}?: {kind}")
+        return "\n".join(made)
+
+    return filled(text, r"// parameters: (\w+)", "// end", lambda found: lines(found[2]))
+
+
+def python(described):
+    kinds = {"number": "float", "whole": "int", "truth": "bool"}
+    def options(name, summary, part):
+        lines = ["", "", f"class {name}(TypedDict, total=False):", f'    """{summary}"""', ""]
+        for one in described[part]:
+            lines.append(f"    {one['option'][2:].replace('-', '_')}: Optional[{kinds.get(one['kind'], 'str')}]")
+        return lines
+
+    lines = ['"""Types of options; made by Resources/docs/make_parameters.py."""', "", "from typing import Optional, TypedDict",
+             *options("EncodeOptions", "Options of encoding; None is the method's own.", "encode"),
+             *options("ExportOptions", "Options of formats of other programs, beside the profile; None is the usual.", "export")]
+    return "\n".join(lines) + "\n"
+
+
+def main():
+    parser = argparse.ArgumentParser(usage=__doc__.split("\n\n", 1)[1])
+    parser.add_argument("--program", type=Path, default=ROOT / "build/release/bin/pacini")
+    parser.add_argument("--check", action="store_true")
+    options = parser.parse_args()
+
+    def reported(*words):
+        done = subprocess.run([options.program.resolve(), *words, "--json"], capture_output=True, check=True)
+        return json.loads(done.stdout)
+
+    every = reported("encode", "--print-settings")["parameters"]
+    described = {part: [one for one in listed if one["kind"] != "profile"] for part, listed in every.items()}
+    methods = [method["name"] for method in reported("encode", "--list-methods")["methods"]]
+    made = {SCHEMA: schema(described, methods), PYTHON: python(described),
+            TYPES: types((ROOT / TYPES).read_text(), described)}
+    for name in PAGES:
+        made[name] = page((ROOT / name).read_text(), every)
+    stale = [name for name, text in made.items() if not (ROOT / name).exists() or (ROOT / name).read_text() != text]
+    for name in stale:
+        if options.check:
+            print(f"{name} is not as Resources/docs/make_parameters.py makes it")
+        else:
+            (ROOT / name).write_text(made[name])
+            print("wrote", ROOT / name)
+    return 1 if options.check and stale else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

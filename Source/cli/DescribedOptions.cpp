@@ -1,0 +1,84 @@
+#include "cli/DescribedOptions.h"
+
+#include "cli/Options.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace pacini::cli
+{
+
+namespace
+{
+/// NaN for what is no number.
+double numberIn(const std::string& text)
+{
+    double value = 0.0;
+    return !text.empty() && CLI::detail::lexical_cast(text, value) ? value : std::numeric_limits<double>::quiet_NaN();
+}
+
+CLI::Validator allowedFor(const ParameterInfo& parameter)
+{
+    if (parameter.kind == ParameterKind::choice)
+        return oneOf({parameter.choices.begin(), parameter.choices.end()});
+    const std::string range = allowedText(parameter);
+    return CLI::Validator(
+        [&parameter, range](std::string& text)
+        {
+            if (checkValue(parameter, numberIn(text)))
+                return std::string();
+            return fmt::format("'{}' is not a {} from {}", text,
+                               parameter.kind == ParameterKind::whole ? "whole number" : "number", range);
+        },
+        range);
+}
+
+double valueIn(const ParameterInfo& parameter, const std::string& text)
+{
+    if (parameter.kind != ParameterKind::choice)
+        return numberIn(text);
+    const auto found = std::find(parameter.choices.begin(), parameter.choices.end(), text);
+    return static_cast<double>(found - parameter.choices.begin());
+}
+} // namespace
+
+std::string optionOf(std::string_view parameter)
+{
+    return "--" + separatedName(parameter, '-');
+}
+
+void DescribedOptions::declare(CLI::App& command, std::span<const ParameterInfo* const> parameters)
+{
+    for (const ParameterInfo* parameter : parameters)
+    {
+        const std::string name = optionName(*parameter);
+        std::string text(parameter->text);
+        if (!parameter->usualText.empty())
+            text.append(" [").append(parameter->usualText).append("]");
+        CLI::Option* option = nullptr;
+        if (parameter->kind == ParameterKind::truth)
+            option = command.add_flag(name, text);
+        else
+        {
+            option = command.add_option(name, text)
+                         ->check(allowedFor(*parameter))
+                         ->default_str(valueText(*parameter, parameter->usual()));
+            option->type_name(parameter->kind == ParameterKind::choice  ? "NAME"
+                              : parameter->kind == ParameterKind::whole ? "N"
+                                                                        : "X");
+        }
+        declared.push_back({parameter, option->group(std::string(parameter->group))});
+    }
+}
+
+void DescribedOptions::addGiven(GivenParameters& given) const
+{
+    for (const auto& [parameter, option] : declared)
+        if (option->count() > 0)
+            given.set(*parameter,
+                      parameter->kind == ParameterKind::truth ? 1.0 : valueIn(*parameter, option->results().front()));
+}
+
+} // namespace pacini::cli

@@ -1,0 +1,102 @@
+#include "io/Settings.h"
+
+#include "io/JsonTree.h"
+#include "io/NearestName.h"
+#include "io/formats/ExportParameters.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace pacini
+{
+
+Result<Method> chosenMethod(std::string_view name)
+{
+    if (name.empty())
+        return Method::a2vt;
+    if (const auto method = methodNamed(name))
+        return *method;
+    std::vector<std::string> names;
+    for (const MethodInfo& info : methodTable)
+        names.emplace_back(info.name);
+    return Error{ErrorCode::invalidArgument, "method",
+                 fmt::format("'{}' is none of {}{}", shownText(name), fmt::join(names, ", "), meantText(name, names))};
+}
+
+Result<TranslationParams> translationOf(const Settings& settings)
+{
+    const auto method = chosenMethod(settings.method);
+    if (!method)
+        return method.error();
+    TranslationParams translation;
+    translation.method = *method;
+    for (const GivenValue& given : settings.encode)
+        if (auto set = setParameter(translation, *given.parameter, given.value); !set)
+            return set.error();
+    if (auto valid = validate(translation); !valid)
+        return valid.error();
+    return translation;
+}
+
+void readEncodeSettings(FieldsReader& reader, Settings& settings)
+{
+    reader.optionalText("method", settings.method);
+    if (const auto known = chosenMethod(settings.method); !known)
+        reader.fail("method", known.error().message, ErrorCode::invalidArgument);
+    readParameters(reader, translationParameters(), settings.encode);
+}
+
+void readSettingsFields(FieldsReader& reader, Settings& settings)
+{
+    reader.format(settingsFormat.name, settingsFormat.version);
+    reader.object("encode", settings, Need::optional, [&](Settings& into) { readEncodeSettings(reader, into); });
+    reader.object("export", settings.exporting, Need::optional,
+                  [&](GivenParameters& into) { readParameters(reader, exportParameterInfos(), into); });
+}
+
+Result<Settings> readSettings(std::string_view text, ReadWarnings* warnings)
+{
+    const auto document = readJsonTree(text, largestSettingsText);
+    if (!document)
+        return document.error();
+    if (!document->is_object())
+        return Error{ErrorCode::invalidData, "", "must be an object in braces"};
+    FieldsReader reader(*document, warnings);
+    Settings settings;
+    readSettingsFields(reader, settings);
+    reader.finish();
+    if (reader.error)
+        return *reader.error;
+    return settings;
+}
+
+nlohmann::ordered_json settingsJson(const TranslationParams& translation, const MethodChoices& usual)
+{
+    nlohmann::ordered_json encode{{"method", methodInfo(translation.method).name}};
+    const TranslationParams standard{translation.method, {}, usual};
+    for (const ParameterInfo* parameter : translationParameters())
+    {
+        if (!hasParameter(translation.method, parameter->name))
+            continue;
+        const double chosen = valueOf(translation, *parameter);
+        if (const auto value = jsonOf(*parameter, std::isnan(chosen) ? valueOf(standard, *parameter) : chosen))
+            encode[std::string(parameter->name)] = *value;
+    }
+    return {{"format", settingsFormat.name}, {"version", settingsFormat.version}, {"encode", encode}};
+}
+
+nlohmann::ordered_json translationDescriptionsJson()
+{
+    auto all = nlohmann::ordered_json::array();
+    for (const ParameterInfo* parameter : translationParameters())
+    {
+        all.push_back(descriptionJson(*parameter));
+        for (const MethodInfo& info : methodTable)
+            if (hasParameter(info.method, parameter->name))
+                all.back()["methods"].push_back(info.name);
+    }
+    return all;
+}
+
+} // namespace pacini

@@ -1,0 +1,21 @@
+#pragma once
+
+// The translation that a call asks for: options of its own before those of its `settings`.
+
+#include "io/Settings.h"
+#include "web/core/Call.h"
+
+namespace pacini::web
+{
+
+/// Errors: those of translationOf(); what is wrong with single options stands in the reader.
+[[nodiscard]] inline Result<TranslationParams> readTranslation(Call& call)
+{
+    Settings settings;
+    call.reader.object("settings", settings, Need::optional,
+                       [&](Settings& into) { readSettingsFields(call.reader, into); });
+    readEncodeSettings(call.reader, settings);
+    return translationOf(settings);
+}
+
+} // namespace pacini::web
