@@ -1,6 +1,5 @@
 #include "cli/ProfileInput.h"
 
-#include "cli/Options.h"
 #include "cli/ProgramFolder.h"
 #include "io/AcfFile.h"
 #include "io/ProfileFile.h"
@@ -27,15 +26,6 @@ std::optional<Result<Profile>> profileIn(const std::string& name, ReadWarnings* 
         return acf ? Result<Profile>(std::move(acf->profile)) : Result<Profile>(acf.error());
     }
     return isProfile(name) ? std::optional(readProfile(name, warnings)) : std::nullopt;
-}
-
-CLI::Option* addStrength(CLI::App& command, double& strength, const std::string& where)
-{
-    return addPreset(command, "--strength", strength,
-                     "Trade of likeness for strength on resonant actuators" + where +
-                         ": 0 plays as flat as can be, 1 all of it on the resonance",
-                     numberFrom(0.0, 1.0), "S")
-        ->needs(command.get_option("--profile"));
 }
 
 std::optional<Profile> openProfile(Console& console, const std::string& name)

@@ -1,13 +1,11 @@
 #pragma once
 
-// Look-up of actuator profiles by file or by the name of a shipped one, and what is asked of them.
+// Look-up of actuator profiles by file or by the name of a shipped one.
 
 #include "cli/Console.h"
 #include "io/ReadWarnings.h"
 
 #include <pacini/actuator/Profile.h>
-
-#include <CLI/CLI.hpp>
 
 #include <optional>
 #include <string>
@@ -18,10 +16,6 @@ namespace pacini::cli
 /// The profile that the file `name` is (ACF too), or that ships under this name; nothing when it is something else.
 /// Keys that are not known go to `warnings`. Errors: those of readProfile and readAcfFile.
 [[nodiscard]] std::optional<Result<Profile>> profileIn(const std::string& name, ReadWarnings* warnings = nullptr);
-
-/// Declares `--strength` (see fitActuator), which needs the `--profile` declared before; its description says that it
-/// counts only `where`.
-CLI::Option* addStrength(CLI::App& command, double& strength, const std::string& where = "");
 
 /// The profile of `--profile name`; nothing when there is none, and the console has said why.
 [[nodiscard]] std::optional<Profile> openProfile(Console& console, const std::string& name);

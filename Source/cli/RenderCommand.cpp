@@ -3,6 +3,7 @@
 #include "cli/Batch.h"
 #include "cli/Command.h"
 #include "cli/Counted.h"
+#include "cli/DescribedOptions.h"
 #include "cli/Felt.h"
 #include "cli/InputFiles.h"
 #include "cli/Options.h"
@@ -135,34 +136,22 @@ private:
     std::vector<std::string> inputs;
     std::string output;
     std::string profile;
-    double rate = 48000.0;
+    DescribedOptions described;
+    DescribedOptions describedFelt;
     std::string encoding = "float32";
     std::string carriers = "auto";
     std::string envelope = "auto";
     std::string pulse = "auto";
-    double pulseFrequency = 0.0;
-    double pulseCycles = 1.0;
     std::uint64_t seed = 0;
-    double variation = 0.0;
-    std::string variationPer = "breakpoint";
-    double transpose = 0.0;
-    double stretch = 1.0;
-    double gain = 0.0;
-    double delay = 0.0;
     double from = 0.0;
     std::optional<double> to;
     bool dryRun = false;
-    double tolerance = -60.0;
     std::string clipFolder;
-    double feltFullScale = FeltParams{}.fullScale;
-    unsigned wearer = 0;
     unsigned jobs = 0;
     bool felt = false;
     bool everything = false;
     bool noAdaptation = false;
     std::string mapping = "profile";
-    double maxBoost = AdaptationParams{}.maxBoost.value; // dB
-    double strength = AdaptationParams{}.strength;
     bool noProtection = false;
     bool force = false;
     OverwriteOptions overwriting;
@@ -186,25 +175,13 @@ CLI::App* RenderCommand::declare(CLI::App& app)
         "OUT|DIR");
     addOption(*command, "--profile", profile,
               "Actuator profile: a file, or a shipped one such as l5-wristband; clips are fitted to it", "PROFILE");
-    addPreset(*command, "--rate", rate, "Sample rate of the output, Hz",
-              numberFrom(limits::lowestRate, limits::highestRate));
     addPreset(*command, "--encoding", encoding, "Samples of the output: float32, pcm24 or pcm16",
               oneOf({"float32", "pcm24", "pcm16"}));
-    addPreset(*command, "--gain", gain,
-              "Gain, dB; what would then exceed full drive (1), or a limit of the profile, is turned down while "
-              "it does",
-              numberFrom(-120.0, 60.0));
-    addPreset(*command, "--transpose", transpose, "Semitones up or down; time stays", numberFrom(-96.0, 96.0), "ST");
-    addPreset(*command, "--stretch", stretch, "Length factor; pitch stays", numberFrom(0.01, 100.0), "R");
-    addPreset(*command, "--delay", delay, "Silence before the start, s", numberFrom(0.0, 3600.0));
+    described.declare(*command, infosOf(renderParameters));
     addPreset(*command, "--from", from, "Start of the part to render, s; what came before is played unheard",
               numberFrom(0.0, limits::duration, "24 h"), "S");
     addOption(*command, "--to", to, "End of the part to render, s [the end]", numberFrom(0.0, limits::duration, "24 h"),
               "S");
-    addPreset(*command, "--variation", variation,
-              "Random variation of the bands; in a scene, of the plays that have none", numberFrom(0.0, 1.0), "V");
-    addPreset(*command, "--variation-per", variationPer, "One random factor per breakpoint or per band",
-              oneOf({"breakpoint", "band"}));
     addPreset(*command, "--seed", seed, "Seed of the variation", countingNumber());
     addPreset(*command, "--carriers", carriers,
               "Sinusoids at fixed centres, on the pitch curves, or moving with the centroid",
@@ -212,13 +189,7 @@ CLI::App* RenderCommand::declare(CLI::App& app)
     addPreset(*command, "--envelope", envelope, "Level the sum of the bands to the total envelope",
               oneOf({"auto", "on", "off"}));
     addPreset(*command, "--pulse", pulse, "Waveform of events", oneOf({"auto", "adaptive", "square", "sine"}));
-    addOption(*command, "--pulse-frequency", pulseFrequency,
-              "Frequency of square and sine pulses, Hz [the actuator's resonance]", numberFrom(1.0, 2000.0));
-    addPreset(*command, "--pulse-cycles", pulseCycles, "Periods of square and sine pulses", numberFrom(0.1, 100.0));
     addOption(*command, "--clips", clipFolder, "Where the clip files of scenes are [beside the scene]", "DIR");
-    addPreset(*command, "--tolerance", tolerance,
-              "Largest error that everything left out may cause together, dB relative to the whole",
-              numberFrom(-300.0, 0.0), "DB");
     auto* all = command->add_flag("--everything", everything, "Leave nothing out");
     command->get_option("--tolerance")->excludes(all);
     auto* asIs =
@@ -228,12 +199,9 @@ CLI::App* RenderCommand::declare(CLI::App& app)
                   "Frequencies outside the actuator's range: as its profile says, to the nearest end, spread over "
                   "it, or by octaves into it",
                   oneOf({"profile", "clamp", "rescale", "fold"}));
-    auto* boosted =
-        addPreset(*command, "--max-boost", maxBoost,
-                  "How far the drive may be raised to flatten the actuator's resonance, dB; 0 leaves the resonance",
-                  numberFrom(0.0, 40.0));
-    auto* strengthened = addStrength(*command, strength);
-    for (CLI::Option* fitted : {asIs, mapped, boosted})
+    auto* boosted = command->get_option("--max-boost");
+    auto* strengthened = command->get_option("--strength");
+    for (CLI::Option* fitted : {asIs, mapped, boosted, strengthened})
         fitted->needs(command->get_option("--profile"));
     for (CLI::Option* fitted : {mapped, boosted, strengthened})
         fitted->excludes(asIs);
@@ -245,14 +213,9 @@ CLI::App* RenderCommand::declare(CLI::App& app)
                           "Write the acceleration of the skin that the profile's body model predicts instead "
                           "of the drive signal");
     asFelt->needs(command->get_option("--profile"));
-    addPreset(*command, "--felt-full-scale", feltFullScale, "With --felt: acceleration at a sample of 1, m/s^2",
-              numberFrom(1e-3, 1e6), "M_S2")
-        ->needs(asFelt);
-    addPreset(*command, "--wearer", wearer,
-              "With --felt: whose skin; 0 as in the profile, 1 to 14 simulated people whose skin has half to "
-              "twice its mass, stiffness and damping (assumed)",
-              wholeNumberFrom(0u, simulatedWearers), "N")
-        ->needs(asFelt);
+    describedFelt.declare(*command, infosOf(feltParameters));
+    for (const auto& parameter : feltParameters)
+        command->get_option(optionName(parameter))->needs(asFelt);
     command->add_flag("--explain", explain, "Show what is played, and what is left out, why, and with what error");
     command->add_flag("--measured", measured,
                       "Like --explain, and also render everything, to measure the error of what is left out");
@@ -317,31 +280,21 @@ Exit RenderCommand::run(Console& console)
                                  "is for square and sine pulses; leave it out, or choose one of them with --pulse"},
                                 Exit::usage);
     RenderSettings settings;
-    settings.compile.sampleRate = std::round(rate);
-    settings.compile.tolerance = tolerance;
+    described.apply(renderParameters, settings);
+    settings.compile.sampleRate = std::round(settings.compile.sampleRate);
+    settings.adjustment.variation.seed = seed;
     settings.compile.leaveOut = !everything;
     settings.compile.adapt = !noAdaptation;
     settings.compile.adaptation.mapping = chosen<FrequencyMapping>(
         mapping,
         {{"clamp", FrequencyMapping::clamp}, {"rescale", FrequencyMapping::rescale}, {"fold", FrequencyMapping::fold}});
-    settings.compile.adaptation.maxBoost = Decibels(maxBoost);
-    settings.compile.adaptation.strength = strength;
     settings.protect = !noProtection;
-    settings.adjustment.transposition = transpose;
-    settings.adjustment.stretch = stretch;
-    settings.adjustment.gain = gain;
-    settings.adjustment.delay = delay;
-    settings.adjustment.variation = {variation,
-                                     variationPer == "band" ? VariationScope::band : VariationScope::breakpoint, seed};
     DecoderChoice& decoder = settings.compile.decoder;
     decoder.carriers = chosen<CarrierMode>(
         carriers, {{"fixed", CarrierMode::fixed}, {"pitch", CarrierMode::pitch}, {"centroid", CarrierMode::centroid}});
     decoder.followEnvelope = chosen<bool>(envelope, {{"on", true}, {"off", false}});
     decoder.pulseShape = chosen<PulseShape>(
         pulse, {{"adaptive", PulseShape::adaptive}, {"square", PulseShape::square}, {"sine", PulseShape::sine}});
-    if (pulseFrequency > 0.0)
-        decoder.pulseFrequency = pulseFrequency;
-    decoder.pulseCycles = pulseCycles;
     settings.from = from;
     settings.to = to;
     settings.dryRun = dryRun;
@@ -362,7 +315,7 @@ Exit RenderCommand::run(Console& console)
     {
         if (const auto known = checkFelt(*settings.profile, programFolder()); !known)
             return console.fail(profile, known.error());
-        settings.felt = FeltParams{wearer, feltFullScale};
+        describedFelt.apply(feltParameters, settings.felt.emplace());
     }
 
     settings.record = record();
@@ -380,6 +333,7 @@ Exit RenderCommand::run(Console& console)
     if (const auto started = batch.start(tasks, dryRun); !started)
         return console.fail("", started.error());
     BatchEnd end;
+    const double gain = settings.adjustment.gain;
     const auto nameOf = [&](std::size_t i)
     {
         return tasks[i].input.filename().string();

@@ -1,15 +1,20 @@
 #pragma once
 
-// Parameters and report of a rendering, without its algorithms.
+// Parameters of a rendering with their description, and its report, without its algorithms.
 
+#include <pacini/actuator/Wearer.h>
+#include <pacini/foundation/Description.h>
+#include <pacini/foundation/DspBlock.h>
 #include <pacini/synthesis/CompileParams.h>
 #include <pacini/synthesis/RenderPlan.h>
 #include <pacini/synthesis/SceneAdjustment.h>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace pacini
@@ -34,6 +39,75 @@ struct RenderParams
     bool measure = false;           ///< also play everything, to measure what leaving out costs
     bool describe = false;          ///< report what each decoder plays
     std::size_t blockFrames = 4096; ///< the most that a sink gets at a time
+};
+
+inline constexpr std::array<std::string_view, 2> variationScopeNames{"breakpoint", "band"};
+
+/// What users can set of RenderParams as numbers and choices.
+inline constexpr std::array renderParameters{
+    described<&RenderParams::compile, &CompileParams::sampleRate>({.name = "sampleRate",
+                                                                   .option = "rate",
+                                                                   .text = "Sample rate of the output",
+                                                                   .unit = "Hz",
+                                                                   .range = {limits::lowestRate, limits::highestRate}}),
+    described<&RenderParams::adjustment, &SceneAdjustment::gain>(
+        {.name = "gain",
+         .text = "Gain; what would then exceed full drive (1), or a limit of the profile, is turned down while it does",
+         .unit = "dB",
+         .range = {-120, 60}}), // a scene is silent below
+    described<&RenderParams::adjustment, &SceneAdjustment::transposition>({.name = "transpose",
+                                                                           .member = "transposition",
+                                                                           .text = "Transposition; time stays",
+                                                                           .unit = "semitones",
+                                                                           .range = {-96, 96}}),
+    described<&RenderParams::adjustment, &SceneAdjustment::stretch>(
+        {.name = "stretch", .text = "Length factor; pitch stays", .range = {0.01, 100}}),
+    described<&RenderParams::adjustment, &SceneAdjustment::delay>(
+        {.name = "delay", .text = "Silence before the start", .unit = "s", .range = {0, 3600}}), // of a decoder
+    described<&RenderParams::adjustment, &SceneAdjustment::variation, &VariationParams::amount>(
+        {.name = "variation",
+         .text = "Random variation of the bands; in a scene, of the plays that have none",
+         .range = {0, 1}}),
+    described<&RenderParams::adjustment, &SceneAdjustment::variation, &VariationParams::scope>(
+        {.name = "variationPer",
+         .text = "One random factor per breakpoint or per band",
+         .choices = variationScopeNames}),
+    described<&RenderParams::compile, &CompileParams::decoder, &DecoderChoice::pulseFrequency>(
+        {.name = "pulseFrequency",
+         .text = "Frequency of square and sine pulses",
+         .unit = "Hz",
+         .range = {1, 2000},
+         .usualText = "the actuator's resonance"}),
+    described<&RenderParams::compile, &CompileParams::decoder, &DecoderChoice::pulseCycles>(
+        {.name = "pulseCycles", .text = "Periods of square and sine pulses", .range = {0.1, 100}}),
+    described<&RenderParams::compile, &CompileParams::tolerance>(
+        {.name = "tolerance",
+         .text = "Largest error that everything left out may cause together, relative to the whole",
+         .unit = "dB",
+         .range = {-300, 0}}),
+    described<&RenderParams::compile, &CompileParams::adaptation, &AdaptationParams::maxBoost>(
+        {.name = "maxBoost",
+         .text = "How far the drive may be raised to flatten the actuator's resonance; 0 leaves the resonance",
+         .unit = "dB",
+         .range = {0, 40}}),
+    described<&RenderParams::compile, &CompileParams::adaptation, &AdaptationParams::strength>(
+        {.name = "strength",
+         .text = "Trade of likeness for strength on resonant actuators: 0 plays as flat as can be, 1 all of it on the "
+                 "resonance",
+         .range = {0, 1}}),
+};
+
+/// All of FeltParams.
+inline constexpr std::array feltParameters{
+    described<&FeltParams::fullScale>({.name = "fullScale",
+                                       .option = "feltFullScale",
+                                       .text = "With --felt: acceleration at a sample of 1",
+                                       .unit = "m/s^2",
+                                       .range = {1e-3, 1e6}}),
+    described<&FeltParams::wearer>({.name = "wearer",
+                                    .text = "With --felt: whose skin; 0 as in the profile, 1 to 14 simulated people "
+                                            "whose skin has half to twice its mass, stiffness and damping (assumed)",
+                                    .range = {0, simulatedWearers}}),
 };
 
 /// What a rendering was made of.

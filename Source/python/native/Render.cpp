@@ -4,6 +4,7 @@
 #include "io/SceneFile.h"
 #include "io/SceneJson.h"
 #include "python/native/ClipHandle.h"
+#include "python/native/Options.h"
 #include "python/native/Overwriting.h"
 #include "python/native/ProfileHandle.h"
 #include "python/native/SceneHandle.h"
@@ -26,6 +27,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -56,11 +58,13 @@ std::optional<T> chosen(const std::optional<std::string>& name, const char* wher
     wrong(where, "must be one of " + names);
 }
 
-double inRange(const char* where, double value, double low, double high, const char* message)
+/// Sets a parameter that `table` describes. Raises pacini.Error.
+template <typename Table, typename Params>
+void setAllowed(const Table& table, Params& params, std::string_view name, double value)
 {
-    if (!(value >= low && value <= high))
-        wrong(where, message);
-    return value;
+    const auto& parameter = parameterNamed(table, name);
+    takeNamed(checkValue(parameter, value));
+    parameter.set(params, value);
 }
 
 /// Rendering options.
@@ -68,20 +72,21 @@ struct RenderOptions : RenderParams
 {
     std::optional<Profile> profile;
 
+    void put(std::string_view name, double value) { setAllowed(renderParameters, *this, name, value); }
+
     void set(double rate, double tolerance, bool leaveOut, bool adapt, const std::optional<std::string>& mapping,
              double maxBoost, double strength, bool protectIt)
     {
-        compile.sampleRate =
-            inRange("sample_rate", rate, limits::lowestRate, limits::highestRate, "must be 2000 to 768000 Hz");
-        compile.tolerance = inRange("tolerance", tolerance, -300.0, 0.0, "must be -300 to 0 dB");
+        put("sampleRate", rate);
+        put("tolerance", tolerance);
         compile.leaveOut = leaveOut;
         compile.adapt = adapt;
         compile.adaptation.mapping = chosen<FrequencyMapping>(mapping, "mapping",
                                                               {{"clamp", FrequencyMapping::clamp},
                                                                {"rescale", FrequencyMapping::rescale},
                                                                {"fold", FrequencyMapping::fold}});
-        compile.adaptation.maxBoost = Decibels(inRange("max_boost", maxBoost, 0.0, 40.0, "must be 0 to 40 dB"));
-        compile.adaptation.strength = inRange("strength", strength, 0.0, 1.0, "must be 0 to 1");
+        put("maxBoost", maxBoost);
+        put("strength", strength);
         protect = protectIt;
     }
     void adjust(double gain, double transpose, double stretch, double delay, double variation,
@@ -90,11 +95,13 @@ struct RenderOptions : RenderParams
         const auto scope =
             chosen<VariationScope>(variationPer, "variation_per",
                                    {{"breakpoint", VariationScope::breakpoint}, {"band", VariationScope::band}});
-        adjustment = {inRange("gain", gain, -1000.0, 60.0, "must be -1000 to 60 dB"),
-                      inRange("transpose", transpose, -96.0, 96.0, "must be -96 to 96 semitones"),
-                      inRange("stretch", stretch, 0.01, 100.0, "must be 0.01 to 100"),
-                      inRange("delay", delay, 0.0, limits::duration, "must be 0 s to 24 h"),
-                      {inRange("variation", variation, 0.0, 1.0, "must be 0 to 1"), *scope, seed}};
+        put("gain", gain);
+        put("transpose", transpose);
+        put("stretch", stretch);
+        put("delay", delay);
+        put("variation", variation);
+        adjustment.variation.scope = *scope;
+        adjustment.variation.seed = seed;
     }
     void decode(const std::optional<std::string>& carriers, std::optional<bool> followEnvelope,
                 const std::optional<std::string>& pulse, std::optional<double> pulseFrequency, double pulseCycles)
@@ -108,21 +115,22 @@ struct RenderOptions : RenderParams
             pulse, "pulse",
             {{"adaptive", PulseShape::adaptive}, {"square", PulseShape::square}, {"sine", PulseShape::sine}});
         if (pulseFrequency)
-            decoder.pulseFrequency = inRange("pulse_frequency", *pulseFrequency, 1.0, 2000.0, "must be 1 to 2000 Hz");
-        decoder.pulseCycles = inRange("pulse_cycles", pulseCycles, 0.1, 100.0, "must be 0.1 to 100");
+            put("pulseFrequency", *pulseFrequency);
+        put("pulseCycles", pulseCycles);
     }
     void part(double start, std::optional<double> end)
     {
-        from = inRange("start", start, 0.0, limits::duration, "must be 0 s to 24 h");
+        if (!(start >= 0.0 && start <= limits::duration))
+            wrong("start", "must be 0 s to 24 h");
+        from = start;
         if (end && !(*end > start))
             wrong("end", "must be after start");
         to = end;
     }
     void feel(unsigned wearer, double fullScale)
     {
-        if (wearer > simulatedWearers)
-            wrong("wearer", "must be 0 to 14");
-        felt = {wearer, inRange("full_scale", fullScale, 1e-3, 1e6, "must be 0.001 to 1000000 m/s^2")};
+        setAllowed(feltParameters, felt.emplace(), "wearer", wearer);
+        setAllowed(feltParameters, *felt, "fullScale", fullScale);
     }
 };
 

@@ -1,5 +1,6 @@
 // The call `render`: clips and scenes to drive signals, or to what is felt of them.
 
+#include "io/GivenParameters.h"
 #include "io/SceneJson.h"
 #include "web/core/Call.h"
 
@@ -36,22 +37,16 @@ Result<void> renderClipOrScene(Call& call)
     const bool withProfile = call.truth("withProfile", false);
     RenderParams params;
     CompileParams& compiling = params.compile;
-    compiling.sampleRate = call.number("sampleRate", compiling.sampleRate, limits::lowestRate, limits::highestRate);
     compiling.leaveOut = call.truth("leaveOut", compiling.leaveOut);
     compiling.adapt = call.truth("adapt", compiling.adapt);
-    compiling.adaptation.strength = call.number("strength", compiling.adaptation.strength, 0.0, 1.0);
-    SceneAdjustment& adjustment = params.adjustment;
-    adjustment.gain = call.number("gain", adjustment.gain, -1000.0, 60.0);
-    adjustment.transposition = call.number("transpose", adjustment.transposition, -96.0, 96.0);
-    adjustment.stretch = call.number("stretch", adjustment.stretch, 0.01, 100.0);
+    readParametersOf(call.reader, renderParameters, params);
     FeltParams felt;
-    felt.fullScale = call.number("fullScale", felt.fullScale, 1e-3, 1e6);
-    felt.wearer = static_cast<unsigned>(call.number("wearer", felt.wearer, 0.0, simulatedWearers));
+    readParametersOf(call.reader, feltParameters, felt);
     if (call.truth("felt", false))
         params.felt = felt;
     params.protect = call.truth("protect", params.protect);
-    if (call.reader.error)
-        return {};
+    if (auto known = call.finishOptions(); !known)
+        return known;
     const std::size_t firstClip = withProfile ? 2 : 1;
     std::optional<Profile> profile;
     if (withProfile)
