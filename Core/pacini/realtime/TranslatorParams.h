@@ -1,11 +1,12 @@
 #pragma once
 
-// Live parameters of the translator.
+// Live parameters of the translator and their description.
 
 #include <pacini/foundation/Clamp.h>
+#include <pacini/foundation/Description.h>
 
+#include <array>
 #include <cmath>
-#include <initializer_list>
 
 namespace pacini
 {
@@ -13,60 +14,93 @@ namespace pacini
 /// Live parameters of one role (rumble, texture, transients). One part of what is felt.
 struct RoleParams
 {
-    double level = 0.0; ///< dB, -60 to 24
+    double level = 0.0; ///< dB
     bool muted = false;
     bool operator==(const RoleParams&) const = default;
 };
 
 inline constexpr double lowestBrightness = -60.0; ///< dB, which is off
 
-/// Live parameters of the translator. Values outside their ranges are clamped, those that are not finite ignored (see
-/// clamped()). Every change is smoothed: gains move within about 20 ms, pitches glide.
+/// Live parameters of the translator; translatorParameters describes them. Values outside their ranges are clamped,
+/// those that are not finite ignored (see clamped()). Every change is smoothed: gains move within about 20 ms, pitches
+/// glide.
 struct TranslatorParams
 {
-    double inputGain = 0.0;     ///< dB, -60 to 48: what the analysis sees
-    double intensity = 0.0;     ///< dB, -60 to 24: gain of the drive
-    RoleParams rumble{};        ///< bands with centres below 100 Hz
-    RoleParams texture{};       ///< the other bands
-    RoleParams transients{};    ///< events: pulses that top what the bands give them
-    double brightness = -6.0;   ///< dB, -60 (off) to 12: of what is too high for the skin, felt as a tone of 200 Hz
-    double audible = 0.0;       ///< 0 to 1: how far loudness drives what is heard above the range of touch; music
-                                ///< keeps its beat at 0
-    double transposition = 0.0; ///< semitones, -48 to 48; other than 0 everything is played by carriers
-    double direct = 1.0;        ///< 0 to 1: share of a band's own signal where the actuator can show it, against its
-                                ///< carrier
-    double attack = 1.0;        ///< ms, 0 to 200: of the carriers' envelopes
-    double release = 8.0;       ///< ms, 0 to 1000: of the carriers' envelopes
-    double transientSensitivity = 0.5; ///< 0 to 1; each tenth is 3 dB of how far an event must stand out
-    double transientSharpness = 0.0;   ///< -1 (dull, 100 Hz) to 1 (crisp, 280 Hz), added to the event's own
-    double gateThreshold = -75.0;      ///< dBFS of the full-band peak, -120 to 0; below it nothing is played
-    double gateRelease = 60.0;         ///< ms, 1 to 2000
-    bool bypass = false;               ///< the input itself, as late as the drive
+    double inputGain = 0.0;            ///< dB
+    double intensity = 0.0;            ///< dB
+    RoleParams rumble{};               ///< bands with centres below 100 Hz
+    RoleParams texture{};              ///< the other bands
+    RoleParams transients{};           ///< events: pulses that top what the bands give them
+    double brightness = -6.0;          ///< dB
+    double audible = 0.0;              ///< share
+    double transposition = 0.0;        ///< semitones; other than 0 everything is played by carriers
+    double direct = 1.0;               ///< share
+    double attack = 1.0;               ///< ms
+    double release = 8.0;              ///< ms
+    double transientSensitivity = 0.5; ///< share; each tenth is 3 dB of how far an event must stand out
+    double transientSharpness = 0.0;   ///< added to the event's own
+    double gateThreshold = -75.0;      ///< dBFS of the full-band peak
+    double gateRelease = 60.0;         ///< ms
+    bool bypass = false;
     bool operator==(const TranslatorParams&) const = default;
+};
+
+/// All of TranslatorParams, by their names in Python (with `_`) and JavaScript.
+inline constexpr std::array translatorParameters{
+    described<&TranslatorParams::inputGain>(
+        {.name = "inputGain", .text = "Gain of the sound before analysis", .unit = "dB", .range = {-60, 48}}),
+    described<&TranslatorParams::intensity>(
+        {.name = "intensity", .text = "Gain of the drive", .unit = "dB", .range = {-60, 24}}),
+    described<&TranslatorParams::brightness>(
+        {.name = "brightness",
+         .text = "Level of sound above the range of touch, played as a tone of 200 Hz; the lowest is off",
+         .unit = "dB",
+         .range = {lowestBrightness, 12}}),
+    described<&TranslatorParams::audible>(
+        {.name = "audible",
+         .text = "How far loudness drives what is heard above the range of touch; music keeps its beat at 0",
+         .range = {0, 1}}),
+    described<&TranslatorParams::transposition>(
+        {.name = "transposition", .text = "Shift in pitch", .unit = "semitones", .range = {-48, 48}}),
+    described<&TranslatorParams::direct>(
+        {.name = "direct",
+         .text = "Share of a band's own signal where the actuator can show it, against its carrier",
+         .range = {0, 1}}),
+    described<&TranslatorParams::attack>(
+        {.name = "attack", .text = "Attack of the carriers' envelopes", .unit = "ms", .range = {0, 200}}),
+    described<&TranslatorParams::release>(
+        {.name = "release", .text = "Release of the carriers' envelopes", .unit = "ms", .range = {0, 1000}}),
+    described<&TranslatorParams::transientSensitivity>(
+        {.name = "transientSensitivity", .text = "Higher values give weaker events a pulse", .range = {0, 1}}),
+    described<&TranslatorParams::transientSharpness>({.name = "transientSharpness",
+                                                      .text = "Makes pulses duller (-1, 100 Hz) or crisper (1, 280 Hz)",
+                                                      .range = {-1, 1}}),
+    described<&TranslatorParams::gateThreshold>(
+        {.name = "gateThreshold", .text = "Nothing is played below this level", .unit = "dB", .range = {-120, 0}}),
+    described<&TranslatorParams::gateRelease>(
+        {.name = "gateRelease", .text = "How long the gate stays open", .unit = "ms", .range = {1, 2000}}),
+    described<&TranslatorParams::rumble, &RoleParams::level>(
+        {.name = "rumble", .text = "Level of bands below 100 Hz", .unit = "dB", .range = {-60, 24}}),
+    described<&TranslatorParams::rumble, &RoleParams::muted>({.name = "rumbleMuted", .text = "Mute these"}),
+    described<&TranslatorParams::texture, &RoleParams::level>(
+        {.name = "texture", .text = "Level of the other bands", .unit = "dB", .range = {-60, 24}}),
+    described<&TranslatorParams::texture, &RoleParams::muted>({.name = "textureMuted", .text = "Mute these"}),
+    described<&TranslatorParams::transients, &RoleParams::level>(
+        {.name = "transients", .text = "Level of the pulses of events", .unit = "dB", .range = {-60, 24}}),
+    described<&TranslatorParams::transients, &RoleParams::muted>({.name = "transientsMuted", .text = "Mute these"}),
+    described<&TranslatorParams::bypass>(
+        {.name = "bypass", .text = "Pass the input on, as late as the drive would be"}),
 };
 
 /// `p` within its ranges. Where a value is not finite, that of `before`, which has valid ones, stays.
 [[nodiscard]] inline TranslatorParams clamped(TranslatorParams p, const TranslatorParams& before = {}) noexcept
 {
-    const auto limit = [](double& value, double low, double high, double otherwise)
+    for (const auto& parameter : translatorParameters)
     {
-        value = std::isfinite(value) ? clampTo(value, low, high) : otherwise;
-    };
-    for (RoleParams TranslatorParams::*role :
-         {&TranslatorParams::rumble, &TranslatorParams::texture, &TranslatorParams::transients})
-        limit((p.*role).level, -60.0, 24.0, (before.*role).level);
-    limit(p.inputGain, -60.0, 48.0, before.inputGain);
-    limit(p.intensity, -60.0, 24.0, before.intensity);
-    limit(p.brightness, lowestBrightness, 12.0, before.brightness);
-    limit(p.audible, 0.0, 1.0, before.audible);
-    limit(p.transposition, -48.0, 48.0, before.transposition);
-    limit(p.direct, 0.0, 1.0, before.direct);
-    limit(p.attack, 0.0, 200.0, before.attack);
-    limit(p.release, 0.0, 1000.0, before.release);
-    limit(p.transientSensitivity, 0.0, 1.0, before.transientSensitivity);
-    limit(p.transientSharpness, -1.0, 1.0, before.transientSharpness);
-    limit(p.gateThreshold, -120.0, 0.0, before.gateThreshold);
-    limit(p.gateRelease, 1.0, 2000.0, before.gateRelease);
+        const double value = parameter.get(p);
+        parameter.set(p, std::isfinite(value) ? clampTo(value, parameter.range.lowest, parameter.range.highest)
+                                              : parameter.get(before));
+    }
     return p;
 }
 

@@ -5,6 +5,7 @@
 
 #include <pacini/actuator/Profile.h>
 #include <pacini/actuator/Strength.h>
+#include <pacini/realtime/TranslatorParams.h>
 
 #include <array>
 #include <cstddef>
@@ -292,6 +293,32 @@ inline constexpr std::array<ParameterRow, parameterCount> parameterTable{{
     return true;
 }
 static_assert(isInOrder());
+
+/// Whether the rows of live parameters have the ranges and defaults that translatorParameters describes.
+[[nodiscard]] constexpr bool agreesWithTranslator() noexcept
+{
+    constexpr std::array<std::array<std::string_view, 2>, 6> otherNames{{{"rumble", "rumbleLevel"},
+                                                                         {"rumbleMuted", "rumbleMute"},
+                                                                         {"texture", "textureLevel"},
+                                                                         {"textureMuted", "textureMute"},
+                                                                         {"transients", "transientLevel"},
+                                                                         {"transientsMuted", "transientMute"}}};
+    for (const auto& parameter : translatorParameters)
+    {
+        std::string_view id = parameter.name;
+        for (const auto& [name, other] : otherNames)
+            if (name == parameter.name)
+                id = other;
+        std::size_t i = 0;
+        while (i < parameterCount && id != parameterTable[i].id)
+            ++i;
+        if (i == parameterCount || parameterTable[i].low != parameter.range.lowest ||
+            parameterTable[i].high != parameter.range.highest || parameterTable[i].standard != parameter.usual())
+            return false;
+    }
+    return true;
+}
+static_assert(agreesWithTranslator());
 
 /// Whether only whole values count.
 [[nodiscard]] constexpr bool isDiscrete(const ParameterRow& row) noexcept

@@ -1,5 +1,7 @@
 // Live translator, block by block.
 
+#include "io/NearestName.h"
+#include "python/native/Options.h"
 #include "python/native/ProfileHandle.h"
 #include "python/native/Support.h"
 
@@ -22,80 +24,36 @@ namespace pacini::python
 
 namespace
 {
-struct NumberField
-{
-    const char* name;
-    double TranslatorParams::*member;
-};
-
-struct RoleField
-{
-    const char* name;
-    RoleParams TranslatorParams::*member;
-};
-
-/// Names as in Python.
-constexpr NumberField numbers[] = {
-    {"input_gain", &TranslatorParams::inputGain},
-    {"intensity", &TranslatorParams::intensity},
-    {"brightness", &TranslatorParams::brightness},
-    {"audible", &TranslatorParams::audible},
-    {"transposition", &TranslatorParams::transposition},
-    {"direct", &TranslatorParams::direct},
-    {"attack", &TranslatorParams::attack},
-    {"release", &TranslatorParams::release},
-    {"transient_sensitivity", &TranslatorParams::transientSensitivity},
-    {"transient_sharpness", &TranslatorParams::transientSharpness},
-    {"gate_threshold", &TranslatorParams::gateThreshold},
-    {"gate_release", &TranslatorParams::gateRelease},
-};
-constexpr RoleField roles[] = {
-    {"rumble", &TranslatorParams::rumble},
-    {"texture", &TranslatorParams::texture},
-    {"transients", &TranslatorParams::transients},
-};
-
 nb::dict dictOf(const TranslatorParams& params)
 {
     nb::dict result;
-    for (const NumberField& field : numbers)
-        result[field.name] = params.*field.member;
-    for (const RoleField& field : roles)
+    for (const auto& parameter : translatorParameters)
     {
-        result[field.name] = (params.*field.member).level;
-        result[nb::str((std::string(field.name) + "_muted").c_str())] = (params.*field.member).muted;
+        const nb::str name(separatedName(parameter.name, '_').c_str());
+        if (parameter.kind == ParameterKind::truth)
+            result[name] = parameter.get(params) != 0.0;
+        else
+            result[name] = parameter.get(params);
     }
-    result["bypass"] = params.bypass;
     return result;
 }
 
 /// Sets one parameter by its name. Errors: invalidArgument for names that are none, and what is out of range.
 void set(TranslatorParams& params, const std::string& name, nb::handle value)
 {
-    for (const RoleField& field : roles)
-        if (name == std::string(field.name) + "_muted")
-        {
-            (params.*field.member).muted = nb::cast<bool>(value);
-            return;
-        }
-    if (name == "bypass")
+    std::vector<std::string> names;
+    for (const auto& parameter : translatorParameters)
     {
-        params.bypass = nb::cast<bool>(value);
+        names.push_back(separatedName(parameter.name, '_'));
+        if (names.back() != name)
+            continue;
+        const double number =
+            parameter.kind == ParameterKind::truth ? (nb::cast<bool>(value) ? 1.0 : 0.0) : nb::cast<double>(value);
+        takeNamed(checkValue(parameter, number));
+        parameter.set(params, number);
         return;
     }
-    double* number = nullptr;
-    for (const NumberField& field : numbers)
-        if (name == field.name)
-            number = &(params.*field.member);
-    for (const RoleField& field : roles)
-        if (name == field.name)
-            number = &(params.*field.member).level;
-    if (number == nullptr)
-        raise({ErrorCode::invalidArgument, name, "is no parameter of the translator"});
-    const TranslatorParams before = params;
-    *number = nb::cast<double>(value);
-    if (!(clamped(params, before) == params))
-        raise({ErrorCode::invalidArgument, name, "is out of its range"});
+    raise({ErrorCode::invalidArgument, name, "is no parameter of the translator" + meantText(name, names)});
 }
 
 /// A translator with what it was made with, to be made anew. One thread at a time; others wait.
