@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/clip/session/Actuators.h"
 
+#include <pacini/actuator/ActuatorFit.h>
 #include <pacini/foundation/Clamp.h>
 
 #include <algorithm>
