@@ -393,21 +393,29 @@ TEST_CASE("The measure page asks before a profile or a sweep replaces a file", "
 
 TEST_CASE("A measurement plays on the output where the actuator is, until the user chooses another", "[measure]")
 {
-    struct Rig final : SimulatedMeasureRig
+    struct Rig final : MeasureRig
     {
-        using SimulatedMeasureRig::SimulatedMeasureRig;
         RigPorts ports() override
         {
-            auto found = SimulatedMeasureRig::ports();
+            RigPorts found;
             found.outputs = {"1", "2", "3", "4"};
+            found.inputs = {"1"};
             found.expectedOutput = expected;
             return found;
         }
         void wire(const RigWiring& wiring) override { wired = wiring.output; }
+        Result<void> start(std::vector<float>) override { return {}; }
+        void stop() override {}
+        [[nodiscard]] RigState state() const override { return RigState::idle; }
+        [[nodiscard]] double progress() const override { return 0.0; }
+        [[nodiscard]] std::vector<std::vector<float>> takeRecording() override { return {}; }
+        [[nodiscard]] float takePeak(std::size_t) override { return 0.0f; }
+        void setTone(std::optional<double>) override {}
+
         std::size_t expected = 2, wired = 99;
     };
     MeasureBench bench;
-    auto rig = std::make_shared<Rig>(RigParams(), 0.0);
+    auto rig = std::make_shared<Rig>();
     bench.controller->useRig(rig);
     CHECK(rig->wired == 2);
     CHECK(bench.controller->wiring().output == 2);
