@@ -23,7 +23,7 @@ TEST_CASE("Command, plot, editor and arrays make one clip of a sound: on its gri
     const auto nobody = [](double) {
     };
     cli::EncodeJob job({});
-    REQUIRE(job.run(path, folder / "clip.json", cli::Replaceable::named, nobody).ok());
+    REQUIRE(job.run(path, folder / "clip.json", Replaceable::named, nobody).ok());
     const Clip written = readClip(folder / "clip.json").value().clip;
     CHECK(onGrids(written) == written);
     CHECK(sealOf(written) == ClipSeal::whole);

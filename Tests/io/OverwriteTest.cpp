@@ -33,7 +33,7 @@ TEST_CASE("What stands in the way is told by its content", "[overwrite]")
     REQUIRE(writeClip(folder / "clip.json", clip, jsonFormat()));
     REQUIRE(writeClip(folder / "clip.pacb", clip, packedFormat()));
     REQUIRE(writeScene(folder / "scene.json", sceneOf(clip)));
-    std::filesystem::copy_file(test::sourceFolder() / "profiles/lra-175.json", folder / "profile.json");
+    std::filesystem::copy_file(sourceFolder() / "profiles/lra-175.json", folder / "profile.json");
     put(folder / "song.pacini", "{}");
     put(folder / "notes.txt", "hers");
     std::filesystem::create_directory(folder / "sub");
