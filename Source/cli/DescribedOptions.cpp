@@ -54,9 +54,10 @@ void DescribedOptions::declare(CLI::App& command, std::span<const ParameterInfo*
     for (const ParameterInfo* parameter : parameters)
     {
         const std::string name = optionName(*parameter);
-        std::string text(parameter->text);
-        if (!parameter->usualText.empty())
-            text.append(" [").append(parameter->usualText).append("]");
+        // Const, or CLI11 takes it for a variable to assign to.
+        const std::string text = parameter->usualText.empty()
+                                     ? std::string(parameter->text)
+                                     : fmt::format("{} [{}]", parameter->text, parameter->usualText);
         CLI::Option* option = nullptr;
         if (parameter->kind == ParameterKind::truth)
             option = command.add_flag(name, text);

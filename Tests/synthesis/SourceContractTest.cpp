@@ -47,7 +47,7 @@ Clip everything()
     return clip;
 }
 
-Scene sceneOf(const Clip& clip, double gain = 0.0)
+Scene sceneWithGain(const Clip& clip, double gain = 0.0)
 {
     Scene scene;
     scene.clips = {clip};
@@ -112,13 +112,13 @@ TEST_CASE("A scene keeps the contract of sources with and without a profile", "[
 {
     for (const double gain : {0.0, 60.0})
     {
-        const auto plan = compilePlan(sceneOf(everything(), gain));
+        const auto plan = compilePlan(sceneWithGain(everything(), gain));
         REQUIRE(plan.ok());
         checkSourceContract([&](double fs) { return std::make_unique<OneActuator>(*plan, fs); }, 1.0);
         for (const Technology technology : {Technology::lra, Technology::erm, Technology::pcm})
         {
             const Profile profile = actuator(technology);
-            const auto adapted = compilePlan(sceneOf(everything(), gain), &profile);
+            const auto adapted = compilePlan(sceneWithGain(everything(), gain), &profile);
             REQUIRE(adapted.ok());
             checkSourceContract([&](double fs) { return std::make_unique<OneActuator>(*adapted, fs); }, 1.0, true);
         }
@@ -174,7 +174,7 @@ TEST_CASE("A decoder ignores changes that are not finite and stays finite throug
 
 TEST_CASE("A scene ignores live values that are not finite and keeps full drive through all others", "[scene]")
 {
-    const auto plan = compilePlan(sceneOf(everything()));
+    const auto plan = compilePlan(sceneWithGain(everything()));
     REQUIRE(plan.ok());
     const auto play = [&](auto&& change)
     {
@@ -217,7 +217,7 @@ TEST_CASE("A scene ignores live values that are not finite and keeps full drive 
 
 TEST_CASE("A gain that was far too large leaves nothing behind", "[scene]")
 {
-    const auto plan = compilePlan(sceneOf(steadyTone(100.0, 4.0, 0.5)));
+    const auto plan = compilePlan(sceneWithGain(steadyTone(100.0, 4.0, 0.5)));
     REQUIRE(plan.ok());
     OneActuator source(*plan, 8000.0);
     std::vector<float> y(32000);
@@ -237,7 +237,7 @@ TEST_CASE("A clip has its pitch, level and length at every rate up to 768 kHz", 
         CAPTURE(fs);
         CompileParams params;
         params.sampleRate = fs;
-        const auto plan = compilePlan(sceneOf(steadyTone(160.0, 0.4, 0.5)), nullptr, params);
+        const auto plan = compilePlan(sceneWithGain(steadyTone(160.0, 0.4, 0.5)), nullptr, params);
         REQUIRE(plan.ok());
         OneActuator source(*plan, fs);
         REQUIRE(source.totalFrames() == std::llround(0.4 * fs));
@@ -256,7 +256,7 @@ TEST_CASE("A clip has its pitch, level and length at every rate up to 768 kHz", 
 TEST_CASE("A rate that nothing plays at is an error of the plan and silence of the player, never another pitch",
           "[synthesis][scene]")
 {
-    const Scene scene = sceneOf(steadyTone(160.0, 0.4, 0.5));
+    const Scene scene = sceneWithGain(steadyTone(160.0, 0.4, 0.5));
     const auto plan = compilePlan(scene);
     REQUIRE(plan.ok());
     for (const double fs : {0.0, -48000.0, 1999.0, 768001.0, 1536000.0, std::numeric_limits<double>::quiet_NaN(),
