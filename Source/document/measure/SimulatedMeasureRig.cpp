@@ -71,11 +71,10 @@ RigParams SimulatedMeasureRig::paramsOf(const Profile& actuator)
 
 RigPorts SimulatedMeasureRig::ports()
 {
-    return {"Simulated actuator",
-            {"Actuator", "Nothing connected"},
-            {"Sensor, axis x", "Sensor, axis y", "Sensor, axis z", "Drive signal", "Nothing connected"},
-            rig.sampleRate,
-            {}};
+    return {.name = "Simulated actuator",
+            .outputs = {"Actuator", "Nothing connected"},
+            .inputs = {"Sensor, axis x", "Sensor, axis y", "Sensor, axis z", "Drive signal", "Nothing connected"},
+            .sampleRate = rig.sampleRate};
 }
 
 RigParams SimulatedMeasureRig::worn() const
