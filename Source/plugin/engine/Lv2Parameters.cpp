@@ -129,17 +129,14 @@ void describe(const ParameterRow& row, std::ostream& out)
 
 Result<std::string> describeLv2Parameters(std::string_view turtle)
 {
-    std::ostringstream out;
-    out.imbue(std::locale::classic());
-    out.setf(std::ios::fixed);
-    out.precision(4);
+    std::string rest;
     std::array<bool, parameterCount> found{};
     for (const std::string_view statement : statementsOf(turtle))
     {
         const std::string_view id = parameterOf(statement);
         if (id.empty())
         {
-            out << statement;
+            rest += statement;
             continue;
         }
         const auto row = std::find_if(parameterTable.begin(), parameterTable.end(),
@@ -148,6 +145,13 @@ Result<std::string> describeLv2Parameters(std::string_view turtle)
             return Error{ErrorCode::invalidData, std::string(id), "is no parameter of the plugin"};
         found[static_cast<std::size_t>(row->parameter)] = true;
     }
+    // One gap whatever stood here, so that what is described again stays as it is.
+    rest.erase(rest.find_last_not_of(blanks) + 1);
+    std::ostringstream out;
+    out.imbue(std::locale::classic());
+    out.setf(std::ios::fixed);
+    out.precision(4);
+    out << rest << "\n\n";
     for (const ParameterRow& row : parameterTable)
     {
         if (!found[static_cast<std::size_t>(row.parameter)])
