@@ -6,6 +6,7 @@
 #include "editor/clip/panels/AnalysisPanel.h"
 #include "editor/clip/panels/ProjectPanel.h"
 #include "io/AudioWriter.h"
+#include "io/FinishedClip.h"
 #include "support/TempFolder.h"
 
 #include <cmath>
@@ -181,8 +182,8 @@ TEST_CASE("Another sound comes under the edits of a clip, which keeps its name; 
     REQUIRE(session.sounds.soundOfClip() != nullptr);
     CHECK(session.sounds.soundOfClip()->audio.duration() == Approx(1.0));
     const Clip& analysis = *session.model.item()->analysis;
-    Clip expected = editor::importFile(folder / "tone.wav", session.model.item()->encoder)->clip;
-    expected.name = before.name;
+    const Clip imported = editor::importFile(folder / "tone.wav", session.model.item()->encoder)->clip;
+    const Clip expected = finishClip(imported, {before.name, imported.source.file}); // sealed with its name
     CHECK(analysis == expected);
     REQUIRE(pages.clip().envelope.size() == analysis.envelope.size());
     for (std::size_t i = 0; i < analysis.envelope.size(); ++i)

@@ -24,6 +24,7 @@ struct Plug
     bool dead = false; ///< pulled: it still says that it plays, and calls nobody
     std::vector<float> peaks = std::vector<float>(8, 0.0f);
     int opened = 0;
+    int blocks = 0; ///< that were played
 };
 
 class FakeDevice final : public juce::AudioIODevice, private juce::Timer
@@ -87,6 +88,7 @@ private:
         juce::AudioBuffer<float> block(std::max(count, 1), 480);
         block.clear();
         callback->audioDeviceIOCallbackWithContext(nullptr, 0, block.getArrayOfWritePointers(), count, 480, {});
+        ++plug.blocks;
         for (int place = 0, channel = 0; channel < plug.channels; ++channel)
             if (active[channel])
                 plug.peaks[static_cast<std::size_t>(channel)] =
@@ -244,9 +246,10 @@ TEST_CASE("Each haptic output plays on the channel that is shown, a third one on
         setup.outputChannels.setBit(channel);
     REQUIRE(bench.rig->devices().setAudioDeviceSetup(setup, true).isEmpty());
     REQUIRE(pumpUntil([&] { return outputs.hasDevice() && outputs.channelOf(0) == 2; }));
-    pumpFor(0.1);
     list[0].gain = editor::HapticOutputs::leastGain;
     outputs.setOutputs(list);
+    const int blocks = bench.plug.blocks;
+    REQUIRE(pumpUntil([&] { return bench.plug.blocks > blocks + 5; }, 5.0)); // the gain fades over a block
     std::fill(bench.plug.peaks.begin(), bench.plug.peaks.end(), 0.0f);
     bench.session.transport.setPlayhead(0.0);
     bench.session.transport.play();
