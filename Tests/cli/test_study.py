@@ -12,7 +12,9 @@ class StudyTest(CommandTest):
     def setUp(self):
         super().setUp()
         for i, frequency in enumerate((120, 400, 900)):
-            self.put(f"sounds/{'abc'[i]}.wav", wav(sine(frequency, 0.4, 44100), 44100))
+            # Two partials: one band or several must make a difference.
+            sound = [0.5 * (low + high) for low, high in zip(sine(frequency, 0.4, 44100), sine(0.4 * frequency, 0.4, 44100))]
+            self.put(f"sounds/{'abc'[i]}.wav", wav(sound, 44100))
 
     def new(self, template="coherence", *more):
         self.succeeds("study", "new", "mine", "--template", template, "sounds/", *more)

@@ -95,7 +95,7 @@ class Bootstrap(unittest.TestCase):
         self.program("cpack", "exit 1")
         done, calls = self.run_bootstrap("package")
         [build] = [call for call in calls if "--build" in call]
-        self.assertTrue(build.endswith("pacini pacini_plugin_All pacini_editor_app pacini_library pacini_library_static pacini_texts"), build)
+        self.assertTrue(build.endswith("pacini pacini_plugin_All pacini_editor_app pacini-bench pacini_library pacini_library_static pacini_texts"), build)
         self.assertRegex(calls[-1], r"^cpack -G DEB --config build/release/CPackConfig.cmake -B \S+/build/package$")
         self.assertEqual(done.returncode, 1)
         self.assertIn("bootstrap: cannot make the package", done.stderr)
