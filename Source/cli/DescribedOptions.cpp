@@ -70,7 +70,9 @@ void DescribedOptions::declare(CLI::App& command, std::span<const ParameterInfo*
                               : parameter->kind == ParameterKind::whole ? "N"
                                                                         : "X");
         }
-        declared.push_back({parameter, option->group(std::string(parameter->group))});
+        if (!parameter->group.empty()) // CLI11 hides the name of what is in the group ""
+            option->group(std::string(parameter->group));
+        declared.push_back({parameter, option});
     }
 }
 

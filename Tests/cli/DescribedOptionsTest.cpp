@@ -71,7 +71,7 @@ TEST_CASE("Described parameters are options with their ranges, defaults and head
 {
     Program program;
     const CommandText tree = commandTree(program.app);
-    const std::string help = helpText(*commandNamed(tree, "make"), 120);
+    const std::string help = helpText(*commandNamed(tree, "make"), 120) + "\n";
     for (const char* line :
          {"\nLight:\n", "\nSound:\n", "    --shimmer-depth X     How much it shimmers (0 to 6 dB) [0.5]\n",
           "    --count N             How many (1 to 8) [3]\n", "    --quiet               Keep still\n",
@@ -104,6 +104,7 @@ TEST_CASE("Values that a description does not allow are usage errors", "[cli]")
           std::pair("--count 1.5", "'1.5' is not a whole number from 1 to 8"),
           std::pair("--count -1", "'-1' is not a whole number from 1 to 8"),
           std::pair("--count 99999999999999999999", "is not a whole number from 1 to 8"),
+          std::pair("--most 2", "--most: '2' is not a number from 0 to 1"),
           std::pair("--shape sqare", "'sqare' is none of sine, square; did you mean square?")})
     {
         Program program;

@@ -111,13 +111,13 @@ class Doors(CommandTest):
         self.assertGreater(len(described["encode"]), 20)
         for part, commands in (("encode", ["encode"]), ("export", ["encode", "convert", "lint"])):
             for command in commands:
-                text = " ".join(self.succeeds("help", command).split())
+                entries = re.split(r"\n(?= {2,6}-)", self.succeeds("help", command))
                 for one in described[part]:
                     limits = f"({one['lowest']} to {one['highest']}{' ' + one['unit'] if one['unit'] else ''})" if "lowest" in one else ""
                     usual = f"[{one['default']}]" if one["kind"] != "truth" and "default" in one else ""
                     usual = usual or (f"[{one['usually']}]" if "usually" in one and one["kind"] != "truth" else "")
                     with self.subTest(f"{command} {one['option']}"):
-                        entry = text[text.index(f" {one['option']} "):].partition(" --")[2].partition(" --")[0]
+                        [entry] = [" ".join(each.split()) for each in entries if re.match(rf" +{one['option']}\s", each)]
                         self.assertIn(one["text"].split(" (")[0][:30], entry)
                         self.assertIn(limits, entry)
                         self.assertIn(usual, entry)

@@ -97,7 +97,8 @@ TEST_CASE("Values that a description does not allow are refused at its name", "[
     CHECK(message(0, 8.0).empty());
     CHECK(message(0, 9.0) == "count: must be 1 to 8");
     CHECK(message(0, 1.5) == "count: must be a whole number, 1 to 8");
-    CHECK(message(0, NAN) == "count: must be 1 to 8");
+    CHECK(message(0, NAN) == "count: must be a whole number, 1 to 8");
+    CHECK(message(3, NAN) == "attackTime: must be 0 to 1.5 s");
     CHECK(message(1, 2.0) == "quiet: must be true or false");
     CHECK(message(2, 2.0) == "shape: must be sine or square");
     CHECK(message(3, 1.5).empty());

@@ -251,7 +251,7 @@ class Arrays(FolderTest):
 
     def test_options_that_are_none_are_told_before_the_first_file(self):
         self.refuses("bandz", "invalidArgument", pacini.encode_files, ["none.wav"], bandz=3)
-        self.refuses("bands", "invalidData", pacini.encode_files, ["none.wav"], bands=1000)
+        self.refuses("bands", "invalidArgument", pacini.encode_files, ["none.wav"], bands=1000)
         with self.assertRaisesRegex(pacini.Error, "did you mean bands"):
             pacini.encode_files([], bandz=3)
 
