@@ -53,7 +53,7 @@ class Settings(CommandTest):
         hits = [0.0] * 48000
         for k in range(20):
             for i in range(200):
-                hits[2000 * k + i] = (0.9 if k % 2 else 0.2) * (-1) ** (i // 20) * (1 - i / 200)
+                hits[2000 * k + i] = (0.2, 0.9, 0.2, 0.6)[k % 4] * (-1) ** (i // 20) * (1 - i / 200)
         self.put("a.wav", wav(hits))
         for method, parameter, value in (("a2vt", "minimumGap", 0.1), ("a2vt", "silence", -10), ("a2vt", "maskLimit", 1),
                                          ("envelope-sine", "attack", 0.05), ("envelope-sine", "hold", 0.2),
