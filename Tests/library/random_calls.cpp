@@ -91,8 +91,9 @@ struct Handles
 
 constexpr std::uint64_t untouched = 0x1234567890ABCDEF;
 
-/// Whether a call gave a handle, or else left the caller's alone and said why.
-bool gaveOrSaid(pacini_result result, std::uint64_t made)
+/// Whether a call gave a handle, or else left the caller's alone and said why. `made` is what the call wrote, whichever
+/// argument is evaluated first.
+bool gaveOrSaid(pacini_result result, const std::uint64_t& made)
 {
     const bool well =
         result == PACINI_OK ? made != untouched && made != 0 : made == untouched && pacini_last_error(nullptr, 0) > 1;
