@@ -74,7 +74,8 @@ RigPorts SimulatedMeasureRig::ports()
     return {.name = "Simulated actuator",
             .outputs = {"Actuator", "Nothing connected"},
             .inputs = {"Sensor, axis x", "Sensor, axis y", "Sensor, axis z", "Drive signal", "Nothing connected"},
-            .sampleRate = rig.sampleRate};
+            .sampleRate = rig.sampleRate,
+            .problem = {}};
 }
 
 RigParams SimulatedMeasureRig::worn() const
