@@ -28,6 +28,7 @@
 #include <nanobind/stl/vector.h>
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -249,6 +250,21 @@ ExportedClip exported(const ClipHandle& handle, const std::string& format, const
     return take(handle.clip().duration <= shortClip ? unlocked(work) : abandonable(std::move(work)));
 }
 
+/// Whether a file is, to the byte, what the clip is as a drive signal with these options. Sounds that are exported have
+/// no room for a mark.
+bool isDriveOf(const ClipHandle& handle, const std::filesystem::path& path, const ExportOptions& options)
+{
+    for (const ClipFormat& format : clipFormats())
+    {
+        if (!format.isSamples || format.extension != lowerExtension(path))
+            continue;
+        const ExportedClip drive = exported(handle, std::string(format.name), options, 0);
+        if (unlocked([&] { return static_cast<bool>(mayOverwrite(path, drive, Replaceable::own)); }))
+            return true;
+    }
+    return false;
+}
+
 /// The clip with what its reader let pass, and the name of the format.
 using ReadTuple = std::tuple<ClipHandle, std::string, std::vector<std::string>>;
 
@@ -454,10 +470,16 @@ void bindClip(nb::module_& module)
                const ExportOptions& options, int quantise, Overwrite overwrite)
             {
                 const ExportedClip result = exported(self, format, options, quantise);
+                std::function<bool()> isOwn;
+                if (formatNamed(format).isSamples)
+                    isOwn = [&]
+                    {
+                        return isDriveOf(self, path, options);
+                    };
                 Existing existing = Existing::keep;
                 for (const ExportedFile& file : result.files)
                     if (mayWrite(file.suffix.empty() ? path : exportPath(path, file.suffix), FileKind::clip, overwrite,
-                                 &self.clip()) == Existing::replace)
+                                 &self.clip(), isOwn) == Existing::replace)
                         existing = Existing::replace;
                 auto written = unlocked([&] { return writeExport(path, result, existing); });
                 if (!written)

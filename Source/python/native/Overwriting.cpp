@@ -1,9 +1,12 @@
 #include "python/native/Overwriting.h"
 
-#include "io/ClipFile.h"
+#include "io/FileExtension.h"
 #include "io/FileOrigin.h"
+#include "io/InputFile.h"
+#include "io/formats/ClipFormat.h"
 #include "python/native/Support.h"
 
+#include <cstdio>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -15,6 +18,16 @@ namespace fs = std::filesystem;
 
 namespace
 {
+/// Whether it is, by its first bytes, a file of a format that is written and not read.
+bool isOnlyWritten(const fs::path& path)
+{
+    const auto file = openForReading(path);
+    std::string start(1024, '\0');
+    start.resize(file ? std::fread(start.data(), 1, start.size(), file->get()) : 0);
+    const ClipFormat* format = clipFormatOf(lowerExtension(path), start);
+    return format != nullptr && !format->isRead();
+}
+
 /// What keeps a file from being replaced by one of this kind; null for nothing.
 const char* reasonToKeep(const fs::path& path, FileKind there, FileKind kind)
 {
@@ -38,12 +51,13 @@ const char* reasonToKeep(const fs::path& path, FileKind there, FileKind kind)
     }
     std::error_code unknown;
     const bool hasNothing = fs::is_regular_file(path, unknown) && fs::file_size(path, unknown) == 0;
-    const bool isLike = kind == FileKind::clip && looksLikeClip(path);
+    const bool isLike = kind == FileKind::clip && isOnlyWritten(path);
     return hasNothing || isLike ? nullptr : "exists, and nothing in it says that Pacini made it";
 }
 } // namespace
 
-Existing mayWrite(const fs::path& path, FileKind kind, Overwrite overwrite, const Clip* clip)
+Existing mayWrite(const fs::path& path, FileKind kind, Overwrite overwrite, const Clip* clip,
+                  const std::function<bool()>& isOwn)
 {
     if (!isOccupied(path))
         return isStream(path) ? Existing::replace : Existing::keep;
@@ -64,6 +78,8 @@ Existing mayWrite(const fs::path& path, FileKind kind, Overwrite overwrite, cons
         });
     if (there == FileKind::folder)
         refuse("is a folder");
+    if (there == FileKind::sound && isOwn && isOwn())
+        return Existing::replace;
     if (isSource && there == FileKind::sound)
         refuse("is the recording that this clip was made from; name another file");
     if (overwrite != true && reason != nullptr)

@@ -42,8 +42,8 @@ class Sweep:
     equalized_for: str
 
     def save(self, path: PathLike, *, overwrite: bool = False) -> None:
-        """Writes the sound, and its description beside it, as ``pacini measure sweep`` does. Files that are there are
-        replaced only if `overwrite` is True."""
+        """Writes the sound, and its description beside it, as ``pacini measure sweep`` does. A description that is there
+        is replaced only if `overwrite` is True, a sound as by :func:`pacini.write_audio`."""
         from ._sound import write_audio
 
         text = os.fspath(path)
@@ -52,7 +52,7 @@ class Sweep:
             raise Error("is named as its description is; name a sound", text)
         if os.path.lexists(description) and not overwrite:
             raise Error("exists; overwrite=True replaces it", description, "io")
-        write_audio(text, self.signal, self.sample_rate, encoding="pcm24", overwrite=overwrite)
+        write_audio(text, self.signal, self.sample_rate, encoding="pcm24", overwrite=overwrite or None)
         _native.write_text(description, self.description)
 
 
