@@ -130,7 +130,8 @@ class Convert(CommandTest):
         process = subprocess.Popen([COMMAND, *arguments], cwd=self.folder, stdout=subprocess.DEVNULL)
         manifest = self.folder / "out/pacini.manifest.json"
         until = time.monotonic() + 60
-        while not manifest.exists() or manifest.read_bytes().count(b"\n") < 20:
+        # Each file has an entry before the run begins, and one with its output when it is done.
+        while not manifest.exists() or manifest.read_bytes().count(b'"file"') < 20:
             self.assertLess(time.monotonic(), until)
             self.assertIsNone(process.poll(), "ended too early")
         process.kill()
