@@ -5,6 +5,7 @@
 #include "io/ShippedProfiles.h"
 #include "plugin/engine/ParameterText.h"
 
+#include <pacini/actuator/ActuatorFit.h>
 #include <pacini/realtime/TranslatorPresets.h>
 
 #include <algorithm>
