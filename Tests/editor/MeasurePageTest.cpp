@@ -158,6 +158,8 @@ TEST_CASE("The measure page leads from set-up to a saved profile that is proved 
     page.saveStep().name.control.setText("My Wristband", juce::dontSendNotification);
     page.saveStep().name.control.onTextChange();
     page.saveStep().saveButton.onClick();
+    REQUIRE(questionOver(page) != nullptr);
+    answer(*questionOver(page), "Replace");
     CHECK(bench.session.actuators.profiles().size() == 2);
     CHECK(bench.session.actuators.profile()->name == "My Wristband");
 }
