@@ -85,11 +85,13 @@ endif()
 
 add_library(pacini_sanitizers INTERFACE)
 if(PACINI_SANITIZE)
+    string(TOUPPER "${CMAKE_BUILD_TYPE}" buildType)
     target_compile_options(pacini_sanitizers INTERFACE
         -fsanitize=${PACINI_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
     target_link_options(pacini_sanitizers INTERFACE -fsanitize=${PACINI_SANITIZE})
-    # The C++ library checks indices and preconditions, too; the name of that differs.
-    if(NOT CMAKE_CXX_FLAGS MATCHES "-stdlib=libc\\+\\+")
+    # With assertions the C++ library checks indices and preconditions, too; the name of that differs.
+    if(CMAKE_CXX_FLAGS_${buildType} MATCHES "-DNDEBUG")
+    elseif(NOT CMAKE_CXX_FLAGS MATCHES "-stdlib=libc\\+\\+")
         target_compile_definitions(pacini_sanitizers INTERFACE _GLIBCXX_ASSERTIONS)
     elseif(CMAKE_CXX_COMPILER_VERSION VERSION_LESS 15)
         target_compile_definitions(pacini_sanitizers INTERFACE _LIBCPP_DEBUG=0)

@@ -308,14 +308,18 @@ slow-tests)
     build_web
     run_tests release --label-regex slow --no-tests=ignore
     ;;
-# `sanitized-tests thread` looks at what threads share. `sanitized-tests slow` runs the slow ones, by hand: they take as long
-# as all others together.
+# By hand: `sanitized-tests assertions` has the assertions on, `sanitized-tests thread` looks at what threads share, and
+# `sanitized-tests slow` runs the slow ones, which take as long as all others together.
 sanitized-tests)
     install_packages "${portability_packages[@]}"
     case "${2:-}" in
     thread)
         build tsan "pacini_tests pacini_library_tests pacini_random_calls"
         run_tests tsan --tests-regex '^(tests-|library)' --label-exclude slow
+        ;;
+    assertions)
+        build asan-assertions all
+        run_tests asan-assertions --label-exclude slow
         ;;
     slow)
         build asan all
