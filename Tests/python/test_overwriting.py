@@ -66,8 +66,8 @@ class Overwriting(FolderTest):
         clip.save(elsewhere, format="wav16", profile="lra-175")  # nothing of it can be lost
         self.assertEqual(elsewhere.read_bytes(), drive)
         clip.save(elsewhere, format="wav8", profile="lra-175")
-        with self.assertRaisesRegex(pacini.Error, "is a sound that Pacini did not make|is the recording"):
-            clip.transposed(1).save(elsewhere, format="wav8", profile="lra-175")
+        with self.assertRaisesRegex(pacini.Error, "is a sound that Pacini did not make"):
+            pacini.encode(knocks(seed=2), RATE).save(elsewhere, format="wav8", profile="lra-175")
 
     def test_what_is_converted_is_not_its_own_result(self) -> None:
         path = self.folder / "clip.json"
