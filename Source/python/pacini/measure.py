@@ -42,8 +42,8 @@ class Sweep:
     equalized_for: str
 
     def save(self, path: PathLike, *, overwrite: bool = False) -> None:
-        """Writes the sound, and its description beside it, as ``pacini measure sweep`` does. A description that is there
-        is replaced only if `overwrite` is True, a sound as by :func:`pacini.write_audio`."""
+        """Writes the sound, and its description beside it, as ``pacini measure sweep`` does. A description that is
+        there is replaced only if `overwrite` is True, a sound as by :func:`pacini.write_audio`."""
         from ._sound import write_audio
 
         text = os.fspath(path)
