@@ -388,6 +388,8 @@ const formatNamed = (wanted) => formatList.find((format) => format.name === want
 let exportable
 /** Options for a format, without those that change nothing in it. */
 const exportOptions = async (format, name = history.now.name) => {
+  // Pacini's own formats take none: a visit does not load what those of other programs need.
+  if (['json', 'packed'].includes(format.name)) return { format: format.name, name }
   exportable ??= await side.call('exportParameters')
   const has = (option) => exportable.some((one) => one.name === option && one.formats.includes(format.name))
   const chosen = Object.entries({ ...strength(), ...profileOption() }).filter(([option]) => has(option))
