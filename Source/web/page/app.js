@@ -399,7 +399,7 @@ const lostText = (losses) => `Lost here: ${losses.slice(0, 3).map((loss) => loss
 const showLosses = async () => {
   const format = formatNamed(element('format').value)
   if (!format || !view.clip) return
-  const { losses } = await side.call('write', view.clip, await exportOptions(format))
+  const { losses } = await side.call('write', firstPart(view.clip, longestRendered), await exportOptions(format))
   element('losses').textContent = losses.length === 0 ? format.keeps : `${format.keeps} ${lostText(losses)}`
 }
 
