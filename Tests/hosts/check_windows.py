@@ -137,7 +137,7 @@ def main():
 
         # Which entry is which. Their windows are then where they do not hide the strip.
         entries = {}
-        for y in range(188, 220, 8):
+        for y in range(188, 250, 8):
             if len(entries) == len(KINDS) or not double_click(y, shown):
                 continue
             for kind, window in shown().items():
