@@ -137,8 +137,8 @@ def main():
 
         # Which entry is which. Their windows are then where they do not hide the strip.
         entries = {}
-        for y in range(188, 250, 8):
-            if len(entries) == len(KINDS) or not double_click(y, shown):
+        for y in range(188, 250, 10):
+            if len(entries) == len(KINDS) or not double_click(y, shown, 6.0):  # the first time takes longer
                 continue
             for kind, window in shown().items():
                 entries.setdefault(kind, y)
