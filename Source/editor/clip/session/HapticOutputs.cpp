@@ -105,7 +105,8 @@ std::size_t HapticOutputs::playingCount() const
 {
     std::size_t count = 0;
     for (std::size_t i = 0; i < list.size(); ++i)
-        count += channelOf(i) >= 0 ? 1 : 0;
+        if (channelOf(i) >= 0)
+            ++count;
     return count;
 }
 

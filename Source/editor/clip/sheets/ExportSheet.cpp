@@ -286,9 +286,9 @@ void ExportSheet::run()
                  if (standing->empty())
                      return write(clips, wanted);
                  showLosses();
-                 ExportChoice asked = wanted;
-                 asked.replaceable = Replaceable::named;
-                 question.show(overwriteQuestion(*standing, [this, clips, asked] { write(clips, asked); }));
+                 ExportChoice allowed = wanted;
+                 allowed.replaceable = Replaceable::named;
+                 question.show(overwriteQuestion(*standing, [this, clips, allowed] { write(clips, allowed); }));
              });
 }
 
