@@ -2,6 +2,8 @@
 
 #include "plugin/engine/Rig.h"
 
+#include <pacini/realtime/Translator.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
