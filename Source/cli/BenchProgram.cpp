@@ -39,7 +39,9 @@ Exit runBenchProgram(const std::vector<std::string>& words, Console& console)
 #else
     execv(program.c_str(), line.data());
 #endif
-    return console.fail(program, {ErrorCode::io, "", std::string("cannot be started: ") + std::strerror(errno)});
+    return console.fail(program, {ErrorCode::io, "",
+                                  std::string("cannot be started: ") + std::strerror(errno) +
+                                      "; it belongs beside pacini, built as the target pacini-bench"});
 }
 
 } // namespace pacini::cli
