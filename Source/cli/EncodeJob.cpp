@@ -151,11 +151,11 @@ std::vector<EncoderParameter> EncodeJob::expectedRecord(const Clip& clip) const
 
 Result<Existing> EncodeJob::lookAt(const fs::path& input, const Target& target, EncodeResult& result) const
 {
-    const auto& [output, replaceable, existing, origin] = target;
-    const bool isOlder = wasWrittenBefore(input, output);
-    const std::string source = sourceNameOf(input);
+    const fs::path& output = target.output;
+    const Replaceable replaceable = target.replaceable;
     if (!isOccupied(output))
         return replaceable == Replaceable::own ? Existing::keep : Existing::replace;
+    const std::string source = sourceNameOf(input);
     const ClipFormat* there = ownFormatOf(output);
     if (there == nullptr)
         return replaceable == Replaceable::own ? Result<Existing>(notReplaced(output, "exists and is no clip"))
@@ -165,7 +165,7 @@ Result<Existing> EncodeJob::lookAt(const fs::path& input, const Target& target, 
     const ClipSeal seal = clip != nullptr ? sealOf(*clip) : ClipSeal::missing;
     const bool mayBeEdited = seal == ClipSeal::missing;
     if (clip && seal != ClipSeal::broken && !(mayBeEdited && replaceable == Replaceable::any) && !settings.force &&
-        there == settings.format && isOlder && clip->source.file == source && isMadeSo(*clip))
+        there == settings.format && wasWrittenBefore(input, output) && clip->source.file == source && isMadeSo(*clip))
     {
         std::error_code ignored;
         result.upToDate = true;

@@ -191,7 +191,7 @@ Result<AudioReader> AudioReader::open(const fs::path& path, AudioReadOptions opt
     auto file = openRewindable(path);
     if (!file)
         return file.error();
-    if (std::fgetc(file->get()) == EOF && std::feof(file->get()) != 0)
+    if (streamLength(file->get()) == 0)
         return invalid("is empty; it has no audio");
 
     auto state = std::make_unique<State>();

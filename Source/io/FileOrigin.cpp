@@ -82,7 +82,6 @@ std::string startOf(const fs::path& path)
 
 FileOrigin originOf(const fs::path& input, const fs::path& output, std::string substanceDigits)
 {
-    std::string name = plainName(input);
     std::error_code error;
     const auto absolute = [&error](const fs::path& path)
     {
@@ -91,7 +90,7 @@ FileOrigin originOf(const fs::path& input, const fs::path& output, std::string s
     };
     Fingerprint way;
     way.add(absolute(input).lexically_proximate(absolute(output).parent_path()).generic_string());
-    return {std::move(name), way.text(), std::move(substanceDigits)};
+    return {plainName(input), way.text(), std::move(substanceDigits)};
 }
 
 std::string originText(const FileOrigin& origin)

@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 
 namespace
 {
-/// All that comes from `stream`, in a file without a name.
+/// All that comes from `stream`, in a file without a name, at its start.
 Result<FileHandle> takenIn(std::FILE* stream)
 {
     constexpr std::uint64_t most = 8ull << 30;
@@ -45,7 +45,7 @@ Result<FileHandle> takenIn(std::FILE* stream)
     }
     if (std::ferror(stream) != 0)
         return fileError(errno);
-    if (std::fflush(file.get()) != 0)
+    if (std::fflush(file.get()) != 0 || !seekStream(file.get(), 0, SEEK_SET))
         return fileError(errno);
     return file;
 }
@@ -84,9 +84,8 @@ Result<FileHandle> openPipe(const fs::path& path)
         whole = std::move(*taken);
     }
     FileHandle file(secondStream(whole.get()));
-    if (!file)
+    if (!file || !seekStream(file.get(), 0, SEEK_SET))
         return fileError(errno);
-    std::rewind(file.get());
     return file;
 }
 } // namespace
