@@ -52,7 +52,7 @@ nb::object viewOf(const ClipHandle& handle, const void* data, std::size_t rows, 
 {
     auto kept = std::make_unique<std::shared_ptr<const Clip>>(handle.shared());
     nb::capsule owner(kept.get(), [](void* p) noexcept { delete static_cast<std::shared_ptr<const Clip>*>(p); });
-    kept.release();
+    static_cast<void>(kept.release());
     static const double nothing = 0.0;
     const auto* values = rows > 0 ? static_cast<const double*>(data) : &nothing;
     return nb::cast(nb::ndarray<nb::numpy, const double>(values, {rows, columns}, owner));

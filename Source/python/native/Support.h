@@ -227,7 +227,7 @@ template <typename T>
     T* data = owned->data();
     static T nothing{}; // arrays without samples want an address, too
     nb::capsule owner(owned.get(), [](void* p) noexcept { delete static_cast<std::vector<T>*>(p); });
-    owned.release();
+    static_cast<void>(owned.release());
     return nb::cast(nb::ndarray<nb::numpy, T>(data != nullptr ? data : &nothing, shape, owner));
 }
 
