@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <string>
+#include <vector>
 
 namespace pacini::cli
 {
@@ -19,10 +21,31 @@ double numberIn(const std::string& text)
     return !text.empty() && CLI::detail::lexical_cast(text, value) ? value : std::numeric_limits<double>::quiet_NaN();
 }
 
+/// Words that stand for values: names of a choice, on and off where a truth may be left open, and what leaves it open.
+std::vector<std::string> wordsFor(const ParameterInfo& parameter)
+{
+    std::vector<std::string> words(parameter.choices.begin(), parameter.choices.end());
+    if (parameter.kind == ParameterKind::truth)
+        words = {"off", "on"};
+    if (!parameter.unsetWord.empty())
+        words.emplace_back(parameter.unsetWord);
+    return words;
+}
+
+bool isFlag(const ParameterInfo& parameter)
+{
+    return parameter.kind == ParameterKind::truth && parameter.unsetWord.empty();
+}
+
+bool takesWords(const ParameterInfo& parameter)
+{
+    return parameter.kind == ParameterKind::choice || parameter.kind == ParameterKind::truth;
+}
+
 CLI::Validator allowedFor(const ParameterInfo& parameter)
 {
-    if (parameter.kind == ParameterKind::choice)
-        return oneOf({parameter.choices.begin(), parameter.choices.end()});
+    if (takesWords(parameter))
+        return oneOf(wordsFor(parameter));
     const std::string range = allowedText(parameter);
     return CLI::Validator(
         [&parameter, range](std::string& text)
@@ -37,10 +60,10 @@ CLI::Validator allowedFor(const ParameterInfo& parameter)
 
 double valueIn(const ParameterInfo& parameter, const std::string& text)
 {
-    if (parameter.kind != ParameterKind::choice)
+    if (!takesWords(parameter))
         return numberIn(text);
-    const auto found = std::find(parameter.choices.begin(), parameter.choices.end(), text);
-    return static_cast<double>(found - parameter.choices.begin());
+    const auto words = wordsFor(parameter);
+    return static_cast<double>(std::find(words.begin(), words.end(), text) - words.begin());
 }
 } // namespace
 
@@ -59,16 +82,14 @@ void DescribedOptions::declare(CLI::App& command, std::span<const ParameterInfo*
                                      ? std::string(parameter->text)
                                      : fmt::format("{} [{}]", parameter->text, parameter->usualText);
         CLI::Option* option = nullptr;
-        if (parameter->kind == ParameterKind::truth)
+        if (isFlag(*parameter))
             option = command.add_flag(name, text);
         else
         {
             option = command.add_option(name, text)
                          ->check(allowedFor(*parameter))
                          ->default_str(valueText(*parameter, parameter->usual()));
-            option->type_name(parameter->kind == ParameterKind::choice  ? "NAME"
-                              : parameter->kind == ParameterKind::whole ? "N"
-                                                                        : "X");
+            option->type_name(takesWords(*parameter) ? "NAME" : parameter->kind == ParameterKind::whole ? "N" : "X");
         }
         if (!parameter->group.empty()) // CLI11 hides the name of what is in the group ""
             option->group(std::string(parameter->group));
@@ -79,9 +100,8 @@ void DescribedOptions::declare(CLI::App& command, std::span<const ParameterInfo*
 void DescribedOptions::addGiven(GivenParameters& given) const
 {
     for (const auto& [parameter, option] : declared)
-        if (option->count() > 0)
-            given.set(*parameter,
-                      parameter->kind == ParameterKind::truth ? 1.0 : valueIn(*parameter, option->results().front()));
+        if (option->count() > 0 && option->results().front() != parameter->unsetWord)
+            given.set(*parameter, isFlag(*parameter) ? 1.0 : valueIn(*parameter, option->results().front()));
 }
 
 } // namespace pacini::cli

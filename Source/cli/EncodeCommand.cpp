@@ -13,9 +13,11 @@
 #include "cli/Task.h"
 #include "cli/TaskRunner.h"
 #include "io/FileExtension.h"
+#include "io/GivenParameters.h"
 #include "io/SettingsFile.h"
 
 #include <pacini/analysis/methods/Method.h>
+#include <pacini/synthesis/RenderParams.h>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -337,9 +339,12 @@ Exit EncodeCommand::run(Console& console)
     if (printSettings)
     {
         const auto document = settingsJson(*translation, usualChoices(translation->method));
-        console.addToReport(
-            {{"settings", document},
-             {"parameters", {{"encode", translationDescriptionsJson()}, {"export", exportDescriptionsJson()}}}});
+        console.addToReport({{"settings", document},
+                             {"parameters",
+                              {{"encode", translationDescriptionsJson()},
+                               {"export", exportDescriptionsJson()},
+                               {"render", descriptionsJson(infosOf(renderParameters))},
+                               {"felt", descriptionsJson(infosOf(feltParameters))}}}});
         console.print(document.dump(4));
         return Exit::ok;
     }

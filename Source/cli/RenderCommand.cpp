@@ -28,7 +28,6 @@
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
-#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -109,14 +108,6 @@ std::string clippingAdvice(double peak, double gain, const std::optional<FeltPar
     return fmt::format("--gain {:.1f} avoids it", gain - std::ceil(200.0 * std::log10(peak)) / 10.0);
 }
 
-/// The option's value where it is not "auto".
-template <typename T>
-std::optional<T> chosen(const std::string& name, const std::map<std::string, T>& values)
-{
-    const auto found = values.find(name);
-    return found == values.end() ? std::nullopt : std::optional<T>(found->second);
-}
-
 /// `pacini render`: clips and scenes become drive signals, or what is felt of them.
 class RenderCommand : public Command
 {
@@ -139,19 +130,13 @@ private:
     DescribedOptions described;
     DescribedOptions describedFelt;
     std::string encoding = "float32";
-    std::string carriers = "auto";
-    std::string envelope = "auto";
-    std::string pulse = "auto";
     std::uint64_t seed = 0;
-    double from = 0.0;
-    std::optional<double> to;
     bool dryRun = false;
     std::string clipFolder;
     unsigned jobs = 0;
     bool felt = false;
     bool everything = false;
     bool noAdaptation = false;
-    std::string mapping = "profile";
     bool noProtection = false;
     bool force = false;
     OverwriteOptions overwriting;
@@ -178,27 +163,13 @@ CLI::App* RenderCommand::declare(CLI::App& app)
     addPreset(*command, "--encoding", encoding, "Samples of the output: float32, pcm24 or pcm16",
               oneOf({"float32", "pcm24", "pcm16"}));
     described.declare(*command, infosOf(renderParameters));
-    addPreset(*command, "--from", from, "Start of the part to render, s; what came before is played unheard",
-              numberFrom(0.0, limits::duration, "24 h"), "S");
-    addOption(*command, "--to", to, "End of the part to render, s [the end]", numberFrom(0.0, limits::duration, "24 h"),
-              "S");
     addPreset(*command, "--seed", seed, "Seed of the variation", countingNumber());
-    addPreset(*command, "--carriers", carriers,
-              "Sinusoids at fixed centres, on the pitch curves, or moving with the centroid",
-              oneOf({"auto", "fixed", "pitch", "centroid"}));
-    addPreset(*command, "--envelope", envelope, "Level the sum of the bands to the total envelope",
-              oneOf({"auto", "on", "off"}));
-    addPreset(*command, "--pulse", pulse, "Waveform of events", oneOf({"auto", "adaptive", "square", "sine"}));
     addOption(*command, "--clips", clipFolder, "Where the clip files of scenes are [beside the scene]", "DIR");
     auto* all = command->add_flag("--everything", everything, "Leave nothing out");
     command->get_option("--tolerance")->excludes(all);
     auto* asIs =
         command->add_flag("--no-adapt", noAdaptation, "Play clips as they are, not fitted to the profile's actuator");
-    auto* mapped =
-        addPreset(*command, "--mapping", mapping,
-                  "Frequencies outside the actuator's range: as its profile says, to the nearest end, spread over "
-                  "it, or by octaves into it",
-                  oneOf({"profile", "clamp", "rescale", "fold"}));
+    auto* mapped = command->get_option("--mapping");
     auto* boosted = command->get_option("--max-boost");
     auto* strengthened = command->get_option("--strength");
     for (CLI::Option* fitted : {asIs, mapped, boosted, strengthened})
@@ -271,32 +242,22 @@ std::string RenderCommand::record() const
 
 Exit RenderCommand::run(Console& console)
 {
-    if (to && *to <= from)
+    RenderSettings settings;
+    described.apply(renderParameters, settings);
+    if (settings.to && *settings.to <= settings.from)
         return console.fail("", {ErrorCode::invalidArgument, "render", "--from must be before --to"}, Exit::usage);
+    const auto pulse = settings.compile.decoder.pulseShape;
     for (const char* option : {"--pulse-frequency", "--pulse-cycles"})
-        if (command->count(option) > 0 && pulse != "square" && pulse != "sine")
+        if (command->count(option) > 0 && pulse.value_or(PulseShape::adaptive) == PulseShape::adaptive)
             return console.fail("",
                                 {ErrorCode::invalidArgument, option,
                                  "is for square and sine pulses; leave it out, or choose one of them with --pulse"},
                                 Exit::usage);
-    RenderSettings settings;
-    described.apply(renderParameters, settings);
     settings.compile.sampleRate = std::round(settings.compile.sampleRate);
     settings.adjustment.variation.seed = seed;
     settings.compile.leaveOut = !everything;
     settings.compile.adapt = !noAdaptation;
-    settings.compile.adaptation.mapping = chosen<FrequencyMapping>(
-        mapping,
-        {{"clamp", FrequencyMapping::clamp}, {"rescale", FrequencyMapping::rescale}, {"fold", FrequencyMapping::fold}});
     settings.protect = !noProtection;
-    DecoderChoice& decoder = settings.compile.decoder;
-    decoder.carriers = chosen<CarrierMode>(
-        carriers, {{"fixed", CarrierMode::fixed}, {"pitch", CarrierMode::pitch}, {"centroid", CarrierMode::centroid}});
-    decoder.followEnvelope = chosen<bool>(envelope, {{"on", true}, {"off", false}});
-    decoder.pulseShape = chosen<PulseShape>(
-        pulse, {{"adaptive", PulseShape::adaptive}, {"square", PulseShape::square}, {"sine", PulseShape::sine}});
-    settings.from = from;
-    settings.to = to;
     settings.dryRun = dryRun;
     settings.reading = {clipFolder, console.isStrict()};
     explain = explain || measured;

@@ -31,8 +31,8 @@ std::string_view nameOf(ParameterKind kind)
     return "choice";
 }
 
-/// The value of a parameter in the current object; NaN where it has none.
-double readValue(FieldsReader& reader, const ParameterInfo& parameter)
+/// The value of a parameter in the current object, if it has one. Programs may give NaN, which no range allows.
+std::optional<double> readValue(FieldsReader& reader, const ParameterInfo& parameter)
 {
     const char* name = parameter.name.data(); // of a literal
     std::optional<double> value;
@@ -43,7 +43,7 @@ double readValue(FieldsReader& reader, const ParameterInfo& parameter)
         std::optional<std::string> chosen;
         reader.optionalText(name, chosen);
         if (!chosen)
-            return std::numeric_limits<double>::quiet_NaN();
+            return std::nullopt;
         const auto found = std::find(parameter.choices.begin(), parameter.choices.end(), *chosen);
         if (found != parameter.choices.end())
             return static_cast<double>(found - parameter.choices.begin());
@@ -54,7 +54,7 @@ double readValue(FieldsReader& reader, const ParameterInfo& parameter)
     }
     else
         reader.optionalNumber(name, value);
-    return value.value_or(std::numeric_limits<double>::quiet_NaN());
+    return value;
 }
 } // namespace
 
@@ -81,12 +81,12 @@ void readParameters(FieldsReader& reader, std::span<const ParameterInfo* const> 
 {
     for (const ParameterInfo* parameter : parameters)
     {
-        const double value = readValue(reader, *parameter);
-        if (std::isnan(value))
+        const auto value = readValue(reader, *parameter);
+        if (!value)
             continue;
-        if (const auto allowed = checkValue(*parameter, value); !allowed)
+        if (const auto allowed = checkValue(*parameter, *value); !allowed)
             reader.fail(parameter->name, allowed.error().message, ErrorCode::invalidArgument);
-        given.set(*parameter, value);
+        given.set(*parameter, *value);
     }
 }
 
@@ -124,6 +124,14 @@ nlohmann::ordered_json descriptionJson(const ParameterInfo& parameter)
     one["group"] = parameter.group;
     one["since"] = parameter.since;
     return one;
+}
+
+nlohmann::ordered_json descriptionsJson(std::span<const ParameterInfo* const> parameters)
+{
+    auto all = nlohmann::ordered_json::array();
+    for (const ParameterInfo* parameter : parameters)
+        all.push_back(descriptionJson(*parameter));
+    return all;
 }
 
 } // namespace pacini

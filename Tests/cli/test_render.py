@@ -236,7 +236,7 @@ class Part(CommandTest):
         self.assertEqual(report["clippedSamples"], 0)
         os.remove(self.folder / "part.wav")
         self.fails(2, ["render", "clip.json", "--from", "1", "--to", "1"], "--from must be before --to")
-        self.fails(2, ["render", "clip.json", "--from", "-1"], "--from: '-1' is not a number from 0 to 86400 = 24 h")
+        self.fails(2, ["render", "clip.json", "--from", "-1"], "--from: '-1' is not a number from 0 to 86400 s")
         self.fails(2, ["render", "clip.json", "--to", "nan"], "--to: 'nan' is not a number")
         self.fails(1, ["render", "clip.json", "--from", "9"], "clip.json: has nothing from 9 s on; it lasts 2.")
         self.assertEqual(self.names(), ["clip.json"])

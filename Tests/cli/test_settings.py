@@ -109,7 +109,8 @@ class Doors(CommandTest):
     def test_help_texts_say_what_is_described(self):
         described = self.described()
         self.assertGreater(len(described["encode"]), 20)
-        for part, commands in (("encode", ["encode"]), ("export", ["encode", "convert", "lint"])):
+        for part, commands in (("encode", ["encode"]), ("export", ["encode", "convert", "lint"]), ("render", ["render"]),
+                               ("felt", ["render"])):
             for command in commands:
                 entries = re.split(r"\n(?= {2,6}-)", self.succeeds("help", command))
                 for one in described[part]:
@@ -128,12 +129,15 @@ class Doors(CommandTest):
         self.assertEqual((done.returncode, done.stdout), (0, ""), done.stdout + done.stderr)
 
     def test_ends_of_ranges_are_taken_and_what_is_beyond_is_not(self):
-        for part, format, command in (("encode", None, "encode"), ("export", "openxr", "convert")):
+        self.clip()
+        for part, format in (("encode", None), ("export", "openxr"), ("render", None), ("felt", None)):
             for one in self.described()[part]:
                 if "lowest" not in one or (format and format not in one["formats"]):
                     continue
                 for value, allowed in ((one["lowest"], True), (one["highest"], True), (one["lowest"] - 1, False),
                                        (one["highest"] + 1, False)):
+                    if (one["option"], value) in (("--from", one["highest"]), ("--to", one["lowest"])):
+                        continue  # nothing would be left
                     with self.subTest(f"{one['option']} {value}"):
                         if part == "encode":
                             words = ["encode", "--print-settings", one["option"], str(value)]
@@ -143,8 +147,14 @@ class Doors(CommandTest):
                                 words += ["--low", "1"]
                             if "a2vt" not in one["methods"]:
                                 words += ["--method", one["methods"][0]]
+                        elif part in ("render", "felt"):
+                            words = ["render", "clip.json", "-o", "out.wav", "--dry-run", "--profile", "lra-175", "--felt",
+                                     one["option"], str(value)]
+                            if one["name"] == "start":
+                                words += ["--to", "86400"]
+                            if one["name"].startswith("pulse"):
+                                words += ["--pulse", "sine"]
                         else:
-                            self.clip()
                             words = ["convert", "clip.json", "out.h", "--format", format, one["option"], str(value), "-y"]
                             if one["name"] == "strength":
                                 words += ["--profile", "lra-175"]

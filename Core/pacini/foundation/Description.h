@@ -53,6 +53,7 @@ struct ParameterText
     std::span<const std::string_view> choices = {};       ///< in the order of the enumeration
     std::span<const std::string_view> memberChoices = {}; ///< in project files; empty: `choices`
     std::string_view usualText = {};                      ///< default in words, where the struct has none
+    std::string_view unsetWord = {};                      ///< of the command: "auto" leaves an optional choice open
     std::string_view group = {};                          ///< heading in help texts and documentation
     std::string_view since = "0.1";                       ///< first version that has it
     bool negated = false;                                 ///< `name` is true where the member is false

@@ -42,6 +42,9 @@ struct RenderParams
 };
 
 inline constexpr std::array<std::string_view, 2> variationScopeNames{"breakpoint", "band"};
+inline constexpr std::array<std::string_view, 3> carrierModeNames{"fixed", "pitch", "centroid"}; // none is for motors
+inline constexpr std::array<std::string_view, 3> pulseShapeNames{"square", "sine", "adaptive"};
+inline constexpr std::array<std::string_view, 3> frequencyMappingNames{"clamp", "rescale", "fold"};
 
 /// What users can set of RenderParams as numbers and choices.
 inline constexpr std::array renderParameters{
@@ -64,6 +67,17 @@ inline constexpr std::array renderParameters{
         {.name = "stretch", .text = "Length factor; pitch stays", .range = {0.01, 100}}),
     described<&RenderParams::adjustment, &SceneAdjustment::delay>(
         {.name = "delay", .text = "Silence before the start", .unit = "s", .range = {0, 3600}}), // of a decoder
+    described<&RenderParams::from>({.name = "start",
+                                    .option = "from",
+                                    .text = "Start of the part to render; what came before is played unheard",
+                                    .unit = "s",
+                                    .range = {0, limits::duration}}),
+    described<&RenderParams::to>({.name = "end",
+                                  .option = "to",
+                                  .text = "End of the part to render",
+                                  .unit = "s",
+                                  .range = {0, limits::duration},
+                                  .usualText = "the end"}),
     described<&RenderParams::adjustment, &SceneAdjustment::variation, &VariationParams::amount>(
         {.name = "variation",
          .text = "Random variation of the bands; in a scene, of the plays that have none",
@@ -72,6 +86,24 @@ inline constexpr std::array renderParameters{
         {.name = "variationPer",
          .text = "One random factor per breakpoint or per band",
          .choices = variationScopeNames}),
+    described<&RenderParams::compile, &CompileParams::decoder, &DecoderChoice::carriers>(
+        {.name = "carriers",
+         .text = "Sinusoids at fixed centres, on the pitch curves, or moving with the centroid",
+         .choices = carrierModeNames,
+         .usualText = "as the clip was made",
+         .unsetWord = "auto"}),
+    described<&RenderParams::compile, &CompileParams::decoder, &DecoderChoice::followEnvelope>(
+        {.name = "followEnvelope",
+         .option = "envelope",
+         .text = "Level the sum of the bands to the total envelope",
+         .usualText = "as the clip was made",
+         .unsetWord = "auto"}),
+    described<&RenderParams::compile, &CompileParams::decoder, &DecoderChoice::pulseShape>(
+        {.name = "pulse",
+         .text = "Waveform of events",
+         .choices = pulseShapeNames,
+         .usualText = "as the clip was made",
+         .unsetWord = "auto"}),
     described<&RenderParams::compile, &CompileParams::decoder, &DecoderChoice::pulseFrequency>(
         {.name = "pulseFrequency",
          .text = "Frequency of square and sine pulses",
@@ -85,6 +117,12 @@ inline constexpr std::array renderParameters{
          .text = "Largest error that everything left out may cause together, relative to the whole",
          .unit = "dB",
          .range = {-300, 0}}),
+    described<&RenderParams::compile, &CompileParams::adaptation, &AdaptationParams::mapping>(
+        {.name = "mapping",
+         .text = "Frequencies outside the actuator's range: to the nearest end, spread over it, or by octaves into it",
+         .choices = frequencyMappingNames,
+         .usualText = "as the profile says",
+         .unsetWord = "profile"}),
     described<&RenderParams::compile, &CompileParams::adaptation, &AdaptationParams::maxBoost>(
         {.name = "maxBoost",
          .text = "How far the drive may be raised to flatten the actuator's resonance; 0 leaves the resonance",
@@ -101,11 +139,11 @@ inline constexpr std::array renderParameters{
 inline constexpr std::array feltParameters{
     described<&FeltParams::fullScale>({.name = "fullScale",
                                        .option = "feltFullScale",
-                                       .text = "With --felt: acceleration at a sample of 1",
+                                       .text = "Acceleration that is felt at a sample of 1",
                                        .unit = "m/s^2",
                                        .range = {1e-3, 1e6}}),
     described<&FeltParams::wearer>({.name = "wearer",
-                                    .text = "With --felt: whose skin; 0 as in the profile, 1 to 14 simulated people "
+                                    .text = "Whose skin feels it: 0 as in the profile, 1 to 14 simulated people "
                                             "whose skin has half to twice its mass, stiffness and damping (assumed)",
                                     .range = {0, simulatedWearers}}),
 };

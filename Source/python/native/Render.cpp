@@ -41,97 +41,27 @@ namespace
     raise({ErrorCode::invalidArgument, std::move(where), std::move(message)});
 }
 
-/// The one of `choices` that has this name; none for none.
-template <typename T, std::size_t n>
-std::optional<T> chosen(const std::optional<std::string>& name, const char* where,
-                        const std::pair<const char*, T> (&choices)[n])
-{
-    if (!name)
-        return std::nullopt;
-    std::string names;
-    for (const auto& [text, value] : choices)
-    {
-        if (*name == text)
-            return value;
-        names += (names.empty() ? "" : ", ") + std::string(text);
-    }
-    wrong(where, "must be one of " + names);
-}
-
-/// Sets a parameter that `table` describes. Raises pacini.Error.
-template <typename Table, typename Params>
-void setAllowed(const Table& table, Params& params, std::string_view name, double value)
-{
-    const auto& parameter = parameterNamed(table, name);
-    takeNamed(checkValue(parameter, value));
-    parameter.set(params, value);
-}
-
 /// Rendering options.
 struct RenderOptions : RenderParams
 {
-    std::optional<Profile> profile;
-
-    void put(std::string_view name, double value) { setAllowed(renderParameters, *this, name, value); }
-
-    void set(double rate, double tolerance, bool leaveOut, bool adapt, const std::optional<std::string>& mapping,
-             double maxBoost, double strength, bool protectIt)
+    RenderOptions(const ProfileHandle* actuator, const nb::dict& options)
     {
-        put("sampleRate", rate);
-        put("tolerance", tolerance);
-        compile.leaveOut = leaveOut;
-        compile.adapt = adapt;
-        compile.adaptation.mapping = chosen<FrequencyMapping>(mapping, "mapping",
-                                                              {{"clamp", FrequencyMapping::clamp},
-                                                               {"rescale", FrequencyMapping::rescale},
-                                                               {"fold", FrequencyMapping::fold}});
-        put("maxBoost", maxBoost);
-        put("strength", strength);
-        protect = protectIt;
-    }
-    void adjust(double gain, double transpose, double stretch, double delay, double variation,
-                const std::string& variationPer, std::uint64_t seed)
-    {
-        const auto scope =
-            chosen<VariationScope>(variationPer, "variation_per",
-                                   {{"breakpoint", VariationScope::breakpoint}, {"band", VariationScope::band}});
-        put("gain", gain);
-        put("transpose", transpose);
-        put("stretch", stretch);
-        put("delay", delay);
-        put("variation", variation);
-        adjustment.variation.scope = *scope;
-        adjustment.variation.seed = seed;
-    }
-    void decode(const std::optional<std::string>& carriers, std::optional<bool> followEnvelope,
-                const std::optional<std::string>& pulse, std::optional<double> pulseFrequency, double pulseCycles)
-    {
-        DecoderChoice& decoder = compile.decoder;
-        decoder.carriers = chosen<CarrierMode>(
-            carriers, "carriers",
-            {{"fixed", CarrierMode::fixed}, {"pitch", CarrierMode::pitch}, {"centroid", CarrierMode::centroid}});
-        decoder.followEnvelope = followEnvelope;
-        decoder.pulseShape = chosen<PulseShape>(
-            pulse, "pulse",
-            {{"adaptive", PulseShape::adaptive}, {"square", PulseShape::square}, {"sine", PulseShape::sine}});
-        if (pulseFrequency)
-            put("pulseFrequency", *pulseFrequency);
-        put("pulseCycles", pulseCycles);
-    }
-    void part(double start, std::optional<double> end)
-    {
-        if (!(start >= 0.0 && start <= limits::duration))
-            wrong("start", "must be 0 s to 24 h");
-        from = start;
-        if (end && !(*end > start))
+        if (actuator != nullptr)
+            profile = actuator->profile();
+        for (const auto& [parameter, value] : givenOptions(options, infosOf(renderParameters)))
+            parameterNamed(renderParameters, parameter->name).set(*this, value);
+        if (to && !(*to > from))
             wrong("end", "must be after start");
-        to = end;
     }
-    void feel(unsigned wearer, double fullScale)
+
+    void feel(const nb::dict& options)
     {
-        setAllowed(feltParameters, felt.emplace(), "wearer", wearer);
-        setAllowed(feltParameters, *felt, "fullScale", fullScale);
+        felt.emplace();
+        for (const auto& [parameter, value] : givenOptions(options, infosOf(feltParameters)))
+            parameterNamed(feltParameters, parameter->name).set(*felt, value);
     }
+
+    std::optional<Profile> profile;
 };
 
 /// Without the lock.
@@ -244,23 +174,18 @@ void bindRender(nb::module_& module)
             nb::is_operator());
 
     nb::class_<RenderOptions>(module, "RenderOptions")
-        .def(
-            "__init__",
-            [](RenderOptions* self, const ProfileHandle* profile)
-            {
-                new (self) RenderOptions();
-                if (profile != nullptr)
-                    self->profile = profile->profile();
-            },
-            "profile"_a.none())
-        .def("set", &RenderOptions::set, "sample_rate"_a, "tolerance"_a, "leave_out"_a, "adapt"_a, "mapping"_a.none(),
-             "max_boost"_a, "strength"_a, "protect"_a)
-        .def("adjust", &RenderOptions::adjust, "gain"_a, "transpose"_a, "stretch"_a, "delay"_a, "variation"_a,
-             "variation_per"_a, "seed"_a)
-        .def("decode", &RenderOptions::decode, "carriers"_a.none(), "follow_envelope"_a.none(), "pulse"_a.none(),
-             "pulse_frequency"_a.none(), "pulse_cycles"_a)
-        .def("part", &RenderOptions::part, "start"_a, "end"_a.none())
-        .def("feel", &RenderOptions::feel, "wearer"_a, "full_scale"_a);
+        .def(nb::init<const ProfileHandle*, const nb::dict&>(), "profile"_a.none(), "options"_a)
+        .def_prop_rw(
+            "leave_out", [](const RenderOptions& self) { return self.compile.leaveOut; },
+            [](RenderOptions& self, bool leaveOut) { self.compile.leaveOut = leaveOut; })
+        .def_prop_rw(
+            "adapt", [](const RenderOptions& self) { return self.compile.adapt; },
+            [](RenderOptions& self, bool adapt) { self.compile.adapt = adapt; })
+        .def_rw("protect", &RenderOptions::protect)
+        .def_prop_rw(
+            "seed", [](const RenderOptions& self) { return self.adjustment.variation.seed; },
+            [](RenderOptions& self, std::uint64_t seed) { self.adjustment.variation.seed = seed; })
+        .def("feel", &RenderOptions::feel, "options"_a);
     module.def(
         "render_clip",
         [](const ClipHandle& clip, const RenderOptions& options, nb::object progress)

@@ -133,38 +133,12 @@ class EncoderHandle:
     def makes_clip(self) -> bool: ...
 
 class RenderOptions:
-    def __init__(self, profile: ProfileHandle | None) -> None: ...
-    def set(
-        self,
-        sample_rate: float,
-        tolerance: float,
-        leave_out: bool,
-        adapt: bool,
-        mapping: str | None,
-        max_boost: float,
-        strength: float,
-        protect: bool,
-    ) -> None: ...
-    def adjust(
-        self,
-        gain: float,
-        transpose: float,
-        stretch: float,
-        delay: float,
-        variation: float,
-        variation_per: str,
-        seed: int,
-    ) -> None: ...
-    def decode(
-        self,
-        carriers: str | None,
-        follow_envelope: bool | None,
-        pulse: str | None,
-        pulse_frequency: float | None,
-        pulse_cycles: float,
-    ) -> None: ...
-    def part(self, start: float, end: float | None) -> None: ...
-    def feel(self, wearer: int, full_scale: float) -> None: ...
+    def __init__(self, profile: ProfileHandle | None, options: dict[str, Any]) -> None: ...
+    leave_out: bool
+    adapt: bool
+    protect: bool
+    seed: int
+    def feel(self, options: dict[str, Any]) -> None: ...
 
 class TranslatorHandle:
     def __init__(

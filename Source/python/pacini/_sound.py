@@ -264,34 +264,21 @@ def _rendered(
 def _render_options(
     profile: Optional[AnyProfile],
     sample_rate: float,
-    protect: bool,
-    gain: float,
-    transpose: float,
-    stretch: float,
-    delay: float,
-    start: float,
-    end: Optional[float],
-    variation: float,
-    variation_per: str,
-    seed: int,
-    tolerance: float,
-    leave_out: bool,
-    adapt: bool,
-    mapping: Optional[str],
-    max_boost: float,
-    strength: float,
-    carriers: Optional[str],
-    follow_envelope: Optional[bool],
-    pulse: Optional[str],
-    pulse_frequency: Optional[float],
-    pulse_cycles: float,
+    *,
+    protect: bool = True,
+    leave_out: bool = True,
+    adapt: bool = True,
+    seed: int = 0,
+    **described: Any,
 ) -> _native.RenderOptions:
-    options = _native.RenderOptions(None if profile is None else as_profile(profile)._handle)
-    rate = as_rate(sample_rate)
-    options.set(float(rate), tolerance, leave_out, adapt, mapping, max_boost, strength, protect)
-    options.adjust(gain, transpose, stretch, delay, variation, variation_per, seed)
-    options.decode(carriers, follow_envelope, pulse, pulse_frequency, pulse_cycles)
-    options.part(start, end)
+    """`described`: what ``pacini render`` has options of, by its names in Python."""
+    options = _native.RenderOptions(
+        None if profile is None else as_profile(profile)._handle, {"sample_rate": as_rate(sample_rate), **described}
+    )
+    options.protect = protect
+    options.leave_out = leave_out
+    options.adapt = adapt
+    options.seed = seed
     return options
 
 
@@ -330,10 +317,30 @@ def render(
     `gain` is in dB, `transpose` in semitones, times are in s.
     """
     options = _render_options(
-        profile, sample_rate, protect, gain, transpose, stretch, delay, start, end, variation, variation_per, seed,
-        tolerance, leave_out, adapt, mapping, max_boost, strength, carriers, follow_envelope, pulse, pulse_frequency,
-        pulse_cycles,
-    )  # fmt: skip
+        profile,
+        sample_rate,
+        protect=protect,
+        gain=gain,
+        transpose=transpose,
+        stretch=stretch,
+        delay=delay,
+        start=start,
+        end=end,
+        variation=variation,
+        variation_per=variation_per,
+        seed=seed,
+        tolerance=tolerance,
+        leave_out=leave_out,
+        adapt=adapt,
+        mapping=mapping,
+        max_boost=max_boost,
+        strength=strength,
+        carriers=carriers,
+        follow_envelope=follow_envelope,
+        pulse=pulse,
+        pulse_frequency=pulse_frequency,
+        pulse_cycles=pulse_cycles,
+    )
     return _rendered(content, options, dtype, progress)[0]
 
 
@@ -347,10 +354,7 @@ def explain(
     gain: float = 0.0,
 ) -> RenderReport:
     """What :func:`render` does to play it: what is fitted to the actuator, and what is left out."""
-    options = _render_options(
-        profile, sample_rate, True, gain, 0.0, 1.0, 0.0, 0.0, None, 0.0, "breakpoint", 0, tolerance, True, True, None,
-        6.0, strength, None, None, None, None, 1.0,
-    )  # fmt: skip
+    options = _render_options(profile, sample_rate, gain=gain, tolerance=tolerance, strength=strength)
     return _rendered(content, options, np.float32, None)[1]
 
 
@@ -372,10 +376,9 @@ def felt(
     """The acceleration of the skin that the profile's model of the body predicts, as :func:`render` has it: 1 is
     `full_scale` m/s^2. `wearer` is 0 as in the profile, or 1 to 14, simulated people."""
     options = _render_options(
-        profile, sample_rate, protect, gain, 0.0, 1.0, 0.0, start, end, 0.0, "breakpoint", 0, -60.0, True, True, None,
-        6.0, strength, None, None, None, None, 1.0,
-    )  # fmt: skip
-    options.feel(wearer, full_scale)
+        profile, sample_rate, protect=protect, gain=gain, start=start, end=end, strength=strength
+    )
+    options.feel({"wearer": wearer, "full_scale": full_scale})
     return _rendered(content, options, dtype, progress)[0]
 
 
