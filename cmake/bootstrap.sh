@@ -210,6 +210,11 @@ build_programs() {
     build release "pacini pacini_plugin_All pacini_editor_app${*:+ $*}" "${alone[@]}" -DPACINI_BUILD_PLUGIN=ON
 }
 
+# The folders of tests whose names a pattern finds, as CMake lists them.
+rooms_of_tests() { # pattern
+    find Tests -name '*Test.cpp' -printf '%P\n' | sed 's|/[^/]*$||' | sort -u | grep -E "$1" | paste -sd ';'
+}
+
 # Runs the tests of a preset and lists what was skipped; in CI that is a failure.
 run_tests() { # preset, arguments of ctest
     local results="$PWD/build/$1/tests.xml" code=0 skipped
@@ -308,11 +313,25 @@ slow-tests)
     build_web
     run_tests release --label-regex slow --no-tests=ignore
     ;;
-# By hand: `sanitized-tests assertions` has the assertions on, `sanitized-tests thread` looks at what threads share, and
-# `sanitized-tests slow` runs the slow ones, which take as long as all others together.
+# One part for each commit, in turn: core, files, command. By hand: all of them without a name, `sanitized-tests assertions`
+# has the assertions on, `sanitized-tests thread` looks at what threads share, and `sanitized-tests slow` runs the slow
+# ones, which take as long as all others together.
 sanitized-tests)
     install_packages "${portability_packages[@]}"
     case "${2:-}" in
+    core)
+        build asan "pacini_tests pacini_library_tests pacini_random_calls pacini_sweep_limits" \
+            "-DPACINI_TEST_ROOMS=$(rooms_of_tests '^(actuator|analysis|clip|evaluate|filters|foundation|linearize|realtime|runtime|simplify|synthesis|hearing)')"
+        run_tests asan --label-exclude slow --tests-regex '^(tests-|library|limits)'
+        ;;
+    files)
+        build asan all "-DPACINI_TEST_ROOMS=$(rooms_of_tests '^(io|devices|study|phone)')"
+        run_tests asan --label-exclude slow --tests-regex '^(tests-|fuzz-|.*-schema$)'
+        ;;
+    command)
+        build asan "pacini pacini-bench pacini_tests" "-DPACINI_TEST_ROOMS=$(rooms_of_tests '^(cli|document)(/|$)')"
+        run_tests asan --label-exclude slow --tests-regex '^(tests-|cli-|plot-)'
+        ;;
     thread)
         build tsan "pacini_tests pacini_library_tests pacini_random_calls"
         run_tests tsan --tests-regex '^(tests-|library)' --label-exclude slow
@@ -326,8 +345,8 @@ sanitized-tests)
         run_tests asan --label-regex slow
         ;;
     *)
-        build asan all
-        run_tests asan --label-exclude slow
+        build asan all -DPACINI_TEST_ROOMS=
+        run_tests asan --label-exclude slow --exclude-regex '^house-'
         ;;
     esac
     ;;

@@ -119,5 +119,16 @@ class Warnings(unittest.TestCase):
             self.assertNotRegex(script, r"Werror|WARNINGS_AS_ERRORS|preset ci\b")
 
 
+class Sanitizers(unittest.TestCase):
+    def test_every_room_of_tests_is_in_one_part(self):
+        parts = re.findall(r"rooms_of_tests '(.*)'\)", BOOTSTRAP.read_text())
+        self.assertEqual(len(parts), 3)
+        rooms = {path.parent.relative_to(ROOT / "Tests").as_posix() for path in (ROOT / "Tests").rglob("*Test.cpp")}
+        for room in sorted(rooms):
+            if not re.match("(support|plugin|editor|library)(/|$)", room):  # have programs of their own
+                with self.subTest(room):
+                    self.assertEqual(sum(bool(re.search(part, room)) for part in parts), 1)
+
+
 if __name__ == "__main__":
     unittest.main()
