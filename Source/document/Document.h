@@ -146,10 +146,10 @@ public:
     void setProjectNotes(std::string notes, std::string name);
     void setGroups(std::vector<std::string> groups, std::string name);
 
-    /// Within a gesture, one step. Errors: those of validate(scene), then nothing is changed.
     /// The clips of a scene, in a group, and the scene itself in place of the present one. Where there was none it has
     /// been there from the start. Errors: those of validate(), then nothing changes.
     Result<void> openScene(const Scene& scene, const std::string& group, std::string name);
+    /// Within a gesture, one step. Errors: those of validate(scene), then nothing is changed.
     Result<void> setScene(ProjectScene scene, std::string name, Gesture gesture = 0);
 
     /// Gives a group another name; that of another group joins the two, an empty one leaves its clips without a group.

@@ -65,10 +65,10 @@ public:
     // Window
     juce::AudioProcessorEditor* createEditor() override { return nullptr; }
     bool hasEditor() const override { return false; }
-    /// The size that a session wants; 0 if it does not say.
     /// Whether captured clips keep their sound, in the session. [any]
     [[nodiscard]] bool keepsCaptures() const noexcept { return keepsSounds.load(); }
     void setKeepsCaptures(bool wanted) noexcept { keepsSounds.store(wanted); }
+    /// The size that a session wants; 0 if it does not say.
     [[nodiscard]] juce::Point<int> windowSize() const noexcept { return {windowWidth.load(), windowHeight.load()}; }
     void setWindowSize(int width, int height) noexcept;
 

@@ -15,9 +15,6 @@
 namespace pacini::editor
 {
 
-/// The chosen clip is the one that is shown; several can be selected, to remove, group or export them at once. Return
-/// or F2 renames, Delete removes, Alt with the arrows moves, a drag moves too; the menu of a row has it all. With many
-/// clips there is a field to search them by words of their names, groups and notes.
 /// The tags of a clip, with commas between them.
 [[nodiscard]] inline juce::String tagText(const ClipItem& item)
 {
@@ -27,6 +24,9 @@ namespace pacini::editor
     return words.joinIntoString(", ");
 }
 
+/// The chosen clip is the one that is shown; several can be selected, to remove, group or export them at once. Return
+/// or F2 renames, Delete removes, Alt with the arrows moves, a drag moves too; the menu of a row has it all. With many
+/// clips there is a field to search them by words of their names, groups and notes.
 class ClipList final : public juce::Component,
                        public juce::DragAndDropContainer,
                        public juce::DragAndDropTarget,
