@@ -66,20 +66,8 @@ public:
 
     void initialise(const juce::String&) override
     {
-        CLI::App options("Pacini Editor: sounds become clips that can be reshaped, felt and exported.", "PaciniEditor");
-        bool fresh = false, fullScreen = false;
-        std::string deviceType, language, study;
-        std::vector<std::string> names;
-        options.add_option("files", names, "Sounds, clips of any known format, folders of them, or a project")
-            ->type_name("FILE");
-        options.add_flag("--fresh", fresh, "Start with the default settings, and leave the saved ones as they are");
-        options.add_option("--device-type", deviceType, "Kind of sound device, such as ALSA or JACK")
-            ->type_name("TYPE");
-        options.add_option("--language", language, "Of menus and controls: en or " + languageCodes())
-            ->type_name("CODE");
-        options.add_option("--study", study, "Run a study: its folder or file")->type_name("STUDY");
-        options.add_flag("--full-screen", fullScreen, "Fill the screen with the study");
-        if (const auto code = readCommandLine(options, PACINI_VERSION, getCommandLineParameterArray()))
+        Options options;
+        if (const auto code = readOptions(options))
         {
             setApplicationReturnValue(*code);
             return quit();
@@ -94,75 +82,31 @@ public:
             return pathOf(juce::File::getCurrentWorkingDirectory().getChildFile(editor::toText(name)));
         };
         std::vector<std::filesystem::path> files;
-        for (const std::string& name : names)
+        for (const std::string& name : options.names)
             files.push_back(absolute(name));
         const auto home = settingsFolder();
-        if (!fresh)
+        editor::EditorModel::Folders folders;
+        auto profiles = builtInProfiles();
+        if (!options.fresh)
         {
             home.createDirectory();
             settings = std::make_unique<EditorSettings>(home);
-        }
-        editor::EditorModel::Folders folders;
-        if (!fresh)
             folders = {pathOf(home.getChildFile("recovery")), pathOf(home.getChildFile("recent.json"))};
-        auto profiles = builtInProfiles();
-        const auto ownProfiles = home.getChildFile("profiles");
-        if (!fresh)
-            addOwnProfiles(profiles, ownProfiles);
-        if (!study.empty())
+            addOwnProfiles(profiles, profileFolder(home));
+        }
+        const auto language = !options.language.empty() ? editor::toText(options.language)
+                              : settings                ? settings->language()
+                                                        : juce::String("en");
+        if (!options.study.empty())
         {
-            editor::useLanguage(!language.empty() ? editor::toText(language)
-                                : settings        ? settings->language()
-                                                  : juce::String("en"));
-            return runStudyAlone(absolute(study), editor::toText(deviceType), fullScreen, std::move(profiles));
+            editor::useLanguage(language);
+            return runStudyAlone(absolute(options.study), editor::toText(options.deviceType), options.fullScreen,
+                                 std::move(profiles));
         }
         session = std::make_unique<editor::Session>(folders, std::move(profiles));
-        rig = std::make_unique<PreviewDevices>(session->player, session->outputs);
-        rig->onLost = [this]
-        {
-            session->transport.stop();
-            session->filePreview.stop();
-            if (rig->isLookingForDevice() && session->model.onNotice)
-                session->model.onNotice(editor::tr("The audio device is gone. It is used again when it comes back."));
-        };
-        rig->onFound = [this]
-        {
-            if (session->model.onNotice)
-                session->model.onNotice(editor::tr("The audio device is open"));
-        };
-        std::unique_ptr<juce::XmlElement> devices;
-        if (settings)
-        {
-            devices = settings->devices();
-            settings->apply(*rig, session->outputs);
-        }
-        if (const auto error = rig->open(devices.get(), editor::toText(deviceType)); error.isNotEmpty())
-            juce::Logger::writeToLog("Pacini: no sound device: " + error);
-        editor::useLanguage(!language.empty() ? editor::toText(language)
-                            : settings        ? settings->language()
-                                              : juce::String("en"));
-        editor::HostServices around;
-        around.version = PACINI_VERSION;
-        around.demoSounds = demoSounds(settings ? &home : nullptr);
-        around.runStudy = [this](const std::filesystem::path& file)
-        {
-            session->transport.stop();
-            const auto opened =
-                openStudy(file, rig->devices(), session->actuators.profiles(), [this] { studyWindow.reset(); });
-            if (!opened)
-                session->model.report(editor::tr("{0} not opened", {editor::pathText(file.filename())}).toStdString(),
-                                      opened.error());
-        };
-        if (settings)
-        {
-            around.profileFolder = pathOf(ownProfiles);
-            around.language = settings->language();
-            around.chooseLanguage = [this](const juce::String& code)
-            {
-                settings->keepLanguage(code);
-            };
-        }
-        window = std::make_unique<EditorWindow>(*session, *rig, std::move(around));
+        openDevices(editor::toText(options.deviceType));
+        editor::useLanguage(language);
+        window = std::make_unique<EditorWindow>(*session, *rig, hostServices(home));
         auto& view = window->view();
         const bool firstRun = settings && settings->isFirstRun();
         if (settings)
@@ -235,6 +179,83 @@ public:
     }
 
 private:
+    struct Options
+    {
+        bool fresh = false, fullScreen = false;
+        std::string deviceType, language, study;
+        std::vector<std::string> names;
+    };
+
+    /// Reads the command line. The exit code where the program ends with that.
+    static std::optional<int> readOptions(Options& options)
+    {
+        CLI::App app("Pacini Editor: sounds become clips that can be reshaped, felt and exported.", "PaciniEditor");
+        app.add_option("files", options.names, "Sounds, clips of any known format, folders of them, or a project")
+            ->type_name("FILE");
+        app.add_flag("--fresh", options.fresh, "Start with the default settings, and leave the saved ones as they are");
+        app.add_option("--device-type", options.deviceType, "Kind of sound device, such as ALSA or JACK")
+            ->type_name("TYPE");
+        app.add_option("--language", options.language, "Of menus and controls: en or " + languageCodes())
+            ->type_name("CODE");
+        app.add_option("--study", options.study, "Run a study: its folder or file")->type_name("STUDY");
+        app.add_flag("--full-screen", options.fullScreen, "Fill the screen with the study");
+        return readCommandLine(app, PACINI_VERSION, getCommandLineParameterArray());
+    }
+
+    static juce::File profileFolder(const juce::File& home) { return home.getChildFile("profiles"); }
+
+    void openDevices(const juce::String& deviceType)
+    {
+        rig = std::make_unique<PreviewDevices>(session->player, session->outputs);
+        rig->onLost = [this]
+        {
+            session->transport.stop();
+            session->filePreview.stop();
+            if (rig->isLookingForDevice() && session->model.onNotice)
+                session->model.onNotice(editor::tr("The audio device is gone. It is used again when it comes back."));
+        };
+        rig->onFound = [this]
+        {
+            if (session->model.onNotice)
+                session->model.onNotice(editor::tr("The audio device is open"));
+        };
+        std::unique_ptr<juce::XmlElement> devices;
+        if (settings)
+        {
+            devices = settings->devices();
+            settings->apply(*rig, session->outputs);
+        }
+        if (const auto error = rig->open(devices.get(), deviceType); error.isNotEmpty())
+            juce::Logger::writeToLog("Pacini: no sound device: " + error);
+    }
+
+    /// What the editor asks of this program.
+    editor::HostServices hostServices(const juce::File& home)
+    {
+        editor::HostServices around;
+        around.version = PACINI_VERSION;
+        around.demoSounds = demoSounds(settings ? &home : nullptr);
+        around.runStudy = [this](const std::filesystem::path& file)
+        {
+            session->transport.stop();
+            const auto opened =
+                openStudy(file, rig->devices(), session->actuators.profiles(), [this] { studyWindow.reset(); });
+            if (!opened)
+                session->model.report(editor::tr("{0} not opened", {editor::pathText(file.filename())}).toStdString(),
+                                      opened.error());
+        };
+        if (settings)
+        {
+            around.profileFolder = pathOf(profileFolder(home));
+            around.language = settings->language();
+            around.chooseLanguage = [this](const juce::String& code)
+            {
+                settings->keepLanguage(code);
+            };
+        }
+        return around;
+    }
+
     static juce::File settingsFolder()
     {
 #if JUCE_LINUX || JUCE_BSD

@@ -146,25 +146,7 @@ void StudyPage::show(State wanted)
     case State::consent:
         if (study().consent.empty() || !running->session().head().consent.empty())
             return show(State::comfort);
-        buildText(tr("Consent"), said(study().consent));
-        nextButton = &addButton(
-            tr("I agree"),
-            [this]
-            {
-                if (const auto kept = running->session().note("agreed: " + said(study().consent).toStdString()); !kept)
-                    return status.setText(toText(kept.error().text()));
-                show(State::comfort);
-            });
-        // Who does not agree leaves nothing behind, and the place is free for another.
-        addButton(tr("I do not agree"),
-                  [this]
-                  {
-                      const fs::path log = running->session().path();
-                      running.reset();
-                      std::error_code ignored;
-                      fs::remove(log, ignored);
-                      show(State::goodbye);
-                  });
+        buildConsent();
         break;
     case State::comfort:
         if (comfortNext >= study().comfort.size())
@@ -216,11 +198,31 @@ void StudyPage::buildText(const juce::String& heading, const juce::String& conte
     text.setText(content);
 }
 
-void StudyPage::buildSetUp()
+void StudyPage::buildConsent()
 {
-    buildText(toText(study().name),
-              tr("Groups: {0}, participants planned: {1}",
-                 {juce::String(study().groups.size()), juce::String(study::participantsOf(study()))}));
+    buildText(tr("Consent"), said(study().consent));
+    nextButton = &addButton(
+        tr("I agree"),
+        [this]
+        {
+            if (const auto kept = running->session().note("agreed: " + said(study().consent).toStdString()); !kept)
+                return status.setText(toText(kept.error().text()));
+            show(State::comfort);
+        });
+    // Who does not agree leaves nothing behind, and the place is free for another.
+    addButton(tr("I do not agree"),
+              [this]
+              {
+                  const fs::path log = running->session().path();
+                  running.reset();
+                  std::error_code ignored;
+                  fs::remove(log, ignored);
+                  show(State::goodbye);
+              });
+}
+
+void StudyPage::addLanguageBox()
+{
     const auto codes = languagesOf(study());
     if (codes.size() > 1)
     {
@@ -231,6 +233,37 @@ void StudyPage::buildSetUp()
         language = codes[selected];
         addBox(tr("Language"), shown, selected, [this, codes](int index) { language = codes[index]; });
     }
+}
+
+void StudyPage::addOutputBoxes()
+{
+    const auto outputs = services.outputNames();
+    // Ears first; the actuator on what comes after them, or on the right channel of a device with two.
+    if (soundOut >= outputs.size())
+        soundOut = 0;
+    if (touchOut == soundOut || touchOut >= outputs.size())
+        touchOut = outputs.size() > 2 ? 2 : outputs.size() - 1;
+    addBox(tr("Sound on"), outputs, soundOut,
+           [this](int index)
+           {
+               soundOut = index;
+               services.wire(soundOut, touchOut);
+           });
+    addBox(tr("Touch on"), outputs, touchOut,
+           [this](int index)
+           {
+               touchOut = index;
+               services.wire(soundOut, touchOut);
+           });
+    services.wire(soundOut, touchOut);
+}
+
+void StudyPage::buildSetUp()
+{
+    buildText(toText(study().name),
+              tr("Groups: {0}, participants planned: {1}",
+                 {juce::String(study().groups.size()), juce::String(study::participantsOf(study()))}));
+    addLanguageBox();
     juce::StringArray actuators{tr("None: plain drive")};
     int chosen = 0;
     for (const NamedProfile& one : services.profiles)
@@ -244,27 +277,7 @@ void StudyPage::buildSetUp()
            { actuator = index > 0 ? services.profiles[static_cast<std::size_t>(index) - 1].name : std::string(); });
     addBox(tr("Colours"), {tr("Dark"), tr("Light")}, look.isDark() ? 0 : 1, [this](int index) { setDark(index == 0); });
     if (services.outputNames)
-    {
-        const auto outputs = services.outputNames();
-        // Ears first; the actuator on what comes after them, or on the right channel of a device with two.
-        if (soundOut >= outputs.size())
-            soundOut = 0;
-        if (touchOut == soundOut || touchOut >= outputs.size())
-            touchOut = outputs.size() > 2 ? 2 : outputs.size() - 1;
-        addBox(tr("Sound on"), outputs, soundOut,
-               [this](int index)
-               {
-                   soundOut = index;
-                   services.wire(soundOut, touchOut);
-               });
-        addBox(tr("Touch on"), outputs, touchOut,
-               [this](int index)
-               {
-                   touchOut = index;
-                   services.wire(soundOut, touchOut);
-               });
-        services.wire(soundOut, touchOut);
-    }
+        addOutputBoxes();
     const auto measured = study::readLatencies(place.folder);
     touchLatency = 0.0;
     if (measured && !measured->empty())

@@ -86,7 +86,10 @@ public:
 private:
     void timerCallback() override;
     void show(State wanted);
+    void buildConsent();
     void buildSetUp();
+    void addLanguageBox();
+    void addOutputBoxes();
     void buildDelay();
     [[nodiscard]] bool knowsActuator();
     void pollDelay();

@@ -33,16 +33,10 @@ juce::PopupMenu snapChoices(Session& session)
     add("Ruler lines", &SnapTargets::grid);
     return menu;
 }
-} // namespace
 
-Menu viewMenu(EditorView& view)
+/// What is drawn of the sound and the actuator, and how the view follows the playhead.
+void addViewOptions(Menu& menu, Session& session)
 {
-    Session& session = view.session();
-    const auto anyClip = hasClip(session);
-    const auto taller = [&session](int pixels)
-    {
-        session.viewState.setLaneHeight(session.viewState.laneHeight() + pixels);
-    };
     // An option, and the value that an action gives it.
     const auto has = [&session](auto ViewOptions::*option, auto value)
     {
@@ -68,6 +62,37 @@ Menu viewMenu(EditorView& view)
             wanted.*option = !(wanted.*option);
             session.viewState.setViewOptions(wanted);
         };
+    };
+    menu.addSwitch(showWaveform, "Waveform", "Shows the waveform of the sound",
+                   give(&ViewOptions::sound, SoundView::waveform), has(&ViewOptions::sound, SoundView::waveform),
+                   {alt('1')});
+    menu.addSwitch(showSpectrum, "Spectrogram", "Shows the spectrogram of the sound",
+                   give(&ViewOptions::sound, SoundView::spectrum), has(&ViewOptions::sound, SoundView::spectrum),
+                   {alt('2')});
+    menu.addSwitch(showBoth, "Waveform over spectrogram", "Draws the waveform over the spectrogram",
+                   give(&ViewOptions::sound, SoundView::both), has(&ViewOptions::sound, SoundView::both), {alt('3')});
+    menu.addSwitch(wholeSpectrum, "Full-range spectrogram",
+                   "Shows the full range instead of up to 2 kHz, the limit of touch",
+                   change(&ViewOptions::wholeSpectrum), has(&ViewOptions::wholeSpectrum, true));
+    menu.addSwitch(showActuator, "Actuator output", "Shows the actuator's drive and losses below the lanes",
+                   change(&ViewOptions::actuator), has(&ViewOptions::actuator, true), {alt('4')});
+    menu.addLine();
+    menu.addSwitch(followOff, "Don't follow playhead", "Keeps the view still during playback",
+                   give(&ViewOptions::follow, Follow::off), has(&ViewOptions::follow, Follow::off));
+    menu.addSwitch(followPage, "Follow by page", "Turns the page when the playhead leaves the view",
+                   give(&ViewOptions::follow, Follow::page), has(&ViewOptions::follow, Follow::page));
+    menu.addSwitch(followSmooth, "Keep playhead centred", "Scrolls continuously during playback",
+                   give(&ViewOptions::follow, Follow::smooth), has(&ViewOptions::follow, Follow::smooth));
+}
+} // namespace
+
+Menu viewMenu(EditorView& view)
+{
+    Session& session = view.session();
+    const auto anyClip = hasClip(session);
+    const auto taller = [&session](int pixels)
+    {
+        session.viewState.setLaneHeight(session.viewState.laneHeight() + pixels);
     };
     using Key = juce::KeyPress;
     Menu menu("View");
@@ -113,26 +138,7 @@ Menu viewMenu(EditorView& view)
         snapTo, "Snap to", "What dragging snaps to", [&session] { return snapChoices(session); },
         [&session] { return session.viewState.snapTargets().on; });
     menu.addLine();
-    menu.addSwitch(showWaveform, "Waveform", "Shows the waveform of the sound",
-                   give(&ViewOptions::sound, SoundView::waveform), has(&ViewOptions::sound, SoundView::waveform),
-                   {alt('1')});
-    menu.addSwitch(showSpectrum, "Spectrogram", "Shows the spectrogram of the sound",
-                   give(&ViewOptions::sound, SoundView::spectrum), has(&ViewOptions::sound, SoundView::spectrum),
-                   {alt('2')});
-    menu.addSwitch(showBoth, "Waveform over spectrogram", "Draws the waveform over the spectrogram",
-                   give(&ViewOptions::sound, SoundView::both), has(&ViewOptions::sound, SoundView::both), {alt('3')});
-    menu.addSwitch(wholeSpectrum, "Full-range spectrogram",
-                   "Shows the full range instead of up to 2 kHz, the limit of touch",
-                   change(&ViewOptions::wholeSpectrum), has(&ViewOptions::wholeSpectrum, true));
-    menu.addSwitch(showActuator, "Actuator output", "Shows the actuator's drive and losses below the lanes",
-                   change(&ViewOptions::actuator), has(&ViewOptions::actuator, true), {alt('4')});
-    menu.addLine();
-    menu.addSwitch(followOff, "Don't follow playhead", "Keeps the view still during playback",
-                   give(&ViewOptions::follow, Follow::off), has(&ViewOptions::follow, Follow::off));
-    menu.addSwitch(followPage, "Follow by page", "Turns the page when the playhead leaves the view",
-                   give(&ViewOptions::follow, Follow::page), has(&ViewOptions::follow, Follow::page));
-    menu.addSwitch(followSmooth, "Keep playhead centred", "Scrolls continuously during playback",
-                   give(&ViewOptions::follow, Follow::smooth), has(&ViewOptions::follow, Follow::smooth));
+    addViewOptions(menu, session);
     menu.addLine();
     menu.add(nextPanel, "Next panel", "Gives the keyboard to the next part of the window",
              [&view] { view.focusPart(1); }, {}, {Key(Key::F6Key)});

@@ -61,6 +61,43 @@ bool darkOf(const juce::Component& component)
     const auto* look = dynamic_cast<const Look*>(&component.getLookAndFeel());
     return look == nullptr || look->isDark();
 }
+
+/// What a pixel of a source shows: what takes most of it, or, where nothing does, how loud it plays.
+struct LossShade
+{
+    Loss loss = Loss::none;
+    int step = 0; ///< of `shades`
+};
+
+/// None where the source plays nothing from `start` to `end`, s; `touch` is the threshold, dB.
+std::optional<LossShade> shadeOf(const ActuatorTrace::Source& source, double start, double end, double touch)
+{
+    const double from = start / ActuatorTrace::step;
+    const double to = std::max(from + 1.0, end / ActuatorTrace::step);
+    const auto steps = static_cast<double>(source.levels.size());
+    if (from < 0.0 || from >= steps)
+        return std::nullopt;
+    const auto first = static_cast<std::size_t>(from);
+    const auto last = static_cast<std::size_t>(std::min(to, steps));
+    const std::size_t stride = std::max<std::size_t>(1, (last - first) / stepsPerPixel);
+    std::array<int, 6> votes{};
+    float most = ActuatorTrace::silent;
+    int silent = 0;
+    for (std::size_t i = first; i < last; i += stride)
+    {
+        const Loss loss = source.losses[i];
+        if (loss == Loss::none && source.levels[i] <= ActuatorTrace::silent)
+            ++silent;
+        else
+            ++votes[static_cast<std::size_t>(loss)];
+        most = std::max(most, source.levels[i]);
+    }
+    const auto winner = std::max_element(votes.begin(), votes.end());
+    if (*winner == 0 || *winner < silent)
+        return std::nullopt;
+    const double part = std::clamp(1.0 - static_cast<double>(most) / touch, 0.0, 1.0);
+    return LossShade{static_cast<Loss>(winner - votes.begin()), static_cast<int>(std::lround(part * (shades - 1)))};
+}
 } // namespace
 
 ActuatorRow::ActuatorRow(const EditorModel& project, const Actuators& profiles, const ViewState& sight)
@@ -367,81 +404,57 @@ void ActuatorRow::paintLosses(juce::Graphics& g, juce::Rectangle<int> plot)
     const bool sized =
         losses.isValid() && losses.getWidth() == plot.getWidth() && losses.getHeight() == plot.getHeight();
     if (!sized || lossStale || axis != lossAxis || dark != lossDark)
-    {
-        const Palette& p = paletteFor(*this);
-        if (!sized)
-            losses = juce::Image(juce::Image::RGB, plot.getWidth(), plot.getHeight(), false, juce::SoftwareImageType());
-        lossAxis = axis;
-        lossDark = dark;
-        lossStale = false;
-        const auto pixel = [](juce::Colour colour)
-        {
-            juce::PixelRGB result;
-            result.setARGB(255, colour.getRed(), colour.getGreen(), colour.getBlue());
-            return result;
-        };
-        const juce::PixelRGB ground = pixel(p.well), gap = pixel(p.card);
-        std::array<juce::PixelRGB, 6> lost;
-        for (std::size_t i = 0; i < lost.size(); ++i)
-            lost[i] = pixel(lossColour(static_cast<Loss>(i), p, dark));
-        std::vector<std::size_t> rowOf(static_cast<std::size_t>(plot.getHeight()));
-        for (std::size_t y = 0; y < rowOf.size(); ++y)
-            rowOf[y] = sourceAt(static_cast<double>(y) + 0.5);
-        juce::Image::BitmapData pixels(losses, juce::Image::BitmapData::writeOnly);
-        std::vector<juce::PixelRGB> line(static_cast<std::size_t>(plot.getWidth()));
-        for (std::size_t y = 0; y < rowOf.size(); ++y)
-        {
-            if (y > 0 && rowOf[y] == rowOf[y - 1] && y + 1 < rowOf.size() && rowOf[y + 1] != rowOf[y])
-                std::fill(line.begin(), line.end(), gap);
-            else if (y == 0 || rowOf[y] != rowOf[y - 1])
-            {
-                const auto& source = shown->sources[rowOf[y]];
-                const juce::Colour colour = laneColour(*clip, source.lane, p, dark);
-                std::array<juce::PixelRGB, shades> played;
-                for (int k = 0; k < shades; ++k)
-                    played[static_cast<std::size_t>(k)] =
-                        pixel(p.well.interpolatedWith(colour, 0.2f + 0.8f * static_cast<float>(k) / (shades - 1)));
-                const auto steps = static_cast<double>(source.levels.size());
-                for (int x = 0; x < plot.getWidth(); ++x)
-                {
-                    const double from = axis.timeAt(x) / ActuatorTrace::step;
-                    const double to = std::max(from + 1.0, axis.timeAt(x + 1.0) / ActuatorTrace::step);
-                    auto& out = line[static_cast<std::size_t>(x)];
-                    out = ground;
-                    if (from < 0.0 || from >= steps)
-                        continue;
-                    const auto first = static_cast<std::size_t>(from);
-                    const auto last = static_cast<std::size_t>(std::min(to, steps));
-                    const std::size_t stride = std::max<std::size_t>(1, (last - first) / stepsPerPixel);
-                    std::array<int, 6> votes{};
-                    float most = ActuatorTrace::silent;
-                    int silent = 0;
-                    for (std::size_t i = first; i < last; i += stride)
-                    {
-                        const Loss loss = source.losses[i];
-                        if (loss == Loss::none && source.levels[i] <= ActuatorTrace::silent)
-                            ++silent;
-                        else
-                            ++votes[static_cast<std::size_t>(loss)];
-                        most = std::max(most, source.levels[i]);
-                    }
-                    const auto winner = std::max_element(votes.begin(), votes.end());
-                    if (*winner == 0 || *winner < silent)
-                        continue;
-                    if (winner != votes.begin())
-                        out = lost[static_cast<std::size_t>(winner - votes.begin())];
-                    else
-                    {
-                        const double part = std::clamp(1.0 - static_cast<double>(most) / shown->touch, 0.0, 1.0);
-                        out = played[static_cast<std::size_t>(std::lround(part * (shades - 1)))];
-                    }
-                }
-            }
-            std::copy(line.begin(), line.end(),
-                      reinterpret_cast<juce::PixelRGB*>(pixels.getLinePointer(static_cast<int>(y))));
-        }
-    }
+        drawLosses(*clip, plot, axis, dark);
     g.drawImageAt(losses, plot.getX(), plot.getY());
+}
+
+void ActuatorRow::drawLosses(const Clip& clip, juce::Rectangle<int> plot, const TimeAxis& axis, bool dark)
+{
+    const Palette& p = paletteFor(*this);
+    if (losses.getWidth() != plot.getWidth() || losses.getHeight() != plot.getHeight())
+        losses = juce::Image(juce::Image::RGB, plot.getWidth(), plot.getHeight(), false, juce::SoftwareImageType());
+    lossAxis = axis;
+    lossDark = dark;
+    lossStale = false;
+    const auto pixel = [](juce::Colour colour)
+    {
+        juce::PixelRGB result;
+        result.setARGB(255, colour.getRed(), colour.getGreen(), colour.getBlue());
+        return result;
+    };
+    const juce::PixelRGB ground = pixel(p.well), gap = pixel(p.card);
+    std::array<juce::PixelRGB, 6> lost;
+    for (std::size_t i = 0; i < lost.size(); ++i)
+        lost[i] = pixel(lossColour(static_cast<Loss>(i), p, dark));
+    std::vector<std::size_t> rowOf(static_cast<std::size_t>(plot.getHeight()));
+    for (std::size_t y = 0; y < rowOf.size(); ++y)
+        rowOf[y] = sourceAt(static_cast<double>(y) + 0.5);
+    juce::Image::BitmapData pixels(losses, juce::Image::BitmapData::writeOnly);
+    std::vector<juce::PixelRGB> line(static_cast<std::size_t>(plot.getWidth()));
+    for (std::size_t y = 0; y < rowOf.size(); ++y)
+    {
+        if (y > 0 && rowOf[y] == rowOf[y - 1] && y + 1 < rowOf.size() && rowOf[y + 1] != rowOf[y])
+            std::fill(line.begin(), line.end(), gap);
+        else if (y == 0 || rowOf[y] != rowOf[y - 1])
+        {
+            const auto& source = shown->sources[rowOf[y]];
+            const juce::Colour colour = laneColour(clip, source.lane, p, dark);
+            std::array<juce::PixelRGB, shades> played;
+            for (int k = 0; k < shades; ++k)
+                played[static_cast<std::size_t>(k)] =
+                    pixel(p.well.interpolatedWith(colour, 0.2f + 0.8f * static_cast<float>(k) / (shades - 1)));
+            for (int x = 0; x < plot.getWidth(); ++x)
+            {
+                const auto shade = shadeOf(source, axis.timeAt(x), axis.timeAt(x + 1.0), shown->touch);
+                line[static_cast<std::size_t>(x)] = !shade ? ground
+                                                    : shade->loss != Loss::none
+                                                        ? lost[static_cast<std::size_t>(shade->loss)]
+                                                        : played[static_cast<std::size_t>(shade->step)];
+            }
+        }
+        std::copy(line.begin(), line.end(),
+                  reinterpret_cast<juce::PixelRGB*>(pixels.getLinePointer(static_cast<int>(y))));
+    }
 }
 
 std::vector<Command> ActuatorRow::contextCommands() const

@@ -58,6 +58,7 @@ private:
     void paintHead(juce::Graphics& g);
     void paintDrive(juce::Graphics& g, juce::Rectangle<int> plot);
     void paintLosses(juce::Graphics& g, juce::Rectangle<int> plot);
+    void drawLosses(const Clip& clip, juce::Rectangle<int> plot, const TimeAxis& axis, bool dark);
 
     const EditorModel& model;
     const Actuators& actuators;

@@ -175,48 +175,67 @@ void CurveLane::paintPlot(juce::Graphics& g, juce::Rectangle<int> plot, int firs
     if (points == nullptr || points->empty())
         return;
     const juce::Colour colour = muted ? p.dim.withAlpha(0.5f) : style().colour;
-    const ValueAxis values = scale();
     const bool filled = !isFrequency(shown.kind);
-    TimeAxis axis = viewState.axis();
+    const TimeAxis& axis = viewState.axis();
     const auto [first, last] =
         reaching(*points, {axis.timeAt(firstColumn - 8.0), axis.timeAt(static_cast<double>(lastColumn) + 8.0)});
     // By the whole view, so that every part of it is drawn alike.
     const double width = viewState.viewWidth();
-    const auto [firstSeen, lastSeen] = reaching(*points, viewState.axis().visible(width));
+    const auto [firstSeen, lastSeen] = reaching(*points, axis.visible(width));
     const bool bars = static_cast<double>(lastSeen - firstSeen) > maxPointsPerColumn * width;
     if (bars || filled)
-    {
-        // Bars of whole pixels are many times faster than filled paths.
-        std::vector<Column> columns(static_cast<std::size_t>(std::max(0, lastColumn - firstColumn)));
-        axis.start = axis.timeAt(firstColumn);
-        curveColumns(*points, axis, columns);
-        const int bottom = plot.getBottom();
-        const juce::Colour fill = colour.withMultipliedAlpha(bars ? 0.35f : 0.18f);
-        const auto yOf = [&](float value)
-        {
-            const double y = std::clamp(values.yOf(static_cast<double>(value)), 0.0, values.height);
-            return plot.getY() + juce::roundToInt(y);
-        };
-        ColumnFill line(g, colour), ground(g, fill); // the line is drawn last
-        for (std::size_t i = 0; i < columns.size(); ++i)
-        {
-            const int x = plot.getX() + firstColumn + static_cast<int>(i);
-            const int top = yOf(columns[i].high);
-            const int low = bars ? yOf(columns[i].low) : top;
-            if (filled)
-                ground.add(x, low, bottom - low);
-            if (bars)
-                line.add(x, top, std::max(2, low - top));
-        }
-    }
-    drewHandles = false;
+        paintColumns(g, plot, firstColumn, lastColumn, colour, bars);
+    drewHandles = !bars && showsHandles();
     if (bars)
         return;
+    g.setColour(colour);
+    paintLine(g, plot, firstColumn, lastColumn, {first, last});
+    if (drewHandles)
+        paintHandles(g, {first, last}, colour);
+}
+
+/// The area under the curve as a bar in each column; with `bars` also the curve, whose points are too many for lines.
+void CurveLane::paintColumns(juce::Graphics& g, juce::Rectangle<int> plot, int firstColumn, int lastColumn,
+                             juce::Colour colour, bool bars)
+{
+    const ValueAxis values = scale();
+    const bool filled = !isFrequency(shown.kind);
+    // Bars of whole pixels are many times faster than filled paths.
+    std::vector<Column> columns(static_cast<std::size_t>(std::max(0, lastColumn - firstColumn)));
+    TimeAxis axis = viewState.axis();
+    axis.start = axis.timeAt(firstColumn);
+    curveColumns(*curve(), axis, columns);
+    const int bottom = plot.getBottom();
+    const juce::Colour fill = colour.withMultipliedAlpha(bars ? 0.35f : 0.18f);
+    const auto yOf = [&](float value)
+    {
+        const double y = std::clamp(values.yOf(static_cast<double>(value)), 0.0, values.height);
+        return plot.getY() + juce::roundToInt(y);
+    };
+    ColumnFill line(g, colour), ground(g, fill); // the line is drawn last
+    for (std::size_t i = 0; i < columns.size(); ++i)
+    {
+        const int x = plot.getX() + firstColumn + static_cast<int>(i);
+        const int top = yOf(columns[i].high);
+        const int low = bars ? yOf(columns[i].low) : top;
+        if (filled)
+            ground.add(x, low, bottom - low);
+        if (bars)
+            line.add(x, top, std::max(2, low - top));
+    }
+}
+
+/// The curve through the points of `range` in the colour that is set.
+void CurveLane::paintLine(juce::Graphics& g, juce::Rectangle<int> plot, int firstColumn, int lastColumn,
+                          std::pair<std::size_t, std::size_t> range)
+{
+    const Curve& points = *curve();
+    const ValueAxis values = scale();
+    const auto [first, last] = range;
     const auto at = [&](std::size_t i)
     {
-        return pointOf((*points)[i]);
+        return pointOf(points[i]);
     };
-    g.setColour(colour);
     const auto line = [&](juce::Point<float> from, juce::Point<float> to)
     {
         g.drawLine({from, to}, 1.5f);
@@ -227,7 +246,7 @@ void CurveLane::paintPlot(juce::Graphics& g, juce::Rectangle<int> plot, int firs
     const auto pointAtX = [&](float x)
     {
         const double time = viewState.axis().timeAt(static_cast<double>(x) - plot.getX());
-        return juce::Point<float>(x, pointOf({time, valueAt(*points, time)}).y);
+        return juce::Point<float>(x, pointOf({time, valueAt(points, time)}).y);
     };
     if (first == 0 && at(0).x > left)
         line({left, at(0).y}, at(0));
@@ -253,17 +272,19 @@ void CurveLane::paintPlot(juce::Graphics& g, juce::Rectangle<int> plot, int firs
                 break;
         }
     }
-    if (last == points->size() && at(last - 1).x < right)
+    if (last == points.size() && at(last - 1).x < right)
         line(at(last - 1), {right, at(last - 1).y});
-    drewHandles = showsHandles();
-    if (!drewHandles)
-        return;
+}
+
+void CurveLane::paintHandles(juce::Graphics& g, std::pair<std::size_t, std::size_t> range, juce::Colour colour)
+{
+    const Palette& p = paletteFor(*this);
     const Indices chosen = picked();
-    for (std::size_t i = first; i < last; ++i)
+    for (std::size_t i = range.first; i < range.second; ++i)
     {
         const bool isChosen = std::binary_search(chosen.begin(), chosen.end(), i);
         const float size = isChosen ? 8.0f : 5.0f;
-        const auto box = juce::Rectangle<float>(size, size).withCentre(at(i));
+        const auto box = juce::Rectangle<float>(size, size).withCentre(pointOf((*curve())[i]));
         g.setColour(isChosen ? p.text : colour);
         g.fillRect(box);
         if (isChosen)

@@ -6,6 +6,9 @@
 #include "document/DrawnCurve.h"
 #include "editor/clip/lanes/PlotLane.h"
 
+#include <cstddef>
+#include <utility>
+
 namespace pacini::editor
 {
 
@@ -28,6 +31,11 @@ private:
     Style style() const override;
     ValueAxis valueAxis(double height) const override;
     void paintPlot(juce::Graphics& g, juce::Rectangle<int> plot, int firstColumn, int lastColumn) override;
+    void paintColumns(juce::Graphics& g, juce::Rectangle<int> plot, int firstColumn, int lastColumn,
+                      juce::Colour colour, bool bars);
+    void paintLine(juce::Graphics& g, juce::Rectangle<int> plot, int firstColumn, int lastColumn,
+                   std::pair<std::size_t, std::size_t> range);
+    void paintHandles(juce::Graphics& g, std::pair<std::size_t, std::size_t> range, juce::Colour colour);
     std::optional<std::size_t> thingAt(juce::Point<float> place) const override;
     std::size_t count() const override;
     Breakpoint place(std::size_t thing) const override;
