@@ -176,12 +176,6 @@ std::string printable(std::string_view text)
     return shown;
 }
 
-std::string decimalText(double value, int decimals)
-{
-    const std::string text = fmt::format("{:.{}f}", value, decimals);
-    return text.find_first_of("123456789") == std::string::npos && text.starts_with('-') ? text.substr(1) : text;
-}
-
 std::string signedText(double value, int decimals)
 {
     const std::string text = decimalText(value, decimals);

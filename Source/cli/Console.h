@@ -5,6 +5,7 @@
 
 #include "cli/JsonReport.h"
 
+#include <pacini/foundation/NumberText.h>
 #include <pacini/foundation/Result.h>
 
 #include <filesystem>
@@ -105,10 +106,7 @@ private:
 /// `text` on one line of a terminal: control characters, which a file's name may hold, as \n or \x1b.
 [[nodiscard]] std::string printable(std::string_view text);
 
-/// `value` with so many decimals; what rounds to zero has no sign, so never "-0.0".
-[[nodiscard]] std::string decimalText(double value, int decimals);
-
-/// The same with a plus before what is above zero: a difference.
+/// decimalText() with a plus before what is above zero: a difference.
 [[nodiscard]] std::string signedText(double value, int decimals);
 
 /// A size such as "412 B" or "1.3 kB".

@@ -5,11 +5,10 @@
 
 #include <pacini/clip/Clip.h>
 #include <pacini/clip/PackedText.h>
+#include <pacini/foundation/NumberText.h>
 #include <pacini/foundation/ParseNumber.h>
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -80,11 +79,7 @@ inline std::string parameterText(const std::vector<EncoderParameter>& parameters
     {
         const std::string name = escaped(parameter.name);
         if (const auto* number = std::get_if<double>(&parameter.value))
-        {
-            std::array<char, 40> digits{};
-            const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), *number).ptr;
-            text += "n" + name + "=" + std::string(digits.data(), end);
-        }
+            text += "n" + name + "=" + numberText(*number);
         else if (const auto* words = std::get_if<std::string>(&parameter.value))
             text += "s" + name + "=" + escaped(*words);
         else

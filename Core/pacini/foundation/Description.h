@@ -6,6 +6,7 @@
 // projects, the editor, records in clips, the JSON schema and the tables of the documentation are made from it; ranges,
 // defaults and sentences are written nowhere else.
 
+#include <pacini/foundation/NumberText.h>
 #include <pacini/foundation/Result.h>
 
 #include <array>
@@ -275,14 +276,6 @@ template <typename Table>
     return "--" + separatedName(parameter.option.empty() ? parameter.name : parameter.option, '-');
 }
 
-/// The shortest decimal text of a number, without an exponent.
-[[nodiscard]] inline std::string plainNumber(double value)
-{
-    std::array<char, 400> text;
-    const auto end = std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed).ptr;
-    return {text.data(), end};
-}
-
 /// "1 to 1700 Hz", "log or linear", "true or false".
 [[nodiscard]] inline std::string allowedText(const ParameterInfo& parameter)
 {
@@ -295,7 +288,8 @@ template <typename Table>
             names.append(names.empty() ? "" : &name == &parameter.choices.back() ? " or " : ", ").append(name);
         return names;
     }
-    std::string text = plainNumber(parameter.range.lowest) + " to " + plainNumber(parameter.range.highest);
+    std::string text = numberText(parameter.range.lowest, std::chars_format::fixed) + " to " +
+                       numberText(parameter.range.highest, std::chars_format::fixed);
     if (!parameter.unit.empty())
         text.append(" ").append(parameter.unit);
     return text;
@@ -310,7 +304,7 @@ template <typename Table>
         return value != 0.0 ? "true" : "false";
     if (parameter.kind == ParameterKind::choice)
         return std::string(parameter.choices[static_cast<std::size_t>(value)]);
-    return plainNumber(value);
+    return numberText(value, std::chars_format::fixed);
 }
 
 /// Errors: invalidArgument at the parameter's name for a value that is not allowed.

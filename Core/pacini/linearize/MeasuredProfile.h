@@ -3,12 +3,12 @@
 // Profile update from a measurement: its findings, its equalizer and its proof, each with where it comes from.
 
 #include <pacini/actuator/Profile.h>
+#include <pacini/foundation/NumberText.h>
 #include <pacini/linearize/EqualizerFit.h>
 #include <pacini/linearize/MeasurementFindings.h>
 #include <pacini/linearize/Verification.h>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <string>
 #include <string_view>
@@ -19,20 +19,24 @@ namespace pacini
 
 namespace detail
 {
-/// printf's %.*g (general) or %.*f (fixed), whatever the locale.
-[[nodiscard]] inline std::string numberText(double value, std::chars_format format, int digits)
-{
-    std::array<char, 400> text; // 309 digits and the decimals
-    const auto end = std::to_chars(text.data(), text.data() + text.size(), value, format, digits).ptr;
-    return {text.data(), end};
-}
-
 inline void sortSources(Profile& profile)
 {
     std::sort(profile.sources.begin(), profile.sources.end(),
               [](const ProfileSource& a, const ProfileSource& b) { return a.path < b.path; });
 }
 } // namespace detail
+
+/// The response that a profile's measurement holds.
+[[nodiscard]] inline FrequencyResponse measuredResponse(const ProfileMeasurement& measurement)
+{
+    FrequencyResponse response;
+    for (const MeasuredPoint& point : measurement.points)
+    {
+        response.frequency.push_back(point.frequency);
+        response.level.push_back(point.level);
+    }
+    return response;
+}
 
 /// Puts what was measured in the place of what the profile said. `response` is the average of all placements,
 /// `placements` their number and `drive` the level of the loudest sweep, dB re full drive. Equalizer and body go: they
@@ -71,7 +75,7 @@ inline void setMeasurement(Profile& profile, const FrequencyResponse& response, 
                path.starts_with("equalizer") || path.starts_with("body");
     };
     std::erase_if(profile.sources, measuredNow);
-    const std::string how = "measured with swept sines at " + detail::numberText(drive, std::chars_format::general, 3) +
+    const std::string how = "measured with swept sines at " + numberText(drive, std::chars_format::general, 3) +
                             " dB, " + std::to_string(profile.measurement->placements) + " placement" +
                             (profile.measurement->placements == 1 ? "" : "s");
     profile.sources.push_back({"resonance", how + ", as it is worn"});
@@ -95,13 +99,9 @@ inline void setEqualizer(Profile& profile, const EqualizerFit& fit, const std::s
             point.linearised.reset();
     }
     std::erase_if(profile.sources, [](const ProfileSource& source) { return source.path.starts_with("equalizer"); });
-    const auto fixed = [](double value, int digits)
-    {
-        return detail::numberText(value, std::chars_format::fixed, digits);
-    };
-    profile.sources.push_back({"equalizer", "fitted to " + fittedTo + " at " + fixed(rate, 0) +
-                                                " Hz: " + fixed(fit.rms, 2) + " dB RMS, " + fixed(fit.max, 2) +
-                                                " dB at most from its mean"});
+    profile.sources.push_back({"equalizer", "fitted to " + fittedTo + " at " + decimalText(rate, 0) +
+                                                " Hz: " + decimalText(fit.rms, 2) + " dB RMS, " +
+                                                decimalText(fit.max, 2) + " dB at most from its mean"});
     detail::sortSources(profile);
 }
 

@@ -2,6 +2,7 @@
 
 // The way from a scene to samples: adjusted, planned, played part by part.
 
+#include <pacini/foundation/NumberText.h>
 #include <pacini/foundation/Result.h>
 #include <pacini/foundation/SizeInMemory.h>
 #include <pacini/foundation/Units.h>
@@ -13,7 +14,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -54,19 +54,6 @@ public:
 
 namespace detail
 {
-inline std::string numberText(double value)
-{
-    std::array<char, 40> digits{};
-    return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr};
-}
-
-inline std::string numberText(double value, int decimals)
-{
-    std::array<char, 400> digits{};
-    return {digits.data(),
-            std::to_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::fixed, decimals).ptr};
-}
-
 /// Energies of a signal and of its difference from another, over all channels.
 class SignalError
 {
@@ -129,7 +116,7 @@ inline Result<RenderPart> renderPart(const RenderParams& params, std::uint64_t t
         return Error{ErrorCode::invalidArgument, "",
                      "has nothing from " + numberText(params.from) + " s on" +
                          (params.to ? " to " + numberText(*params.to) + " s" : "") + "; it lasts " +
-                         numberText(static_cast<double>(total) / fs, 3) + " s"};
+                         decimalText(static_cast<double>(total) / fs, 3) + " s"};
     return part;
 }
 } // namespace detail
@@ -147,7 +134,7 @@ inline Result<RenderPart> renderPart(const RenderParams& params, std::uint64_t t
     }
     if (length > limits::duration)
         return Error{ErrorCode::tooLarge, "",
-                     "would last " + detail::numberText(length / 3600.0, 1) + " hours, at most 24 are written"};
+                     "would last " + decimalText(length / 3600.0, 1) + " hours, at most 24 are written"};
     return compilePlan(scene, profile, params.compile);
 }
 

@@ -2,6 +2,8 @@
 
 #include "io/TableText.h"
 
+#include <pacini/foundation/NumberText.h>
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -22,11 +24,7 @@ std::string escaped(std::string_view text)
 /// To a hundredth, without needless zeros.
 std::string number(double value)
 {
-    std::string text = fmt::format("{:.2f}", std::isfinite(value) ? value : 0.0);
-    text.erase(text.find_last_not_of('0') + 1);
-    if (text.back() == '.')
-        text.pop_back();
-    return text == "-0" ? "0" : text;
+    return shortDecimalText(std::isfinite(value) ? value : 0.0, 2);
 }
 
 std::string colour(std::string_view attribute, const Colour& c)

@@ -18,13 +18,6 @@ void prepareSlider(juce::Slider& slider, double least, double most, double step,
     slider.setTextValueSuffix(unit.isEmpty() ? unit : " " + unit);
 }
 
-juce::String numberText(double value, int decimals)
-{
-    const juce::String text =
-        decimals > 0 ? juce::String(value, decimals) : juce::String(static_cast<juce::int64>(std::llround(value)));
-    return text.containsAnyOf("123456789") ? text : text.trimCharactersAtStart("-"); // no -0.0
-}
-
 juce::String signedText(double value, int decimals)
 {
     const juce::String text = numberText(value, decimals);

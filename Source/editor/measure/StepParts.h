@@ -57,9 +57,6 @@ private:
 void prepareSlider(juce::Slider& slider, double least, double most, double step, const juce::String& unit,
                    int decimals);
 
-/// A rounded number; with no decimals JUCE would show all there are.
-[[nodiscard]] juce::String numberText(double value, int decimals);
-
 /// The same with its sign, for what is a change.
 [[nodiscard]] juce::String signedText(double value, int decimals);
 

@@ -46,18 +46,6 @@ std::string importedName(std::string_view name)
     return std::string(name.substr(0, bytes));
 }
 
-std::string decimal(double value, int decimals)
-{
-    std::string text = fmt::format("{:.{}f}", value, decimals);
-    if (text.find('.') != std::string::npos)
-    {
-        text.erase(text.find_last_not_of('0') + 1);
-        if (text.back() == '.')
-            text.pop_back();
-    }
-    return text == "-0" ? "0" : text;
-}
-
 std::string identifierOf(std::string_view text)
 {
     std::string name;

@@ -48,9 +48,6 @@ template <typename Read>
 /// `name` as that of a clip: whole characters up to half of what all its texts may have.
 [[nodiscard]] std::string importedName(std::string_view name);
 
-/// `value` in decimal, rounded to `decimals` digits after the point, without needless zeros; never `-0`.
-[[nodiscard]] std::string decimal(double value, int decimals);
-
 /// A name for code made of `text`: letters, digits and underscores in snake case, not starting with a digit; `clip`
 /// when nothing is left.
 [[nodiscard]] std::string identifierOf(std::string_view text);

@@ -2,6 +2,7 @@
 
 #include "io/formats/ForeignText.h"
 
+#include <pacini/foundation/NumberText.h>
 #include <pacini/simplify/HatBasis.h>
 #include <pacini/synthesis/SingleVoice.h>
 
@@ -29,7 +30,7 @@ double largestValue(const Curve& curve)
 
 std::string cutMessage(double most)
 {
-    return fmt::format("amplitudes above {} are clipped", decimal(most, 3));
+    return fmt::format("amplitudes above {} are clipped", shortDecimalText(most, 3));
 }
 } // namespace
 
@@ -58,10 +59,10 @@ void LossList::addNoise(const Clip& clip, const std::string& message)
 {
     for (const NoiseBand& band : clip.noise)
     {
-        LossTrack track(LossKind::noise,
-                        !message.empty() ? message
-                                         : fmt::format("noise from {} to {} Hz is left out",
-                                                       decimal(band.lowFrequency, 0), decimal(band.highFrequency, 0)));
+        LossTrack track(LossKind::noise, !message.empty() ? message
+                                                          : fmt::format("noise from {} to {} Hz is left out",
+                                                                        shortDecimalText(band.lowFrequency, 0),
+                                                                        shortDecimalText(band.highFrequency, 0)));
         const Curve curve = detail::overWholeTime(band.amplitude, clip.duration);
         for (std::size_t i = 1; i < curve.size(); ++i)
         {
@@ -124,7 +125,8 @@ void LossList::addOmitted(const std::vector<Transient>& events, const std::vecto
 
 void LossList::addCrowding(const std::vector<Transient>& events, double gap)
 {
-    LossTrack track(LossKind::crowding, fmt::format("events less than {} ms apart overlap", decimal(1000.0 * gap, 1)));
+    LossTrack track(LossKind::crowding,
+                    fmt::format("events less than {} ms apart overlap", shortDecimalText(1000.0 * gap, 1)));
     for (std::size_t i = 1; i < events.size(); ++i)
         track.add(events[i].time, events[i].time - events[i - 1].time < gap ? events[i].amplitude : 0.0);
     append(track);

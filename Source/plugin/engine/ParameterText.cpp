@@ -2,12 +2,11 @@
 #include "plugin/engine/ParameterText.h"
 
 #include <pacini/foundation/Clamp.h>
+#include <pacini/foundation/NumberText.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <locale>
-#include <sstream>
 
 namespace pacini::plugin
 {
@@ -22,17 +21,11 @@ double bend(const ParameterRow& row) noexcept
     return std::log(0.5) / std::log((row.centre - row.low) / (row.high - row.low));
 }
 
-/// Text with a fixed number of decimals, and none for a sign of zero.
+/// Text with a fixed number of decimals; halves are rounded away from zero.
 std::string decimals(double value, int count)
 {
     const double unit = std::pow(10.0, count);
-    const double rounded = std::round(value * unit) / unit;
-    std::ostringstream out;
-    out.imbue(std::locale::classic());
-    out.setf(std::ios::fixed);
-    out.precision(count);
-    out << (rounded == 0.0 ? 0.0 : rounded);
-    return out.str();
+    return decimalText(std::round(value * unit) / unit, count);
 }
 
 std::string lowerCase(std::string_view text)

@@ -2,6 +2,7 @@
 #include "editor/clip/lanes/TimeRuler.h"
 
 #include "document/view/TimeTicks.h"
+#include "editor/Text.h"
 #include "editor/Theme.h"
 #include "editor/clip/lanes/PlotLane.h"
 #include "editor/clip/session/Snapping.h"
@@ -19,14 +20,10 @@ constexpr float edgeReach = 6.0f; // pixels
 juce::String timeText(double time, double step)
 {
     const int decimals = step >= 1.0 ? 0 : static_cast<int>(std::ceil(-std::log10(step) - 1e-9));
-    const auto number = [decimals](double value)
-    {
-        return decimals > 0 ? juce::String(value, decimals) : juce::String(juce::roundToInt(value));
-    };
     if (time < 60.0)
-        return number(time) + " s";
+        return numberText(time, decimals) + " s";
     const int minutes = static_cast<int>(time / 60.0 + 1e-9);
-    const auto seconds = number(std::max(0.0, time - 60.0 * minutes));
+    const auto seconds = numberText(std::max(0.0, time - 60.0 * minutes), decimals);
     return juce::String(minutes) + ":" + (seconds.indexOfChar('.') == 1 || seconds.length() == 1 ? "0" : "") + seconds;
 }
 } // namespace

@@ -24,11 +24,6 @@ constexpr int operationLabelWidth = 11 * grid;
 constexpr int numberWidth = 10 * grid;
 constexpr int unitWidth = 14 * grid;
 constexpr std::size_t quickPoints = 20000; // of an edit on the message thread
-
-juce::String numberText(double value, int decimals)
-{
-    return decimals > 0 ? juce::String(value, decimals) : juce::String(juce::roundToInt(value));
-}
 } // namespace
 
 /// A name, a slider, a number and its unit with the range; or a name and choices.

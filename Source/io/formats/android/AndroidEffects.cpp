@@ -6,6 +6,7 @@
 #include "io/formats/android/AndroidWaveform.h"
 #include "io/formats/android/EnvelopeFit.h"
 
+#include <pacini/foundation/NumberText.h>
 #include <pacini/synthesis/TransientPulse.h>
 
 #include <fmt/format.h>
@@ -184,8 +185,8 @@ AndroidEnvelope basicOf(AndroidEnvelope envelope, const ExportParams& params, do
         point.frequency = sharpnessOf(point.frequency);
     if (bent > 1e-9)
         losses.add(LossKind::frequency, 0.0, duration, bent,
-                   fmt::format("basic envelope: frequencies are limited to {} to {} Hz", decimal(range.low, 0),
-                               decimal(range.high, 0)));
+                   fmt::format("basic envelope: frequencies are limited to {} to {} Hz", shortDecimalText(range.low, 0),
+                               shortDecimalText(range.high, 0)));
     return envelope;
 }
 

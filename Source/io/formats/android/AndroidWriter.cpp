@@ -2,6 +2,8 @@
 #include "io/formats/android/AndroidEffects.h"
 #include "io/formats/android/AndroidFormat.h"
 
+#include <pacini/foundation/NumberText.h>
+
 #include <fmt/format.h>
 
 #include <utility>
@@ -24,7 +26,8 @@ std::string jsonPoints(const std::vector<AndroidPoint>& points, const char* leve
     std::string text;
     for (const AndroidPoint& point : points)
         text += fmt::format("{}\n      {{\"{}\": {}, \"{}\": {}, \"durationMs\": {}}}", text.empty() ? "" : ",", level,
-                            decimal(point.amplitude, 4), frequency, decimal(point.frequency, 4), point.duration);
+                            shortDecimalText(point.amplitude, 4), frequency, shortDecimalText(point.frequency, 4),
+                            point.duration);
     return text;
 }
 
@@ -37,10 +40,11 @@ std::string xmlDocument(const std::string& effect)
 std::string xmlEnvelope(const AndroidEnvelope& envelope, const char* tag, const char* initial, const char* level,
                         const char* frequency)
 {
-    std::string text = fmt::format("  <{} {}=\"{}\">\n", tag, initial, decimal(envelope.initialFrequency, 4));
+    std::string text = fmt::format("  <{} {}=\"{}\">\n", tag, initial, shortDecimalText(envelope.initialFrequency, 4));
     for (const AndroidPoint& point : envelope.points)
         text += fmt::format("    <control-point {}=\"{}\" {}=\"{}\" durationMs=\"{}\"/>\n", level,
-                            decimal(point.amplitude, 4), frequency, decimal(point.frequency, 4), point.duration);
+                            shortDecimalText(point.amplitude, 4), frequency, shortDecimalText(point.frequency, 4),
+                            point.duration);
     return text + fmt::format("  </{}>\n", tag);
 }
 
@@ -66,8 +70,8 @@ std::string builderCalls(const std::vector<AndroidPoint>& points)
 {
     std::string text;
     for (const AndroidPoint& point : points)
-        text += fmt::format("            .addControlPoint({}f, {}f, {})\n", decimal(point.amplitude, 4),
-                            decimal(point.frequency, 4), point.duration);
+        text += fmt::format("            .addControlPoint({}f, {}f, {})\n", shortDecimalText(point.amplitude, 4),
+                            shortDecimalText(point.frequency, 4), point.duration);
     return text;
 }
 
@@ -89,9 +93,8 @@ Result<ExportedClip> writeAndroidJson(const Clip& clip, const ExportParams& para
     if (!made)
         return made.error();
     const AndroidEffects& effects = made->effects;
-    return oneFile(
-        fmt::format(
-            R"({{
+    return oneFile(fmt::format(
+                       R"({{
   "name": {},
   "waveform": {{
     "timings": [{}
@@ -112,11 +115,14 @@ Result<ExportedClip> writeAndroidJson(const Clip& clip, const ExportParams& para
   }}
 }}
 )",
-            inQuotes(nameOfClip(clip, params.name)), numbersOf(effects.waveform, "      ", &AndroidStep::duration),
-            numbersOf(effects.waveform, "      ", &AndroidStep::amplitude), decimal(effects.basic.initialFrequency, 4),
-            jsonPoints(effects.basic.points, "intensity", "sharpness"), decimal(effects.envelope.initialFrequency, 4),
-            jsonPoints(effects.envelope.points, "amplitude", "frequencyHz")),
-        std::move(made->losses));
+                       inQuotes(nameOfClip(clip, params.name)),
+                       numbersOf(effects.waveform, "      ", &AndroidStep::duration),
+                       numbersOf(effects.waveform, "      ", &AndroidStep::amplitude),
+                       shortDecimalText(effects.basic.initialFrequency, 4),
+                       jsonPoints(effects.basic.points, "intensity", "sharpness"),
+                       shortDecimalText(effects.envelope.initialFrequency, 4),
+                       jsonPoints(effects.envelope.points, "amplitude", "frequencyHz")),
+                   std::move(made->losses));
 }
 
 Result<ExportedClip> writeAndroidXml(const Clip& clip, const ExportParams& params)
@@ -178,7 +184,7 @@ fun {}(vibrator: Vibrator): VibrationEffect {{
     )
 }}
 )",
-                               functionName(clip, params), decimal(made->effects.envelope.initialFrequency, 4),
+                               functionName(clip, params), shortDecimalText(made->effects.envelope.initialFrequency, 4),
                                builderCalls(made->effects.envelope.points),
                                numbersOf(made->effects.waveform, "            ", &AndroidStep::duration),
                                numbersOf(made->effects.waveform, "            ", &AndroidStep::amplitude)),
@@ -215,7 +221,7 @@ public final class {} {{
     }}
 }}
 )",
-                               type, type, function, decimal(made->effects.envelope.initialFrequency, 4),
+                               type, type, function, shortDecimalText(made->effects.envelope.initialFrequency, 4),
                                builderCalls(made->effects.envelope.points),
                                numbersOf(made->effects.waveform, "                ", &AndroidStep::duration),
                                numbersOf(made->effects.waveform, "                ", &AndroidStep::amplitude)),

@@ -3,6 +3,8 @@
 #include "io/formats/VoiceReduction.h"
 #include "io/formats/haps/HapsFormat.h"
 
+#include <pacini/foundation/NumberText.h>
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -20,7 +22,7 @@ std::string keyframes(const Curve& curve, int digits)
     std::string text;
     for (const Breakpoint& point : curve)
         text += fmt::format("{}\n                  {{\"m_time\": {}, \"m_value\": {}}}", text.empty() ? "" : ",",
-                            decimal(point.time, timeDigits), decimal(point.value, digits));
+                            shortDecimalText(point.time, timeDigits), shortDecimalText(point.value, digits));
     return text;
 }
 
@@ -61,10 +63,11 @@ Result<ExportedClip> writeHaps(const Clip& clip, const ExportParams& params)
         losses.add(LossKind::event, event.time, 0.0, 0.0, "events have no sharpness");
         transients += fmt::format(R"({}
           {{"m_startingPoint": {}, "m_length": {}, "m_priority": 0, "m_gain": {}, "m_hapticEffect": {{"m_type": 0}}}})",
-                                  transients.empty() ? "" : ",", decimal(event.time, timeDigits), hapsTransientLength,
-                                  decimal(event.amplitude, levelDigits));
+                                  transients.empty() ? "" : ",", shortDecimalText(event.time, timeDigits),
+                                  hapsTransientLength, shortDecimalText(event.amplitude, levelDigits));
     }
-    const std::string note = fmt::format(R"(
+    const std::string note =
+        fmt::format(R"(
           {{
             "m_startingPoint": 0, "m_length": {}, "m_priority": 1, "m_gain": 1,
             "m_hapticEffect": {{
@@ -81,8 +84,8 @@ Result<ExportedClip> writeHaps(const Clip& clip, const ExportParams& params)
             }}
           }}
         )",
-                                         decimal(voice.duration, timeDigits), keyframes(voice.amplitude, levelDigits),
-                                         keyframes(voice.frequency, frequencyDigits));
+                    shortDecimalText(voice.duration, timeDigits), keyframes(voice.amplitude, levelDigits),
+                    keyframes(voice.frequency, frequencyDigits));
     const std::string melodies = melody(transients) + "," + melody(note) + "\n    ";
     return oneFile(fmt::format(R"({{
   "m_version": "5",

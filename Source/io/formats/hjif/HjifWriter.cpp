@@ -5,6 +5,7 @@
 #include "io/formats/hjif/HjifFormat.h"
 #include "io/formats/hjif/HjifVoices.h"
 
+#include <pacini/foundation/NumberText.h>
 #include <pacini/synthesis/VoiceMerge.h>
 
 #include <fmt/format.h>
@@ -40,7 +41,7 @@ std::int64_t tickOf(double time)
 /// An amplitude of 1 or less to within half a percent of itself: keyframes are many.
 std::string threeDigits(double amplitude)
 {
-    return decimal(amplitude, amplitude >= 0.1 ? 3 : amplitude >= 0.01 ? 4 : 5);
+    return shortDecimalText(amplitude, amplitude >= 0.1 ? 3 : amplitude >= 0.01 ? 4 : 5);
 }
 
 /// Puts a curve on the ticks. A step takes one tick, since a player divides by the distance of its keyframes.
@@ -128,8 +129,8 @@ public:
             R"("bands":[{}]}}]}}]}})"
             "\n",
             inQuotes(simple ? "Simple Parametric" : "Main"), simple ? 1 : 2, inQuotes(name), ticksPerSecond,
-            inQuotes(name), inQuotes(name), decimal(gain, 3), outputRate, std::llround(clip.duration * outputRate),
-            fmt::join(bands, ","));
+            inQuotes(name), inQuotes(name), shortDecimalText(gain, 3), outputRate,
+            std::llround(clip.duration * outputRate), fmt::join(bands, ","));
     }
 
     LossList losses;
@@ -214,8 +215,8 @@ private:
         if (pitch.size() > 1)
             keyframes[end].frequency = hertz(valueAt(pitch, sound.back().time));
         const double phase = 2.0 * std::numbers::pi * cyclesUntil(pitch, sound.front().time);
-        std::string text =
-            fmt::format(R"({{"effect_type":"Basis","position":{},"phase":{},"keyframes":[)", start, decimal(phase, 3));
+        std::string text = fmt::format(R"({{"effect_type":"Basis","position":{},"phase":{},"keyframes":[)", start,
+                                       shortDecimalText(phase, 3));
         const char* separator = "";
         for (const auto& [tick, keyframe] : keyframes)
         {

@@ -3,6 +3,8 @@
 #include "io/formats/openxr/OpenXrFormat.h"
 #include "io/formats/samples/DriveSamples.h"
 
+#include <pacini/foundation/NumberText.h>
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -29,7 +31,7 @@ struct OpenXrClip
 
 std::string number(double value)
 {
-    return decimal(value, 5);
+    return shortDecimalText(value, 5);
 }
 
 /// A number that C takes for a float.

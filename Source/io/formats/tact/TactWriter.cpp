@@ -3,6 +3,8 @@
 #include "io/formats/VoiceReduction.h"
 #include "io/formats/tact/TactFormat.h"
 
+#include <pacini/foundation/NumberText.h>
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -36,10 +38,10 @@ Result<ExportedClip> writeTact(const Clip& clip, const ExportParams& params)
         for (to = from + 1; to < count && levelAt(to) == levelAt(from);)
             ++to;
         if (levelAt(from) > 0.0)
-            feedback +=
-                fmt::format(R"({}
+            feedback += fmt::format(R"({}
                   {{"startTime": {}, "endTime": {}, "playbackType": "NONE", "pointList": [{{"index": 1, "intensity": {}}}]}})",
-                            feedback.empty() ? "" : ",", tactFrame * from, tactFrame * to, decimal(levelAt(from), 3));
+                                    feedback.empty() ? "" : ",", tactFrame * from, tactFrame * to,
+                                    shortDecimalText(levelAt(from), 3));
     }
     std::string modes, layouts;
     for (const char* position : positions)
@@ -83,7 +85,8 @@ Result<ExportedClip> writeTact(const Clip& clip, const ExportParams& params)
   "size": 20
 }}
 )",
-                               name, decimal(static_cast<double>(end) / 1000.0, 3), layouts, name, end, modes, end),
+                               name, shortDecimalText(static_cast<double>(end) / 1000.0, 3), layouts, name, end, modes,
+                               end),
                    std::move(losses));
 }
 
