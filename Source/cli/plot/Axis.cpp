@@ -1,5 +1,7 @@
 #include "cli/plot/Axis.h"
 
+#include <pacini/foundation/RoundStep.h>
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,12 +17,6 @@ namespace pacini::plot
 namespace
 {
 constexpr double slack = 1e-9; // share of a step by which a tick may miss the end of the range through rounding
-
-/// mantissa * 10^exponent, as close as a double comes.
-double decimal(double mantissa, int exponent)
-{
-    return exponent < 0 ? mantissa / std::pow(10.0, -exponent) : mantissa * std::pow(10.0, exponent);
-}
 
 std::string superscript(int number)
 {
@@ -39,24 +35,15 @@ std::string plain(double value, int decimals)
     return value < 0.0 ? "\u2212" + text : text;
 }
 
-struct Step
+RoundStep stepFor(double low, double high, int most)
 {
-    int mantissa = 1; ///< 1, 2 or 5
-    int exponent = 0;
-    [[nodiscard]] double size() const { return decimal(mantissa, exponent); }
-};
-
-Step stepFor(double low, double high, int most)
-{
-    const auto count = [&](const Step& step)
+    const auto count = [&](const RoundStep& step)
     {
         return std::floor(high / step.size() + slack) - std::ceil(low / step.size() - slack) + 1.0;
     };
-    Step step{1, static_cast<int>(std::floor(std::log10((high - low) / most))) - 1};
+    RoundStep step{1, static_cast<int>(std::floor(std::log10((high - low) / most))) - 1};
     while (count(step) > most)
-        step = step.mantissa == 1   ? Step{2, step.exponent}
-               : step.mantissa == 2 ? Step{5, step.exponent}
-                                    : Step{1, step.exponent + 1};
+        step = step.next();
     return step;
 }
 
@@ -80,13 +67,13 @@ double positionOn(const Axis& axis, double value) noexcept
 
 std::vector<Tick> linearTicks(double low, double high, int most)
 {
-    const Step step = stepFor(low, high, most);
+    const RoundStep step = stepFor(low, high, most);
     const double first = std::ceil(low / step.size() - slack);
     const double last = std::floor(high / step.size() + slack);
     std::vector<Tick> ticks;
     for (double i = 0.0; i <= last - first; i += 1.0)
     {
-        const double value = decimal((first + i) * step.mantissa, step.exponent);
+        const double value = timesPowerOfTen((first + i) * step.mantissa, step.exponent);
         ticks.push_back({value + 0.0, plain(value, -step.exponent)});
     }
     return ticks;
@@ -104,9 +91,9 @@ std::vector<Tick> logarithmicTicks(double low, double high, int most)
     int decades = 0;
     for (int decade = firstDecade; decade <= lastDecade + 1; ++decade)
     {
-        decades += inside(decimal(1, decade)) ? 1 : 0;
+        decades += inside(timesPowerOfTen(1, decade)) ? 1 : 0;
         for (const int mantissa : {1, 2, 5})
-            majors += inside(decimal(mantissa, decade)) ? 1 : 0;
+            majors += inside(timesPowerOfTen(mantissa, decade)) ? 1 : 0;
     }
     if (majors < 2)
         return linearTicks(low, high, most);
@@ -118,7 +105,7 @@ std::vector<Tick> logarithmicTicks(double low, double high, int most)
     for (int decade = firstDecade; decade <= lastDecade + 1; ++decade)
         for (int mantissa = 1; mantissa <= 9; ++mantissa)
         {
-            const double value = decimal(mantissa, decade);
+            const double value = timesPowerOfTen(mantissa, decade);
             if (!inside(value) || (stride > 1 && mantissa > 1))
                 continue;
             const bool labelled =

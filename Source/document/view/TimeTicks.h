@@ -3,6 +3,7 @@
 // Tick spacing of a time ruler.
 
 #include <pacini/clip/edits/RangeEdits.h>
+#include <pacini/foundation/RoundStep.h>
 
 #include <array>
 #include <cmath>
@@ -26,11 +27,7 @@ inline constexpr int partsOfTick = 5;
                 return step;
         return 3600.0 * std::ceil(least / 3600.0);
     }
-    const double power = std::pow(10.0, std::floor(std::log10(least)));
-    for (double factor : {1.0, 2.0, 5.0})
-        if (factor * power >= least * 0.999)
-            return factor * power;
-    return least > 20.0 && 10.0 * power >= 60.0 ? 60.0 : 10.0 * power;
+    return RoundStep::from(least).size();
 }
 
 /// All lines of a ruler.

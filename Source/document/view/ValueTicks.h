@@ -4,6 +4,7 @@
 
 #include "document/view/ValueAxis.h"
 
+#include <pacini/foundation/RoundStep.h>
 #include <pacini/foundation/Units.h>
 
 #include <algorithm>
@@ -55,16 +56,9 @@ namespace pacini
     const double span = axis.high - axis.low;
     if (!(span > 0.0))
         return ticks;
-    const double wanted = span * gap / axis.height;
-    const double power = std::pow(10.0, std::floor(std::log10(wanted)));
-    for (const double digit : {1.0, 2.0, 5.0, 10.0})
-        if (digit * power >= wanted * (1.0 - 1e-9))
-        {
-            const double step = digit * power;
-            for (double i = std::ceil(axis.low / step); i * step <= axis.high * (1.0 + 1e-12); i += 1.0)
-                add(i * step);
-            break;
-        }
+    const double step = RoundStep::from(span * gap / axis.height).size();
+    for (double i = std::ceil(axis.low / step); i * step <= axis.high * (1.0 + 1e-12); i += 1.0)
+        add(i * step);
     return ticks;
 }
 
