@@ -10,6 +10,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <concepts>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -71,6 +72,16 @@ template <typename Integer>
             return fmt::format("'{}' is none of {}{}", text, fmt::join(names, ", "), meant);
         },
         std::move(set));
+}
+
+/// One of the names of `choices`, with others before them.
+template <typename Choices>
+[[nodiscard]] CLI::Validator oneOf(const Choices& choices, std::same_as<const char*> auto... before)
+{
+    std::vector<std::string> names{before...};
+    for (const auto& choice : choices)
+        names.emplace_back(choice.name);
+    return oneOf(std::move(names));
 }
 
 /// Adds an option to `command`. Help texts show `valueName` for its value.

@@ -15,6 +15,7 @@
 #include "cli/Task.h"
 #include "cli/TaskRunner.h"
 #include "io/ClipFile.h"
+#include "io/Fields.h"
 #include "io/FileExtension.h"
 #include "io/ProfileJson.h"
 
@@ -25,6 +26,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
@@ -40,6 +42,8 @@ namespace
 {
 using RenderTask = Task<RenderResult>;
 
+constexpr std::array<Choice<SampleEncoding>, 3> encodings{
+    {{"float32", SampleEncoding::float32}, {"pcm24", SampleEncoding::pcm24}, {"pcm16", SampleEncoding::pcm16}}};
 constexpr double noticed = 0.5; // dB: a gain that was asked for and is reduced by more is worth a word
 
 nlohmann::ordered_json toJson(const RenderTask& task, const RenderSettings& settings, bool explain)
@@ -108,6 +112,21 @@ std::string clippingAdvice(double peak, double gain, const std::optional<FeltPar
     return fmt::format("--gain {:.1f} avoids it", gain - std::ceil(200.0 * std::log10(peak)) / 10.0);
 }
 
+/// Says where a task came out softer than it was asked for, or clipped.
+void tellLevel(Console& console, const RenderTask& task, const RenderSettings& settings)
+{
+    const double gain = settings.adjustment.gain;
+    const RenderResult& result = *task.result;
+    if (gain > 0.0 && result.reduction > noticed)
+        console.warning(task.input.string(), fmt::format("up to {:.1f} of the {:.1f} dB of --gain are taken away again "
+                                                         "to keep within what the actuator bears",
+                                                         std::min(result.reduction, gain), gain));
+    else if (result.clippedSamples > 0)
+        console.warning(task.input.string(),
+                        fmt::format("{} clipped; {}", counted(result.clippedSamples, "sample was", "samples were"),
+                                    clippingAdvice(result.peak, gain, settings.felt)));
+}
+
 /// `pacini render`: clips and scenes become drive signals, or what is felt of them.
 class RenderCommand : public Command
 {
@@ -119,6 +138,9 @@ private:
     /// The clips and scenes to render. Of a folder those of other programs only where no clip of Pacini's has the same
     /// name, which they are then an export of.
     [[nodiscard]] InputFiles findClips() const;
+
+    /// Reads the options; what is wrong with them is said, and anything but ok returned.
+    [[nodiscard]] Exit readSettings(Console& console, RenderSettings& settings) const;
 
     /// All options that change what is written.
     [[nodiscard]] std::string record() const;
@@ -160,8 +182,7 @@ CLI::App* RenderCommand::declare(CLI::App& app)
         "OUT|DIR");
     addOption(*command, "--profile", profile,
               "Actuator profile: a file, or a shipped one such as l5-wristband; clips are fitted to it", "PROFILE");
-    addPreset(*command, "--encoding", encoding, "Samples of the output: float32, pcm24 or pcm16",
-              oneOf({"float32", "pcm24", "pcm16"}));
+    addPreset(*command, "--encoding", encoding, "Samples of the output: float32, pcm24 or pcm16", oneOf(encodings));
     described.declare(*command, infosOf(renderParameters));
     addPreset(*command, "--seed", seed, "Seed of the variation", countingNumber());
     addOption(*command, "--clips", clipFolder, "Where the clip files of scenes are [beside the scene]", "DIR");
@@ -240,15 +261,14 @@ std::string RenderCommand::record() const
     return text;
 }
 
-Exit RenderCommand::run(Console& console)
+Exit RenderCommand::readSettings(Console& console, RenderSettings& settings) const
 {
-    RenderSettings settings;
     described.apply(renderParameters, settings);
     if (settings.to && *settings.to <= settings.from)
         return console.fail("", {ErrorCode::invalidArgument, "render", "--from must be before --to"}, Exit::usage);
     const auto pulse = settings.compile.decoder.pulseShape;
     for (const char* option : {"--pulse-frequency", "--pulse-cycles"})
-        if (command->count(option) > 0 && pulse.value_or(PulseShape::adaptive) == PulseShape::adaptive)
+        if (command->count(option) > 0 && pulse.value_or(TransientShape::adaptive) == TransientShape::adaptive)
             return console.fail("",
                                 {ErrorCode::invalidArgument, option,
                                  "is for square and sine pulses; leave it out, or choose one of them with --pulse"},
@@ -260,12 +280,9 @@ Exit RenderCommand::run(Console& console)
     settings.protect = !noProtection;
     settings.dryRun = dryRun;
     settings.reading = {clipFolder, console.isStrict()};
-    explain = explain || measured;
-    settings.describe = explain || console.isJson();
+    settings.describe = explain || measured || console.isJson();
     settings.measure = measured;
-    settings.encoding = encoding == "pcm16"   ? SampleEncoding::pcm16
-                        : encoding == "pcm24" ? SampleEncoding::pcm24
-                                              : SampleEncoding::float32;
+    settings.encoding = *valueOf(encoding, encodings);
     if (!profile.empty())
     {
         settings.profile = openProfile(console, profile);
@@ -282,8 +299,16 @@ Exit RenderCommand::run(Console& console)
     settings.record = record();
     if (settings.profile)
         settings.record += ", " + profileJson(*settings.profile);
-    settings.resume = !force && !explain;
+    settings.resume = !force && !explain && !measured;
+    return Exit::ok;
+}
 
+Exit RenderCommand::run(Console& console)
+{
+    RenderSettings settings;
+    if (const Exit read = readSettings(console, settings); read != Exit::ok)
+        return read;
+    explain = explain || measured;
     const InputFiles found = findClips();
     if (const auto fits = checkOutput(found, output, console.isJson()); !fits)
         return console.fail("", fits.error(), Exit::usage);
@@ -294,7 +319,6 @@ Exit RenderCommand::run(Console& console)
     if (const auto started = batch.start(tasks, dryRun); !started)
         return console.fail("", started.error());
     BatchEnd end;
-    const double gain = settings.adjustment.gain;
     const auto nameOf = [&](std::size_t i)
     {
         return tasks[i].input.filename().string();
@@ -315,16 +339,7 @@ Exit RenderCommand::run(Console& console)
                          return;
                      if (!task.result->upToDate && !dryRun)
                          console.wrote(task.output, durationText(task.result->duration));
-                     if (gain > 0.0 && task.result->reduction > noticed)
-                         console.warning(task.input.string(),
-                                         fmt::format("up to {:.1f} of the {:.1f} dB of --gain are taken away again "
-                                                     "to keep within what the actuator bears",
-                                                     std::min(task.result->reduction, gain), gain));
-                     else if (task.result->clippedSamples > 0)
-                         console.warning(task.input.string(),
-                                         fmt::format("{} clipped; {}",
-                                                     counted(task.result->clippedSamples, "sample was", "samples were"),
-                                                     clippingAdvice(task.result->peak, gain, settings.felt)));
+                     tellLevel(console, task, settings);
                  };
              });
 

@@ -7,6 +7,9 @@
 // scenes) as their text comes, FieldsReader small ones (profiles, projects, sweeps) from a tree, FieldsWriter writes
 // both.
 
+#include <array>
+#include <cstddef>
+#include <optional>
 #include <string_view>
 
 namespace pacini
@@ -28,6 +31,16 @@ template <typename E, typename Choices>
         if (choice.value == value)
             return choice.name;
     return {};
+}
+
+/// The value of that name; none for other names.
+template <typename E, std::size_t count>
+[[nodiscard]] constexpr std::optional<E> valueOf(std::string_view name, const std::array<Choice<E>, count>& choices)
+{
+    for (const auto& choice : choices)
+        if (choice.name == name)
+            return choice.value;
+    return std::nullopt;
 }
 
 /// Name and version of a document, as in its entries `format` and `version`.

@@ -390,7 +390,7 @@ TEST_CASE("a gate opens at its threshold, stays open above half of it and for it
 
 TEST_CASE("event pulses begin where they are told, add up, and the fifth takes the place of the first", "[realtime]")
 {
-    const Pulse pulse{PulseShape::square, 0.05, 20};
+    const Pulse pulse{TransientShape::square, 0.05, 20};
     const auto value = [](std::size_t n)
     {
         return n < 10 ? 1.0f : n < 20 ? -1.0f : 0.0f;

@@ -327,8 +327,8 @@ TEST_CASE("a design takes the pulses of events from the profile where it names t
         return designTranslator(setup, 48000.0).pulses;
     };
     CHECK(pulses(TransientShape::adaptive) == PulseParams{.lowest = 40.0, .highest = 400.0});
-    CHECK(pulses(TransientShape::square) == PulseParams{PulseShape::square, 123.0, 2.5, 40.0, 400.0});
-    CHECK(pulses(TransientShape::sine) == PulseParams{PulseShape::sine, 123.0, 2.5, 40.0, 400.0});
+    CHECK(pulses(TransientShape::square) == PulseParams{TransientShape::square, 123.0, 2.5, 40.0, 400.0});
+    CHECK(pulses(TransientShape::sine) == PulseParams{TransientShape::sine, 123.0, 2.5, 40.0, 400.0});
 }
 
 TEST_CASE("bands with centres below 100 Hz are rumble, those from 100 Hz on texture", "[realtime]")

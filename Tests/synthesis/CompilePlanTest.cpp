@@ -241,10 +241,10 @@ TEST_CASE("Pulses keep to the actuator's range and are those of the profile unle
         {
             profile.transient = {shape, 123.0, 2.5};
             DecoderParams params;
-            params.pulses = {PulseShape::adaptive, 55.0, 7.0};
+            params.pulses = {TransientShape::adaptive, 55.0, 7.0};
             DecoderChoice choice;
             if (chosen)
-                choice.pulseShape = PulseShape::sine;
+                choice.pulseShape = TransientShape::sine;
             detail::fitPulses(params, profile, {100.0, 200.0, 60.0}, choice);
             CHECK(params.pulses.lowest == 100.0);
             CHECK(params.pulses.highest == 200.0);
@@ -253,9 +253,9 @@ TEST_CASE("Pulses keep to the actuator's range and are those of the profile unle
             CHECK(params.pulses.lowest == 60.0);
             CHECK(params.pulses.highest == 400.0);
             const bool own = !chosen && shape != TransientShape::adaptive;
-            CHECK(params.pulses.shape == (!own                              ? PulseShape::adaptive
-                                          : shape == TransientShape::square ? PulseShape::square
-                                                                            : PulseShape::sine));
+            CHECK(params.pulses.shape == (!own                              ? TransientShape::adaptive
+                                          : shape == TransientShape::square ? TransientShape::square
+                                                                            : TransientShape::sine));
             CHECK(params.pulses.frequency == (own ? 123.0 : 55.0));
             CHECK(params.pulses.cycles == (own ? 2.5 : 7.0));
         }
@@ -285,7 +285,7 @@ TEST_CASE("A play is decoded with its pitch, speed and seed, at a rate for all i
     // Thesis clips get square pulses at the resonance, of a plain signal 67 Hz.
     scene.clips[0].encoder = {{"method", std::string("thesis")}};
     CHECK(compilePlan(scene)->plays[0].decoder.pulses.frequency == 67.0);
-    CHECK(compilePlan(scene)->plays[0].decoder.pulses.shape == PulseShape::square);
+    CHECK(compilePlan(scene)->plays[0].decoder.pulses.shape == TransientShape::square);
     const Profile profile = plannedProfile();
     CHECK(compilePlan(scene, &profile)->plays[0].decoder.pulses.frequency == 150.0);
     CompileParams flattest;

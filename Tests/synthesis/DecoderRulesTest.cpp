@@ -85,7 +85,7 @@ TEST_CASE("What a decoder does unless told otherwise", "[synthesis]")
     CHECK(thesis.carriers == CarrierMode::fixed);
     CHECK_FALSE(thesis.followEnvelope);
     CHECK(thesis.fullRate);
-    CHECK(thesis.pulses == PulseParams{PulseShape::square, 67.0, 1.0});
+    CHECK(thesis.pulses == PulseParams{TransientShape::square, 67.0, 1.0});
     CHECK(thesisDecoderParams(44100.0, 80.0).pulses.frequency == 80.0);
     CHECK(DecoderChoice{}.pulseCycles == 1.0);
 }
@@ -138,7 +138,7 @@ TEST_CASE("A clip is decoded as its method wants and the user changes it", "[syn
     thesis.carriers = CarrierMode::fixed;
     thesis.followEnvelope = false;
     thesis.fullRate = true;
-    thesis.pulses = {PulseShape::square, 80.0, 1.0};
+    thesis.pulses = {TransientShape::square, 80.0, 1.0};
     CHECK(decoderParamsFor(clip, base, {}, 80.0) == thesis);
     DecoderChoice choice;
     choice.carriers = CarrierMode::centroid;
@@ -148,8 +148,8 @@ TEST_CASE("A clip is decoded as its method wants and the user changes it", "[syn
     thesis.carriers = CarrierMode::centroid;
     thesis.followEnvelope = true;
     CHECK(decoderParamsFor(clip, base, choice, 80.0) == thesis); // frequency and cycles are those of a chosen shape
-    choice.pulseShape = PulseShape::sine;
-    thesis.pulses = {PulseShape::sine, 90.0, 3.0};
+    choice.pulseShape = TransientShape::sine;
+    thesis.pulses = {TransientShape::sine, 90.0, 3.0};
     CHECK(decoderParamsFor(clip, base, choice, 80.0) == thesis);
     choice.pulseFrequency.reset();
     thesis.pulses.frequency = 80.0;
@@ -167,7 +167,7 @@ TEST_CASE("Parameters of a decoder end where they are said to, and what is not f
         double low, insideLow, high, insideHigh, usual;
     };
     DecoderParams base = at8kHz();
-    base.pulses = {PulseShape::sine, 2000.0, 3.0};
+    base.pulses = {TransientShape::sine, 2000.0, 3.0};
     for (const Limit& limit : {Limit{"transposition", &DecoderParams::transposition, -96.0, -95.0, 96.0, 0.0, 0.0},
                                Limit{"gain", &DecoderParams::gain, 0.0, 0.1, 1000.0, 999.0, 1.0},
                                Limit{"stretch", &DecoderParams::stretch, 1e-3, 2e-1, 1e3, 9.9e2, 1.0}})
@@ -202,37 +202,39 @@ TEST_CASE("Parameters of a decoder end where they are said to, and what is not f
     CHECK(framesWith(3601.0) == 160 + 3600 * 8000);
     CHECK(framesWith(std::numeric_limits<double>::quiet_NaN()) == 160);
 
-    const auto pulsed = [&](double PulseParams::*member, double value, PulseShape shape)
+    const auto pulsed = [&](double PulseParams::*member, double value, TransientShape shape)
     {
         DecoderParams params = base;
         params.sampleRate = 96000.0;
         params.pulses.shape = shape;
         params.pulses.*member = value;
         Clip events = clip;
-        events.duration = shape == PulseShape::sine ? 3.5 : 0.1;
+        events.duration = shape == TransientShape::sine ? 3.5 : 0.1;
         events.bands.clear();
         return heard(events, params);
     };
     const double odd = std::numeric_limits<double>::quiet_NaN();
-    CHECK(pulsed(&PulseParams::frequency, 0.5, PulseShape::sine) ==
-          pulsed(&PulseParams::frequency, 1.0, PulseShape::sine));
-    CHECK_FALSE(pulsed(&PulseParams::frequency, 1.1, PulseShape::sine) ==
-                pulsed(&PulseParams::frequency, 1.0, PulseShape::sine));
-    CHECK(pulsed(&PulseParams::frequency, 21000.0, PulseShape::sine) ==
-          pulsed(&PulseParams::frequency, 20000.0, PulseShape::sine));
-    CHECK_FALSE(pulsed(&PulseParams::frequency, 19000.0, PulseShape::sine) ==
-                pulsed(&PulseParams::frequency, 20000.0, PulseShape::sine));
-    CHECK(pulsed(&PulseParams::frequency, odd, PulseShape::sine) ==
-          pulsed(&PulseParams::frequency, 67.0, PulseShape::sine));
-    CHECK(pulsed(&PulseParams::cycles, -1.0, PulseShape::sine) == pulsed(&PulseParams::cycles, 0.0, PulseShape::sine));
-    CHECK_FALSE(pulsed(&PulseParams::cycles, 0.2, PulseShape::sine) ==
-                pulsed(&PulseParams::cycles, 0.0, PulseShape::sine));
-    CHECK(pulsed(&PulseParams::cycles, 110.0, PulseShape::sine) ==
-          pulsed(&PulseParams::cycles, 100.0, PulseShape::sine));
-    CHECK_FALSE(pulsed(&PulseParams::cycles, 90.0, PulseShape::sine) ==
-                pulsed(&PulseParams::cycles, 100.0, PulseShape::sine));
-    CHECK(pulsed(&PulseParams::cycles, odd, PulseShape::sine) == pulsed(&PulseParams::cycles, 1.0, PulseShape::sine));
-    const PulseShape own = PulseShape::adaptive;
+    CHECK(pulsed(&PulseParams::frequency, 0.5, TransientShape::sine) ==
+          pulsed(&PulseParams::frequency, 1.0, TransientShape::sine));
+    CHECK_FALSE(pulsed(&PulseParams::frequency, 1.1, TransientShape::sine) ==
+                pulsed(&PulseParams::frequency, 1.0, TransientShape::sine));
+    CHECK(pulsed(&PulseParams::frequency, 21000.0, TransientShape::sine) ==
+          pulsed(&PulseParams::frequency, 20000.0, TransientShape::sine));
+    CHECK_FALSE(pulsed(&PulseParams::frequency, 19000.0, TransientShape::sine) ==
+                pulsed(&PulseParams::frequency, 20000.0, TransientShape::sine));
+    CHECK(pulsed(&PulseParams::frequency, odd, TransientShape::sine) ==
+          pulsed(&PulseParams::frequency, 67.0, TransientShape::sine));
+    CHECK(pulsed(&PulseParams::cycles, -1.0, TransientShape::sine) ==
+          pulsed(&PulseParams::cycles, 0.0, TransientShape::sine));
+    CHECK_FALSE(pulsed(&PulseParams::cycles, 0.2, TransientShape::sine) ==
+                pulsed(&PulseParams::cycles, 0.0, TransientShape::sine));
+    CHECK(pulsed(&PulseParams::cycles, 110.0, TransientShape::sine) ==
+          pulsed(&PulseParams::cycles, 100.0, TransientShape::sine));
+    CHECK_FALSE(pulsed(&PulseParams::cycles, 90.0, TransientShape::sine) ==
+                pulsed(&PulseParams::cycles, 100.0, TransientShape::sine));
+    CHECK(pulsed(&PulseParams::cycles, odd, TransientShape::sine) ==
+          pulsed(&PulseParams::cycles, 1.0, TransientShape::sine));
+    const TransientShape own = TransientShape::adaptive;
     CHECK(pulsed(&PulseParams::lowest, 0.5, own) == pulsed(&PulseParams::lowest, 1.0, own));
     CHECK(pulsed(&PulseParams::lowest, odd, own) == pulsed(&PulseParams::lowest, 1.0, own));
     CHECK(pulsed(&PulseParams::lowest, 21000.0, own) == pulsed(&PulseParams::lowest, 20000.0, own));
@@ -396,11 +398,11 @@ TEST_CASE("A clip with everything sounds as it did, in every mode and at every s
         pinSound("clip, higher and slower" + what, heard(played, params));
         params.carriers = CarrierMode::centroid;
         params.variation = {0.4, VariationScope::breakpoint, 5};
-        params.pulses = {PulseShape::square, 90.0, 1.5};
+        params.pulses = {TransientShape::square, 90.0, 1.5};
         pinSound("clip by its centroid, varied" + what, heard(played, params));
         params.carriers = CarrierMode::none;
         params.followEnvelope = false;
-        params.pulses = {PulseShape::adaptive, 67.0, 1.0, 120.0, 210.0};
+        params.pulses = {TransientShape::adaptive, 67.0, 1.0, 120.0, 210.0};
         pinSound("clip of strengths" + what, heard(played, params));
         params = at8kHz();
         params.transposition = 60.0; // all ends at 0.45 of the rate

@@ -66,7 +66,7 @@ TEST_CASE("The thesis readings of the decoder give the golden signals", "[synthe
         for (std::size_t n = 0; n < y.size(); ++n)
             REQUIRE(std::abs(static_cast<double>(y[n]) - g["y"][n].get<double>()) < golden["tol"].get<double>());
     }
-    const auto pulse = makePulse({PulseShape::square, 67.0, 1.0}, 0.0, 1.0, 48000.0, 1.0);
+    const auto pulse = makePulse({TransientShape::square, 67.0, 1.0}, 0.0, 1.0, 48000.0, 1.0);
     CHECK(pulse.frames == golden["square_67_48000"]["n"].get<std::size_t>());
     std::vector<float> samples(pulse.frames, 0.0f);
     PulseVoice(pulse).addTo(samples, 1.0);
@@ -287,7 +287,7 @@ TEST_CASE("Any valid clip gives finite output under any parameters", "[synthesis
         params.gain = random.uniform(0.0, 10.0);
         params.carriers = static_cast<CarrierMode>(static_cast<int>(random.uniform(0.0, 3.0)));
         params.followEnvelope = random.uniform() < 0.5;
-        params.pulses = {static_cast<PulseShape>(static_cast<int>(random.uniform(0.0, 3.0))),
+        params.pulses = {static_cast<TransientShape>(static_cast<int>(random.uniform(0.0, 3.0))),
                          random.uniform(-10.0, 1e6), random.uniform(-1.0, 200.0)};
         for (float v : render(test::randomClip(seed), params))
             REQUIRE(std::isfinite(v));

@@ -227,7 +227,7 @@ TEST_CASE("An event carries at most 3 / 16 of its square for 20 ms and at least 
     CHECK(energyUntil(1.76).most == Approx(unit * 0.8 * 0.02));
     CHECK(energyUntil(1.75).most == Approx(unit * 0.16 * 0.02)); // what begins at the end does not sound
     CHECK(energyUntil(1.2).most == 0.0);
-    params.pulses = {PulseShape::sine, 50.0, 2.0};
+    params.pulses = {TransientShape::sine, 50.0, 2.0};
     CHECK(energyUntil(5.0).most == Approx(unit * 0.8 * 0.2));
     params.pulses = {};
     clip.envelope = {{0.0, 0.0}, {0.5, 0.0}, {0.5, 0.1}, {1.0, 0.1}};
@@ -255,7 +255,7 @@ TEST_CASE("Energies of clips with everything, behind an equaliser, are what they
     Clip levelled = clip;
     levelled.envelope = {{0.0, 0.0}, {0.25, 0.0}, {0.25, 0.7}, {1.0, 0.2}};
     pinEnergy("a levelled clip", playEnergy(levelled, params, timeline, 0.2, 3.0, equalizer));
-    params.pulses = {PulseShape::square, 70.0, 1.5};
+    params.pulses = {TransientShape::square, 70.0, 1.5};
     params.transposition = -24.0;
     timeline.changes.clear();
     pinEnergy("a levelled clip with square pulses", playEnergy(levelled, params, timeline, 0.2, 3.0, equalizer));

@@ -159,7 +159,7 @@ TEST_CASE("A decoder ignores changes that are not finite and stays finite throug
         params.headroom = any();
         params.reach = any();
         params.variation.amount = any();
-        params.pulses = {static_cast<PulseShape>(run % 3), any(), any(), any(), any()};
+        params.pulses = {static_cast<TransientShape>(run % 3), any(), any(), any(), any()};
         Decoder decoder(everything(), params, {{0.01, any(), any()}});
         std::vector<float> y(64);
         for (int i = 0; i < 200; ++i)

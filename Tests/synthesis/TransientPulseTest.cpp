@@ -36,13 +36,13 @@ std::vector<float> wholePulse(const Pulse& pulse, std::size_t extra, std::size_t
 TEST_CASE("A pulse is adaptive, of one cycle at 67 Hz and of any frequency unless told otherwise", "[synthesis]")
 {
     const PulseParams params;
-    CHECK(params.shape == PulseShape::adaptive);
+    CHECK(params.shape == TransientShape::adaptive);
     CHECK(params.frequency == 67.0);
     CHECK(params.cycles == 1.0);
     CHECK(params.lowest == 1.0);
     CHECK(params.highest == 20e3);
     const Pulse pulse;
-    CHECK(pulse.shape == PulseShape::square);
+    CHECK(pulse.shape == TransientShape::square);
     CHECK(pulse.cyclesPerFrame == 0.0);
     CHECK(pulse.frames == 0);
     CHECK(PulseVoice().finished());
@@ -50,7 +50,7 @@ TEST_CASE("A pulse is adaptive, of one cycle at 67 Hz and of any frequency unles
 
 TEST_CASE("Square and sine pulses last a rounded number of frames for their cycles", "[synthesis]")
 {
-    for (const PulseShape shape : {PulseShape::square, PulseShape::sine})
+    for (const TransientShape shape : {TransientShape::square, TransientShape::sine})
     {
         const Pulse pulse = makePulse({shape, 80.0, 1.5, 200.0, 300.0}, 0.7, 0.01, 48000.0, 1.0);
         CHECK(pulse.shape == shape);
@@ -80,19 +80,19 @@ TEST_CASE("An event alone gets two periods of 100 Hz when it is dull to 280 Hz w
         {
             CAPTURE(gap, sharpness);
             const Pulse pulse = makePulse({}, sharpness, gap, 48000.0, 1.0);
-            CHECK(pulse.shape == PulseShape::adaptive);
+            CHECK(pulse.shape == TransientShape::adaptive);
             CHECK(pulseHertz(pulse, 48000.0) == Approx(hertz));
             CHECK(pulse.frames == static_cast<std::size_t>(std::lround(2.0 * 48000.0 / hertz)));
         }
     // Within what the actuator shows, with as many periods.
-    const Pulse low = makePulse({PulseShape::adaptive, 67.0, 1.0, 1.0, 150.0}, 1.0, 1.0, 48000.0, 1.0);
+    const Pulse low = makePulse({TransientShape::adaptive, 67.0, 1.0, 1.0, 150.0}, 1.0, 1.0, 48000.0, 1.0);
     CHECK(pulseHertz(low, 48000.0) == Approx(150.0));
     CHECK(low.frames == 640);
-    const Pulse high = makePulse({PulseShape::adaptive, 67.0, 1.0, 200.0, 300.0}, 0.0, 1.0, 48000.0, 1.0);
+    const Pulse high = makePulse({TransientShape::adaptive, 67.0, 1.0, 200.0, 300.0}, 0.0, 1.0, 48000.0, 1.0);
     CHECK(pulseHertz(high, 48000.0) == Approx(200.0));
     CHECK(high.frames == 480);
     // What is transposed leaves that range.
-    CHECK(pulseHertz(makePulse({PulseShape::adaptive, 67.0, 1.0, 200.0, 300.0}, 0.0, 1.0, 48000.0, 2.0), 48000.0) ==
+    CHECK(pulseHertz(makePulse({TransientShape::adaptive, 67.0, 1.0, 200.0, 300.0}, 0.0, 1.0, 48000.0, 2.0), 48000.0) ==
           Approx(400.0));
 }
 
@@ -120,7 +120,7 @@ TEST_CASE("An event of a train lasts half of its gap, 6 to 15 ms, for three peri
             CHECK(pulse.frames == static_cast<std::size_t>(std::lround(length * 48000.0)));
         }
     // An actuator's range comes after that, and the number of periods stays.
-    const Pulse narrow = makePulse({PulseShape::adaptive, 67.0, 1.0, 1.0, 125.0}, 0.0, 0.02, 48000.0, 1.0);
+    const Pulse narrow = makePulse({TransientShape::adaptive, 67.0, 1.0, 1.0, 125.0}, 0.0, 0.02, 48000.0, 1.0);
     CHECK(pulseHertz(narrow, 48000.0) == Approx(125.0));
     CHECK(narrow.frames == 1152); // three periods of 300 Hz, 2.4 times as long
 }
@@ -128,7 +128,7 @@ TEST_CASE("An event of a train lasts half of its gap, 6 to 15 ms, for three peri
 TEST_CASE("Square and sine pulses are their closed forms, however they are cut", "[synthesis]")
 {
     const double fs = 48000.0;
-    for (const PulseShape shape : {PulseShape::square, PulseShape::sine, PulseShape::adaptive})
+    for (const TransientShape shape : {TransientShape::square, TransientShape::sine, TransientShape::adaptive})
     {
         const Pulse pulse = makePulse({shape, 333.0, 2.3}, 0.2, 1.0, fs, 1.0);
         const auto whole = wholePulse(pulse, 9, 10000);
@@ -138,9 +138,9 @@ TEST_CASE("Square and sine pulses are their closed forms, however they are cut",
             const double cycle = static_cast<double>(n) * pulse.cyclesPerFrame;
             const double middle = (static_cast<double>(n) + 0.5);
             const double wanted =
-                n >= pulse.frames             ? 0.0
-                : shape == PulseShape::square ? (cycle - std::floor(cycle) < 0.5 ? 1.0 : -1.0)
-                : shape == PulseShape::sine
+                n >= pulse.frames                 ? 0.0
+                : shape == TransientShape::square ? (cycle - std::floor(cycle) < 0.5 ? 1.0 : -1.0)
+                : shape == TransientShape::sine
                     ? std::sin(2.0 * std::numbers::pi * cycle)
                     : std::pow(std::sin(std::numbers::pi * middle / static_cast<double>(pulse.frames)), 2.0) *
                           std::sin(2.0 * std::numbers::pi * pulse.cyclesPerFrame * middle);
@@ -154,13 +154,13 @@ TEST_CASE("Square and sine pulses are their closed forms, however they are cut",
         CHECK(wholePulse(pulse, 9, 5, 4.0) == louder);
     }
     // A square of two frames a period steps at the half itself.
-    const Pulse pulse{PulseShape::square, 0.25, 8};
+    const Pulse pulse{TransientShape::square, 0.25, 8};
     CHECK(wholePulse(pulse, 0, 8) == std::vector<float>{1.0f, 1.0f, -1.0f, -1.0f, 1.0f, 1.0f, -1.0f, -1.0f});
 }
 
 TEST_CASE("A pulse adds to what is there and is finished with its last frame", "[synthesis]")
 {
-    const Pulse pulse{PulseShape::square, 0.25, 6};
+    const Pulse pulse{TransientShape::square, 0.25, 6};
     PulseVoice voice(pulse);
     std::vector<float> y(5, 10.0f);
     voice.addTo(y, 0.5);
@@ -172,10 +172,10 @@ TEST_CASE("A pulse adds to what is there and is finished with its last frame", "
     voice.addTo(y, 0.5);
     CHECK(y == std::vector<float>{11.0f, 10.5f, 9.5f, 9.5f, 10.5f});
     std::vector<float> single(2, 0.0f);
-    PulseVoice(Pulse{PulseShape::adaptive, 0.1, 1}).addTo(single, 1.0); // the top of the window
+    PulseVoice(Pulse{TransientShape::adaptive, 0.1, 1}).addTo(single, 1.0); // the top of the window
     CHECK(static_cast<double>(single[0]) == Approx(std::sin(0.1 * std::numbers::pi)));
     CHECK(single[1] == 0.0f);
-    PulseVoice none(Pulse{PulseShape::adaptive, 0.1, 0});
+    PulseVoice none(Pulse{TransientShape::adaptive, 0.1, 0});
     CHECK(none.finished());
     none.addTo(y, 1.0);
     CHECK(y == std::vector<float>{11.0f, 10.5f, 9.5f, 9.5f, 10.5f});
@@ -183,7 +183,7 @@ TEST_CASE("A pulse adds to what is there and is finished with its last frame", "
 
 TEST_CASE("A train begins each pulse on its frame, late ones at once, and starts over after reset", "[synthesis]")
 {
-    const PulseParams square{PulseShape::square, 250.0, 1.0}; // 8 frames at 2 kHz, 4 up and 4 down
+    const PulseParams square{TransientShape::square, 250.0, 1.0}; // 8 frames at 2 kHz, 4 up and 4 down
     PulseTrain train(square, 2000.0);
     train.reserve(4);
     for (const double frame : {-3.0, 5.0, 9.0, 40.0})
@@ -256,7 +256,7 @@ TEST_CASE("A train asks where an event begins, how fast the clip runs there and 
 
 TEST_CASE("An event that begins with the next block is asked for with that block", "[synthesis]")
 {
-    PulseTrain train({PulseShape::square, 250.0, 1.0}, 2000.0);
+    PulseTrain train({TransientShape::square, 250.0, 1.0}, 2000.0);
     train.add({8.0, 1.0, 0.0, 1.0});
     std::vector<float> y(24, 0.0f);
     train.process(std::span(y).first(8), 0, [](const PulseEvent&) { return PulseStart{8, 1.0, 1.0}; });

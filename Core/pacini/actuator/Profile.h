@@ -4,6 +4,7 @@
 
 #include <pacini/actuator/Equalizer.h>
 #include <pacini/actuator/ProfileMeasurement.h>
+#include <pacini/actuator/TransientShape.h>
 #include <pacini/foundation/Result.h>
 
 #include <cstddef>
@@ -137,14 +138,6 @@ struct BodyParams
     double skinStiffness = 800.0;  ///< N/m
     double skinDamping = 2.5;      ///< N s/m
     bool operator==(const BodyParams&) const = default;
-};
-
-/// Waveform of events.
-enum class TransientShape
-{
-    adaptive, ///< what the clip's events ask for
-    square,   ///< fixed square cycles
-    sine      ///< fixed sine cycles
 };
 
 /// Pulse of an event: how events are played.

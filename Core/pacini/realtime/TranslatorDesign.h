@@ -92,8 +92,7 @@ namespace detail
 inline void choosePulses(TranslatorDesign& design, const ActuatorTransient& transient) noexcept
 {
     if (transient.shape != TransientShape::adaptive)
-        design.pulses = {transient.shape == TransientShape::square ? PulseShape::square : PulseShape::sine,
-                         transient.frequency, transient.cycles};
+        design.pulses = {transient.shape, transient.frequency, transient.cycles};
 }
 
 /// The frequencies that are played, and how many of them at a time.

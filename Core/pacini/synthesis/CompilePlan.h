@@ -104,7 +104,7 @@ inline void fitPulses(DecoderParams& params, const Profile& profile, const Actua
     params.pulses.highest = std::min(range.highFrequency, profile.range.highFrequency);
     if (choice.pulseShape || profile.transient.shape == TransientShape::adaptive)
         return;
-    params.pulses.shape = profile.transient.shape == TransientShape::square ? PulseShape::square : PulseShape::sine;
+    params.pulses.shape = profile.transient.shape;
     params.pulses.frequency = profile.transient.frequency;
     params.pulses.cycles = profile.transient.cycles;
 }

@@ -15,7 +15,7 @@ struct DecoderChoice
 {
     std::optional<CarrierMode> carriers;
     std::optional<bool> followEnvelope;
-    std::optional<PulseShape> pulseShape;
+    std::optional<TransientShape> pulseShape;
     std::optional<double> pulseFrequency; ///< Hz, of square and sine pulses
     double pulseCycles = 1.0;
     bool operator==(const DecoderChoice&) const = default;

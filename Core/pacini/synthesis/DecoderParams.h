@@ -103,7 +103,7 @@ struct DecoderReport
     params.carriers = CarrierMode::fixed;
     params.followEnvelope = false;
     params.fullRate = true;
-    params.pulses = {PulseShape::square, resonance, 1.0};
+    params.pulses = {TransientShape::square, resonance, 1.0};
     return params;
 }
 

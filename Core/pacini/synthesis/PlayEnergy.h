@@ -144,97 +144,100 @@ inline PowerRange equalizerPower(const BiquadCascadeCoefficients& equalizer, dou
     }
     return range;
 }
-} // namespace detail
 
-/// The energy that a play's clip (as it will be decoded) brings into a scene of `duration` seconds, after the output
-/// filter `cascade`, which is one for the rate of `params`. Sinusoids carry half their squared amplitude. Where the
-/// bands are levelled to the envelope, the envelope tells the energy, and a band that is missing is made up for by the
-/// others: that costs at most its amplitude twice.
-[[nodiscard]] inline PlayEnergy playEnergy(const Clip& clip, const DecoderParams& params, const PlayTimeline& timeline,
-                                           double start, double duration, const BiquadCascadeCoefficients& cascade)
+/// Sums the energies of the parts of a play.
+class PlayEnergySum
 {
-    const double fs = params.sampleRate;
-    const PlayClock clock = makeClock(params.stretch, timeline);
-    double lowest = params.transposition, highest = params.transposition;
-    for (const DecoderChange& change : timeline.changes)
+public:
+    PlayEnergySum(const Clip& played, const DecoderParams& decoder, const PlayTimeline& moving, double from,
+                  double duration, const BiquadCascadeCoefficients& filter)
+        : clip(played),
+          params(decoder),
+          timeline(moving),
+          cascade(filter),
+          clock(makeClock(decoder.stretch, moving)),
+          start(from),
+          end(std::min(duration, from + clock.frameOf(played.duration))),
+          lowest(decoder.transposition),
+          highest(decoder.transposition),
+          mixed(hasRoleLevels(moving))
     {
-        lowest = std::min(lowest, change.transposition);
-        highest = std::max(highest, change.transposition);
+        for (const DecoderChange& change : timeline.changes)
+        {
+            lowest = std::min(lowest, change.transposition);
+            highest = std::max(highest, change.transposition);
+        }
+        for (const Role role : allRoles)
+            if (mixed)
+                gainsOf[role] = withLevel(timeline.gains, timeline.roles[role], start, end);
+        result.levelled = params.followEnvelope && !clip.envelope.empty();
     }
-    const double end = std::min(duration, start + clock.frameOf(clip.duration));
-    const auto energyBy = [&](const Curve& curve, const std::vector<Curve>& gains)
-    {
-        const Curve inScene = detail::inSceneTime(curve, clock, start);
-        double sum = 0.0;
-        for (const Curve& gain : gains)
-            sum += detail::energyOfProduct(inScene, gain, start, end);
-        return sum * params.gain * params.gain;
-    };
-    const bool mixed = hasRoleLevels(timeline);
-    PerRole<std::vector<Curve>> gainsOf;
-    for (const Role role : allRoles)
-        if (mixed)
-            gainsOf[role] = detail::withLevel(timeline.gains, timeline.roles[role], start, end);
-    const auto energy = [&](const Curve& curve)
-    {
-        return energyBy(curve, timeline.gains);
-    };
-    const auto power = [&](double low, double high)
-    {
-        return detail::equalizerPower(cascade, low * std::pow(2.0, lowest / 12.0), high * std::pow(2.0, highest / 12.0),
-                                      fs);
-    };
 
-    PlayEnergy result;
-    const bool levelled = params.followEnvelope && !clip.envelope.empty();
-    result.levelled = levelled;
-    double sum = 0.0, least = 0.0, heardSum = 0.0;
-    detail::PowerRange whole;
-    for (const Band& band : clip.bands)
+    [[nodiscard]] PlayEnergy sum()
     {
-        double low = std::max(band.centreFrequency, 1.0), high = low;
-        if (params.carriers == CarrierMode::pitch && !band.pitch.empty())
+        for (const Band& band : clip.bands)
         {
-            const auto [a, b] = std::minmax_element(band.pitch.begin(), band.pitch.end(),
-                                                    [](const auto& p, const auto& q) { return p.value < q.value; });
-            low = std::max(a->value, 1.0);
-            high = std::max(b->value, low);
+            double low = std::max(band.centreFrequency, 1.0), high = low;
+            if (params.carriers == CarrierMode::pitch && !band.pitch.empty())
+            {
+                const auto [a, b] = std::minmax_element(band.pitch.begin(), band.pitch.end(),
+                                                        [](const auto& p, const auto& q) { return p.value < q.value; });
+                low = std::max(a->value, 1.0);
+                high = std::max(b->value, low);
+            }
+            add(band.amplitude, 0.5, Role::tones, power(low, high), result.bands, result.gains.bands);
         }
-        const double own = 0.5 * energy(band.amplitude);
-        const double ownHeard = mixed ? 0.5 * energyBy(band.amplitude, gainsOf[Role::tones]) : own;
-        const auto range = power(low, high);
-        result.bands.push_back(ownHeard * range.most);
-        result.gains.bands.push_back(std::sqrt(range.most));
-        sum += own;
-        heardSum += ownHeard;
+        for (const NoiseBand& band : clip.noise)
+            add(band.amplitude, 1.0, Role::noise,
+                power(std::max(1.0, band.lowFrequency), std::max(2.0, band.highFrequency)), result.noise,
+                result.gains.noise);
+        result.most = heardSum * whole.most;
+        if (result.levelled && ownSum > 0.0)
+            level();
+        addEvents();
+        return std::move(result);
+    }
+
+private:
+    [[nodiscard]] double energyBy(const Curve& curve, const std::vector<Curve>& gains) const
+    {
+        const Curve inScene = inSceneTime(curve, clock, start);
+        double energy = 0.0;
+        for (const Curve& gain : gains)
+            energy += energyOfProduct(inScene, gain, start, end);
+        return energy * params.gain * params.gain;
+    }
+
+    [[nodiscard]] PowerRange power(double low, double high) const
+    {
+        return equalizerPower(cascade, low * std::pow(2.0, lowest / 12.0), high * std::pow(2.0, highest / 12.0),
+                              params.sampleRate);
+    }
+
+    /// A band whose curve squared carries `share` of its energy.
+    void add(const Curve& amplitude, double share, Role role, const PowerRange& range, std::vector<double>& energies,
+             std::vector<double>& gains)
+    {
+        const double own = share * energyBy(amplitude, timeline.gains);
+        const double heard = mixed ? share * energyBy(amplitude, gainsOf[role]) : own;
+        energies.push_back(heard * range.most);
+        gains.push_back(std::sqrt(range.most));
+        ownSum += own;
+        heardSum += heard;
         if (own > 0.0)
         {
-            least += ownHeard * range.least;
+            result.least += heard * range.least;
             whole.include(range.most);
         }
     }
-    for (const NoiseBand& band : clip.noise)
+
+    /// The bands are levelled to the envelope, which tells their energy.
+    void level()
     {
-        const double own = energy(band.amplitude);
-        const double ownHeard = mixed ? energyBy(band.amplitude, gainsOf[Role::noise]) : own;
-        const auto range = power(std::max(1.0, band.lowFrequency), std::max(2.0, band.highFrequency));
-        result.noise.push_back(ownHeard * range.most);
-        result.gains.noise.push_back(std::sqrt(range.most));
-        sum += own;
-        heardSum += ownHeard;
-        if (own > 0.0)
-        {
-            least += ownHeard * range.least;
-            whole.include(range.most);
-        }
-    }
-    double most = heardSum * whole.most;
-    if (levelled && sum > 0.0)
-    {
-        const double wanted = 0.5 * energy(clip.envelope);
-        least *= wanted / sum;
-        most = (mixed ? heardSum / sum * wanted : wanted) * whole.most * PlayEnergy::fastBeats;
-        result.bandErrors = 4.0 * std::max(1.0, wanted / sum);
+        const double wanted = 0.5 * energyBy(clip.envelope, timeline.gains);
+        result.least *= wanted / ownSum;
+        result.most = (mixed ? heardSum / ownSum * wanted : wanted) * whole.most * PlayEnergy::fastBeats;
+        result.bandErrors = 4.0 * std::max(1.0, wanted / ownSum);
         for (double& band : result.bands)
             band *= result.bandErrors;
         for (double& band : result.noise)
@@ -244,27 +247,53 @@ inline PowerRange equalizerPower(const BiquadCascadeCoefficients& equalizer, dou
             std::fill(result.bands.begin(), result.bands.end(), std::numeric_limits<double>::infinity());
     }
 
-    const auto broad = power(40.0, 400.0);
-    result.gains.events = std::sqrt(broad.most);
-    for (const Transient& event : clip.transients)
+    void addEvents()
     {
-        const double at = start + clock.frameOf(event.time);
-        if (at >= end)
-            break;
-        double gain = 0.0;
-        for (const Curve& curve : mixed ? gainsOf[Role::events] : timeline.gains)
-            gain += std::pow(valueAt(curve, at), 2.0);
-        // A sine under a squared sine: 3 / 16 of its length, which is at most 20 ms alone and at least 5 ms in trains.
-        const double unit = 3.0 / 16.0 * gain * params.gain * params.gain * event.amplitude * event.amplitude;
-        const double longest =
-            params.pulses.shape == PulseShape::adaptive ? 0.02 : 5.0 * params.pulses.cycles / params.pulses.frequency;
-        most += unit * longest * broad.most;
-        if (!levelled || valueAt(clip.envelope, event.time) == 0.0)
-            least += unit * 0.004 * broad.least;
+        const auto broad = power(40.0, 400.0);
+        result.gains.events = std::sqrt(broad.most);
+        for (const Transient& event : clip.transients)
+        {
+            const double at = start + clock.frameOf(event.time);
+            if (at >= end)
+                break;
+            double gain = 0.0;
+            for (const Curve& curve : mixed ? gainsOf[Role::events] : timeline.gains)
+                gain += std::pow(valueAt(curve, at), 2.0);
+            // A sine under a squared sine: 3 / 16 of its length, which is at most 20 ms alone and at least 5 ms in
+            // trains.
+            const double unit = 3.0 / 16.0 * gain * params.gain * params.gain * event.amplitude * event.amplitude;
+            const double longest = params.pulses.shape == TransientShape::adaptive
+                                       ? 0.02
+                                       : 5.0 * params.pulses.cycles / params.pulses.frequency;
+            result.most += unit * longest * broad.most;
+            if (!result.levelled || valueAt(clip.envelope, event.time) == 0.0)
+                result.least += unit * 0.004 * broad.least;
+        }
     }
-    result.most = most;
-    result.least = least;
-    return result;
+
+    const Clip& clip;
+    const DecoderParams& params;
+    const PlayTimeline& timeline;
+    const BiquadCascadeCoefficients& cascade;
+    const PlayClock clock;
+    const double start, end; ///< s of the scene
+    double lowest, highest;  ///< semitones of transposition
+    const bool mixed;        ///< roles have levels of their own
+    PerRole<std::vector<Curve>> gainsOf;
+    double ownSum = 0.0, heardSum = 0.0;
+    PowerRange whole;
+    PlayEnergy result;
+};
+} // namespace detail
+
+/// The energy that a play's clip (as it will be decoded) brings into a scene of `duration` seconds, after the output
+/// filter `cascade`, which is one for the rate of `params`. Sinusoids carry half their squared amplitude. Where the
+/// bands are levelled to the envelope, the envelope tells the energy, and a band that is missing is made up for by the
+/// others: that costs at most its amplitude twice.
+[[nodiscard]] inline PlayEnergy playEnergy(const Clip& clip, const DecoderParams& params, const PlayTimeline& timeline,
+                                           double start, double duration, const BiquadCascadeCoefficients& cascade)
+{
+    return detail::PlayEnergySum(clip, params, timeline, start, duration, cascade).sum();
 }
 
 } // namespace pacini

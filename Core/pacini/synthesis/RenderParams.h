@@ -43,7 +43,7 @@ struct RenderParams
 
 inline constexpr std::array<std::string_view, 2> variationScopeNames{"breakpoint", "band"};
 inline constexpr std::array<std::string_view, 3> carrierModeNames{"fixed", "pitch", "centroid"}; // none is for motors
-inline constexpr std::array<std::string_view, 3> pulseShapeNames{"square", "sine", "adaptive"};
+inline constexpr std::array<std::string_view, 3> transientShapeNames{"adaptive", "square", "sine"};
 inline constexpr std::array<std::string_view, 3> frequencyMappingNames{"clamp", "rescale", "fold"};
 
 /// What users can set of RenderParams as numbers and choices.
@@ -101,7 +101,7 @@ inline constexpr std::array renderParameters{
     described<&RenderParams::compile, &CompileParams::decoder, &DecoderChoice::pulseShape>(
         {.name = "pulse",
          .text = "Waveform of events",
-         .choices = pulseShapeNames,
+         .choices = transientShapeNames,
          .usualText = "as the clip was made",
          .unsetWord = "auto"}),
     described<&RenderParams::compile, &CompileParams::decoder, &DecoderChoice::pulseFrequency>(

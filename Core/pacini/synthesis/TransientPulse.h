@@ -2,6 +2,8 @@
 
 // Transient pulse: the short waveform that stands for an event.
 
+#include <pacini/actuator/TransientShape.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,19 +15,10 @@
 namespace pacini
 {
 
-/// Waveform of a pulse.
-enum class PulseShape
-{
-    square,  ///< +1 in the first half of each period, -1 in the second (Weber 2020: one cycle at the actuator's
-             ///< resonance)
-    sine,    ///< plain sine periods
-    adaptive ///< smooth pulses that are over before the next event comes, whatever the event rate
-};
-
 /// Parameters of a pulse.
 struct PulseParams
 {
-    PulseShape shape = PulseShape::adaptive;
+    TransientShape shape = TransientShape::adaptive;
     double frequency = 67.0; ///< Hz, for square and sine
     double cycles = 1.0;     ///< periods, for square and sine
     double lowest = 1.0;     ///< Hz, for adaptive: frequencies stay within what the actuator shows, pulses keep
@@ -36,7 +29,7 @@ struct PulseParams
 /// One pulse, ready to be sampled at a rate.
 struct Pulse
 {
-    PulseShape shape = PulseShape::square;
+    TransientShape shape = TransientShape::square;
     double cyclesPerFrame = 0.0;
     std::size_t frames = 0;
 };
@@ -52,7 +45,7 @@ struct Pulse
 {
     double frequency = params.frequency;
     double cycles = params.cycles;
-    if (params.shape == PulseShape::adaptive)
+    if (params.shape == TransientShape::adaptive)
     {
         const double crispness = std::clamp(sharpness, 0.0, 1.0);
         if (gap < 0.06)
@@ -82,7 +75,7 @@ public:
     PulseVoice() = default;
     explicit PulseVoice(const Pulse& wanted) noexcept : pulse(wanted)
     {
-        if (pulse.shape == PulseShape::adaptive && pulse.frames > 0)
+        if (pulse.shape == TransientShape::adaptive && pulse.frames > 0)
         {
             carrier = Phasors(pulse.cyclesPerFrame);
             window = Phasors(1.0 / static_cast<double>(pulse.frames));
@@ -155,9 +148,9 @@ private:
         for (std::size_t i = 0; i < lanes; ++i)
         {
             const double cycle = static_cast<double>(lanes * groups + i) * pulse.cyclesPerFrame;
-            if (pulse.shape == PulseShape::adaptive)
+            if (pulse.shape == TransientShape::adaptive)
                 group[i] = (0.5 - 0.5 * window.re[i]) * carrier.im[i];
-            else if (pulse.shape == PulseShape::square)
+            else if (pulse.shape == TransientShape::square)
                 group[i] = cycle - std::floor(cycle) < 0.5 ? 1.0 : -1.0;
             else
                 group[i] = std::sin(2.0 * std::numbers::pi * cycle);

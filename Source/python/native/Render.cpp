@@ -105,9 +105,8 @@ ClipLoader loaderOf(const std::vector<ClipHandle>& clips)
         return clips[index].clip();
     };
 }
-} // namespace
 
-void bindRender(nb::module_& module)
+void bindScene(nb::module_& module)
 {
     nb::class_<SceneHandle>(module, "SceneHandle")
         .def_static(
@@ -172,7 +171,12 @@ void bindRender(nb::module_& module)
         .def(
             "__eq__", [](const SceneHandle& self, const SceneHandle& other) { return self.scene() == other.scene(); },
             nb::is_operator());
+}
+} // namespace
 
+void bindRender(nb::module_& module)
+{
+    bindScene(module);
     nb::class_<RenderOptions>(module, "RenderOptions")
         .def(nb::init<const ProfileHandle*, const nb::dict&>(), "profile"_a.none(), "options"_a)
         .def_prop_rw(

@@ -258,7 +258,7 @@ TEST_CASE("An Android waveform sounds as the clip's strength does on a motor", "
     compareAll(
         "Android waveform",
         [](const Clip& clip) {
-            return reduced(clip, {150.0, PulseParams{PulseShape::sine, 150.0, 3.0}, 0.010});
+            return reduced(clip, {150.0, PulseParams{TransientShape::sine, 150.0, 3.0}, 0.010});
         },
         [](const Clip& clip) { return test::playAndroidWaveform(mainFile(writeAndroidJson(clip, {})), 150.0, fs); },
         1.0, 3.0, 69.2);
@@ -304,7 +304,7 @@ TEST_CASE("A .haps file sounds as the clip's one voice does", "[formats][formatq
     compareAll(
         ".haps",
         [](const Clip& clip) {
-            return reduced(clip, {{}, PulseParams{PulseShape::sine, 2.0 / 0.022, 2.0}});
+            return reduced(clip, {{}, PulseParams{TransientShape::sine, 2.0 / 0.022, 2.0}});
         },
         [](const Clip& clip) { return test::playHaps(mainFile(writeHaps(clip, {})), clip.duration, fs); }, 3.0, 7.5,
         75.5);
@@ -315,7 +315,7 @@ TEST_CASE("A .tact file sounds as the clip's strength does on a motor", "[format
     compareAll(
         ".tact",
         [](const Clip& clip) {
-            return reduced(clip, {150.0, PulseParams{PulseShape::sine, 150.0, 3.0}, 0.020});
+            return reduced(clip, {150.0, PulseParams{TransientShape::sine, 150.0, 3.0}, 0.020});
         },
         [](const Clip& clip) { return test::playTact(mainFile(writeTact(clip, {})), 150.0, fs); }, 1.0, 3.0, 61.0);
 }
