@@ -107,6 +107,16 @@ ManifestEntry entryOf(const ConvertTask& task)
     return entry;
 }
 
+void report(Console& console, const std::vector<ConvertTask>& tasks, bool several)
+{
+    console.addToReport(jsonReport(
+        tasks, [](const ConvertTask& task) { return toJson(task); }, !several));
+    if (several)
+        console.note(summary(tasks));
+    else if (!tasks.empty() && tasks.front().skipped)
+        console.note(fmt::format("{} exists and was left", printable(tasks.front().output.string())));
+}
+
 /// `pacini convert`: clips, or profiles, of one format become another.
 class ConvertCommand : public Command
 {
@@ -129,6 +139,12 @@ private:
 
     /// The clips to convert, without second files of a clip.
     [[nodiscard]] InputFiles findClips() const;
+
+    [[nodiscard]] std::vector<ConvertTask> tasksFor(const InputFiles& found, bool several,
+                                                    const std::string& extension) const;
+
+    /// Where the record of conversions into `folder` is; empty: there is none.
+    [[nodiscard]] std::filesystem::path recordFile(bool several, const std::filesystem::path& folder) const;
 
     std::vector<std::string> inputs;
     std::string output;
@@ -329,6 +345,27 @@ InputFiles ConvertCommand::findClips() const
     return found;
 }
 
+std::vector<ConvertTask> ConvertCommand::tasksFor(const InputFiles& found, bool several,
+                                                  const std::string& extension) const
+{
+    auto tasks =
+        makeTasks<ConvertResult>(found, {several ? output + "/" : output, extension, extension}, overwriting, !dryRun);
+    for (ConvertTask& task : tasks)
+        if (task.replaceable == Replaceable::named)
+            task.replaceable = replaceable();
+    return tasks;
+}
+
+std::filesystem::path ConvertCommand::recordFile(bool several, const std::filesystem::path& folder) const
+{
+    std::filesystem::path record = !manifest.empty() ? std::filesystem::path(manifest)
+                                   : several         ? std::filesystem::path(output) / manifestName
+                                                     : std::filesystem::path();
+    if (std::error_code ignored; several && !std::filesystem::is_directory(folder, ignored))
+        record.clear(); // nothing could be written
+    return manifestOfShard(record, shard);
+}
+
 Exit ConvertCommand::convertClips(Console& console)
 {
     const InputFiles found = findClips();
@@ -345,12 +382,7 @@ Exit ConvertCommand::convertClips(Console& console)
     if (isStandardOutput(output))
         console.keepStdoutFree();
 
-    const std::string extension(settings->format->extension);
-    auto tasks =
-        makeTasks<ConvertResult>(found, {several ? output + "/" : output, extension, extension}, overwriting, !dryRun);
-    for (ConvertTask& task : tasks)
-        if (task.replaceable == Replaceable::named)
-            task.replaceable = replaceable();
+    auto tasks = tasksFor(found, several, std::string(settings->format->extension));
     std::vector<std::filesystem::path> all;
     for (const ConvertTask& task : tasks)
         all.push_back(task.input);
@@ -358,12 +390,7 @@ Exit ConvertCommand::convertClips(Console& console)
     if (!inShard)
         return console.fail("", inShard.error(), Exit::usage);
     keepChosen(tasks, *inShard);
-    std::filesystem::path record = !manifest.empty() ? std::filesystem::path(manifest)
-                                   : several         ? std::filesystem::path(output) / manifestName
-                                                     : std::filesystem::path();
-    if (!std::filesystem::is_directory(settings->folder, ignored) && several)
-        record.clear(); // nothing could be written
-    record = manifestOfShard(record, shard);
+    const std::filesystem::path record = recordFile(several, settings->folder);
     if (!record.empty())
         settings->folder = record.parent_path();
     const auto before = readManifest(record);
@@ -394,13 +421,10 @@ Exit ConvertCommand::convertClips(Console& console)
                              [&]
                              { return convertClip(task.input, task.output, task.replaceable, *settings, earlier); });
                      tellError(console, task, end);
+                     if (task.result && !task.result->upToDate && !dryRun)
+                         sayWritten(console, task, settings->folder);
                      if (task.result)
-                     {
-                         if (!task.result->upToDate && !dryRun)
-                             sayWritten(console, task, settings->folder);
-                         for (const std::string& warning : task.result->entry.warnings)
-                             console.warning(task.input.string(), warning);
-                     }
+                         console.warnings(task.input.string(), task.result->entry.warnings);
                      // What was not replaced is still what it was made from before.
                      if (!dryRun && (task.result || (task.error && (earlier == nullptr || earlier->outputs.empty()))))
                          growing.add(task.key, entryOf(task));
@@ -419,12 +443,7 @@ Exit ConvertCommand::convertClips(Console& console)
         failed = true;
     }
 
-    console.addToReport(jsonReport(
-        tasks, [](const ConvertTask& task) { return toJson(task); }, !several));
-    if (several)
-        console.note(summary(tasks));
-    else if (!tasks.empty() && tasks.front().skipped)
-        console.note(fmt::format("{} exists and was left", printable(tasks.front().output.string())));
+    report(console, tasks, several);
     return failed ? Exit::failed : Exit::ok;
 }
 

@@ -122,6 +122,10 @@ private:
     [[nodiscard]] Result<void> checkOptions(const MethodInfo& method) const;
     [[nodiscard]] Result<void> checkFormat() const;
     [[nodiscard]] std::optional<Settings> chosenSettings(Console& console) const;
+
+    /// Reads what is written and how; what is wrong is said, and anything but ok returned.
+    [[nodiscard]] Exit readOutput(Console& console, const Settings& chosen, EncodeSettings& settings) const;
+    void tell(Console& console, const EncodeTask& task) const;
     [[nodiscard]] Error runOnCluster() const;
 
     /// The sounds to encode, without drive signals that Pacini made, which may lie beside them.
@@ -321,6 +325,38 @@ InputFiles EncodeCommand::findSounds() const
     return found;
 }
 
+Exit EncodeCommand::readOutput(Console& console, const Settings& chosen, EncodeSettings& settings) const
+{
+    settings.reading = {allowTruncated, allowNan};
+    settings.force = force;
+    settings.dryRun = dryRun;
+    const ClipFormat* target = clipFormatNamed(format);
+    if (target == nullptr)
+        target = clipFormatWrittenTo(lowerExtension(output));
+    if (target != nullptr)
+        settings.format = target;
+    if (const auto fits = exporting.checkFor(*settings.format); !fits)
+        return console.fail("", fits.error(), Exit::usage);
+    const auto exportParams = exporting.params(console, *settings.format, chosen.exporting);
+    if (!exportParams)
+        return Exit::failed;
+    settings.exporting = *exportParams;
+    return Exit::ok;
+}
+
+void EncodeCommand::tell(Console& console, const EncodeTask& task) const
+{
+    const EncodeResult& result = *task.result;
+    if (!result.upToDate && !dryRun)
+        console.wrote(task.output, bytesText(static_cast<double>(result.bytes)));
+    if (result.replacedSamples > 0)
+        console.warning(task.input.string(),
+                        counted(result.replacedSamples, "sample was no number or absurdly large and was taken as 0",
+                                "samples were no numbers or absurdly large and were taken as 0"));
+    if (!result.stray.empty())
+        console.warning(task.input.string(), strayWarning(result.stray));
+}
+
 Exit EncodeCommand::run(Console& console)
 {
     if (listMethods)
@@ -355,20 +391,8 @@ Exit EncodeCommand::run(Console& console)
         return console.fail("", runOnCluster(), Exit::usage);
     EncodeSettings settings;
     static_cast<TranslationParams&>(settings) = *translation;
-    settings.reading = {allowTruncated, allowNan};
-    settings.force = force;
-    settings.dryRun = dryRun;
-    const ClipFormat* target = clipFormatNamed(format);
-    if (target == nullptr)
-        target = clipFormatWrittenTo(lowerExtension(output));
-    if (target != nullptr)
-        settings.format = target;
-    if (const auto fits = exporting.checkFor(*settings.format); !fits)
-        return console.fail("", fits.error(), Exit::usage);
-    const auto exportParams = exporting.params(console, *settings.format, chosen->exporting);
-    if (!exportParams)
-        return Exit::failed;
-    settings.exporting = *exportParams;
+    if (const Exit read = readOutput(console, *chosen, settings); read != Exit::ok)
+        return read;
     const std::string extension(settings.format->extension);
     OutputNames names{output, extension, extension};
     if (method.output == MethodOutput::signal) // beside its recording a signal must not replace it
@@ -397,17 +421,8 @@ Exit EncodeCommand::run(Console& console)
                      attempt(task, end, [&] { return job.run(task.input, task.output, task.replaceable, progress); });
                      tellError(console, task, end);
                      batch.add(task, [](const EncodeTask& done) { return toJson(done); });
-                     if (!task.result)
-                         return;
-                     if (!task.result->upToDate && !dryRun)
-                         console.wrote(task.output, bytesText(static_cast<double>(task.result->bytes)));
-                     if (task.result->replacedSamples > 0)
-                         console.warning(task.input.string(),
-                                         counted(task.result->replacedSamples,
-                                                 "sample was no number or absurdly large and was taken as 0",
-                                                 "samples were no numbers or absurdly large and were taken as 0"));
-                     if (task.result && !task.result->stray.empty())
-                         console.warning(task.input.string(), strayWarning(task.result->stray));
+                     if (task.result)
+                         tell(console, task);
                  };
              });
 

@@ -129,6 +129,17 @@ private:
     /// What is shown of something that lasts `duration` s. Errors: invalidArgument.
     [[nodiscard]] Result<plot::TimeRange> rangeWithin(double duration) const;
 
+    [[nodiscard]] Progress progressOf(Console& console) const
+    {
+        return [&](double share)
+        {
+            console.progress(share, input);
+        };
+    }
+
+    /// Draws a clip under the sound `heard`; empty: under its drive signal.
+    Exit plotClip(Console& console, const std::filesystem::path& target, const Clip& clip, const std::string& heard,
+                  const plot::FigureStyle& style) const;
     Exit plotScene(Console& console, const std::filesystem::path& target, const Scene& scene,
                    const plot::FigureStyle& style) const;
     Exit write(Console& console, const std::filesystem::path& target, const plot::Figure& figure,
@@ -143,6 +154,7 @@ private:
     std::optional<double> from;
     std::optional<double> to;
     bool dark = false;
+    std::optional<Profile> actuator;
     OverwriteOptions overwriting;
     Replaceable replaceable = Replaceable::named; ///< at the target
 };
@@ -188,11 +200,6 @@ CLI::App* PlotCommand::declare(CLI::App& app)
 
 Exit PlotCommand::run(Console& console)
 {
-    const Progress progress = [&](double share)
-    {
-        console.progress(share, input);
-    };
-
     const std::filesystem::path path(input);
     const auto place = outputFor({path, path.filename()}, {output, ".png", ".png"}, false);
     if (!place)
@@ -228,14 +235,8 @@ Exit PlotCommand::run(Console& console)
         return write(console, *target, makeProfileFigure(**shown, style), style);
     }
 
-    std::optional<Profile> actuator;
-    if (!profile.empty())
-    {
-        actuator = openProfile(console, profile);
-        if (!actuator)
-            return Exit::failed;
-    }
-
+    if (!profile.empty() && !(actuator = openProfile(console, profile)))
+        return Exit::failed;
     const bool isClip = looksLikeClip(path);
     std::optional<Clip> clip;
     if (isClip)
@@ -250,37 +251,40 @@ Exit PlotCommand::run(Console& console)
     }
     else
     {
-        auto encoded = EncodeJob(EncodeSettings{}).encode(path, progress);
+        auto encoded = EncodeJob(EncodeSettings{}).encode(path, progressOf(console));
         if (!encoded)
             return console.fail(input, encoded.error());
         clip = std::move(*encoded);
     }
-    const auto shownRange = rangeWithin(clip->duration);
-    if (!shownRange)
-        return console.fail(input, shownRange.error());
-    const plot::TimeRange range = *shownRange;
+    return plotClip(console, *target, *clip, !isClip && sound.empty() ? input : sound, style);
+}
 
+Exit PlotCommand::plotClip(Console& console, const std::filesystem::path& target, const Clip& clip,
+                           const std::string& heard, const plot::FigureStyle& style) const
+{
+    const auto range = rangeWithin(clip.duration);
+    if (!range)
+        return console.fail(input, range.error());
     const auto columns = static_cast<std::size_t>(style.size.width);
     std::vector<plot::NamedWaveform> waveforms;
-    const std::string heard = !isClip && sound.empty() ? input : sound;
     if (!heard.empty())
     {
-        auto waveform = soundWaveform(heard, range, columns);
+        auto waveform = soundWaveform(heard, *range, columns);
         if (!waveform)
             return console.fail(heard, waveform.error());
         waveforms.push_back(std::move(waveform.value()));
     }
     if (heard.empty() || actuator)
     {
-        auto waveform = driveWaveform(*clip, actuator, range, columns, progress);
+        auto waveform = driveWaveform(clip, actuator, *range, columns, progressOf(console));
         if (!waveform)
             return console.fail(input, waveform.error());
         waveforms.push_back(std::move(waveform.value()));
     }
     console.endProgress();
 
-    const std::string title = clip->name.empty() ? path.filename().string() : clip->name;
-    return write(console, *target, makeClipFigure(*clip, title, waveforms, range, style), style);
+    const std::string title = clip.name.empty() ? std::filesystem::path(input).filename().string() : clip.name;
+    return write(console, target, makeClipFigure(clip, title, waveforms, *range, style), style);
 }
 
 Result<plot::TimeRange> PlotCommand::rangeWithin(double duration) const

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <type_traits>
 #include <utility>
+#include <variant>
 
 namespace pacini
 {
@@ -131,91 +133,109 @@ TimeRange TimeWarp::map(TimeRange range) const
     return {from, range.to == oldDuration ? duration : std::max(from, map(range.to))};
 }
 
+template <typename Move>
+void TimeWarp::moveAll(Move&& move)
+{
+    std::vector<Pair> moved;
+    for (const Pair& pair : pairs)
+        move(pair, moved);
+    pairs = std::move(moved);
+    keepAscending(pairs);
+}
+
+void TimeWarp::followOne(const TrimEdit& before, const TrimEdit& after)
+{
+    const TimeRange a = withinClip(before.range, oldDuration);
+    const TimeRange b = withinClip(after.range, duration);
+    oldDuration = a.to - a.from;
+    moveAll(
+        [&](const Pair& p, std::vector<Pair>& moved)
+        {
+            if (detail::isInside(a, p.before) && detail::isInside(b, p.after))
+                moved.push_back({p.before - a.from, p.after - b.from});
+        });
+}
+
+void TimeWarp::followOne(const CutEdit& before, const CutEdit& after)
+{
+    const TimeRange a = withinClip(before.range, oldDuration);
+    const TimeRange b = withinClip(after.range, duration);
+    oldDuration -= a.to - a.from;
+    moveAll(
+        [&](const Pair& p, std::vector<Pair>& moved)
+        {
+            if (p.before < a.from && p.after < b.from)
+                moved.push_back(p);
+            else if (p.before >= a.to && p.after >= b.to)
+                moved.push_back({p.before - (a.to - a.from), p.after - (b.to - b.from)});
+        });
+}
+
+void TimeWarp::followOne(const InsertEdit& before, const InsertEdit& after)
+{
+    const double a = clampTo(before.time, 0.0, oldDuration);
+    const double b = clampTo(after.time, 0.0, duration);
+    const double length = before.part ? before.part->duration : 0.0;
+    oldDuration += length;
+    moveAll(
+        [&](const Pair& p, std::vector<Pair>& moved)
+        {
+            if (p.before < a && p.after < b)
+                moved.push_back(p);
+            else if (p.before >= a && p.after >= b)
+                moved.push_back({p.before + length, p.after + length});
+        });
+    pairs.push_back({a, b});
+    pairs.push_back({a + length, b + length});
+    keepAscending(pairs);
+}
+
+void TimeWarp::followOne(const RepeatEdit& before, const RepeatEdit&)
+{
+    const int passes = std::clamp(before.passes, 1, 10'000);
+    const double a = oldDuration;
+    oldDuration *= passes;
+    moveAll(
+        [&](const Pair& p, std::vector<Pair>& moved)
+        {
+            for (int pass = 0; pass < passes; ++pass)
+                moved.push_back({p.before + a * pass, p.after + duration * pass});
+        });
+}
+
+void TimeWarp::followOne(const ReverseEdit&, const ReverseEdit&)
+{
+    moveAll(
+        [&](const Pair& p, std::vector<Pair>& moved) {
+            moved.push_back({oldDuration - p.before, duration - p.after});
+        });
+}
+
+void TimeWarp::followOne(const StretchEdit& before, const StretchEdit&)
+{
+    const double ratio = clampTo(before.ratio, 0.01, 100.0);
+    oldDuration *= ratio;
+    moveAll([&](const Pair& p, std::vector<Pair>& moved) { moved.push_back({ratio * p.before, ratio * p.after}); });
+}
+
 void TimeWarp::follow(const EditOperation& before, const EditOperation& after, double newDuration)
 {
-    const auto both = [&](auto&& change)
-    {
-        std::vector<Pair> moved;
-        for (const Pair& pair : pairs)
-            change(pair, moved);
-        pairs = std::move(moved);
-        keepAscending(pairs);
-        duration = newDuration;
-    };
-    if (const auto* trim = std::get_if<TrimEdit>(&before))
-    {
-        const TimeRange a = withinClip(trim->range, oldDuration);
-        const TimeRange b = withinClip(std::get<TrimEdit>(after).range, duration);
-        oldDuration = a.to - a.from;
-        both(
-            [&](const Pair& p, std::vector<Pair>& moved)
+    std::visit(
+        [&](const auto& edit)
+        {
+            using Kind = std::decay_t<decltype(edit)>;
+            if constexpr (std::is_same_v<Kind, ReplaceEdit>)
             {
-                if (detail::isInside(a, p.before) && detail::isInside(b, p.after))
-                    moved.push_back({p.before - a.from, p.after - b.from});
-            });
-    }
-    else if (const auto* cut = std::get_if<CutEdit>(&before))
-    {
-        const TimeRange a = withinClip(cut->range, oldDuration);
-        const TimeRange b = withinClip(std::get<CutEdit>(after).range, duration);
-        oldDuration -= a.to - a.from;
-        both(
-            [&](const Pair& p, std::vector<Pair>& moved)
+                oldDuration = duration = newDuration;
+                pairs.clear();
+            }
+            else if constexpr (requires { followOne(edit, edit); })
             {
-                if (p.before < a.from && p.after < b.from)
-                    moved.push_back(p);
-                else if (p.before >= a.to && p.after >= b.to)
-                    moved.push_back({p.before - (a.to - a.from), p.after - (b.to - b.from)});
-            });
-    }
-    else if (const auto* inserted = std::get_if<InsertEdit>(&before))
-    {
-        const double a = clampTo(inserted->time, 0.0, oldDuration);
-        const double b = clampTo(std::get<InsertEdit>(after).time, 0.0, duration);
-        const double length = inserted->part ? inserted->part->duration : 0.0;
-        oldDuration += length;
-        both(
-            [&](const Pair& p, std::vector<Pair>& moved)
-            {
-                if (p.before < a && p.after < b)
-                    moved.push_back(p);
-                else if (p.before >= a && p.after >= b)
-                    moved.push_back({p.before + length, p.after + length});
-            });
-        pairs.push_back({a, b});
-        pairs.push_back({a + length, b + length});
-        keepAscending(pairs);
-    }
-    else if (const auto* repeated = std::get_if<RepeatEdit>(&before))
-    {
-        const int passes = std::clamp(repeated->passes, 1, 10'000);
-        const double a = oldDuration;
-        const double b = duration;
-        oldDuration *= passes;
-        both(
-            [&](const Pair& p, std::vector<Pair>& moved)
-            {
-                for (int pass = 0; pass < passes; ++pass)
-                    moved.push_back({p.before + a * pass, p.after + b * pass});
-            });
-    }
-    else if (std::holds_alternative<ReverseEdit>(before))
-    {
-        const double a = oldDuration;
-        const double b = duration;
-        both([&](const Pair& p, std::vector<Pair>& moved) { moved.push_back({a - p.before, b - p.after}); });
-    }
-    else if (const auto* stretched = std::get_if<StretchEdit>(&before))
-    {
-        const double ratio = clampTo(stretched->ratio, 0.01, 100.0);
-        oldDuration *= ratio;
-        both([&](const Pair& p, std::vector<Pair>& moved) { moved.push_back({ratio * p.before, ratio * p.after}); });
-    }
-    else if (std::holds_alternative<ReplaceEdit>(before))
-    {
-        oldDuration = duration = newDuration;
-        pairs.clear();
-    }
+                followOne(edit, std::get<Kind>(after));
+                duration = newDuration;
+            }
+        },
+        before);
 }
 
 } // namespace pacini

@@ -40,6 +40,16 @@ public:
     [[nodiscard]] double durationBefore() const noexcept { return oldDuration; }
 
 private:
+    /// Replaces each pair by those that `move(pair, moved)` appends to `moved`.
+    template <typename Move>
+    void moveAll(Move&& move);
+    void followOne(const TrimEdit& before, const TrimEdit& after);
+    void followOne(const CutEdit& before, const CutEdit& after);
+    void followOne(const InsertEdit& before, const InsertEdit& after);
+    void followOne(const RepeatEdit& before, const RepeatEdit& after);
+    void followOne(const ReverseEdit& before, const ReverseEdit& after);
+    void followOne(const StretchEdit& before, const StretchEdit& after);
+
     std::vector<Pair> pairs; ///< strictly ascending in both
     double oldDuration = 0.0;
     double duration = 0.0;

@@ -164,19 +164,14 @@ inline Result<void> checkCurve(const Curve& curve, std::string_view valueName, d
     }
     return {};
 }
-} // namespace detail
-
-/// Checks every invariant of a clip: finite numbers, times in order and within the duration, amplitudes from 0,
-/// frequencies above 0, low <= centre <= high. The first broken rule comes back with its place.
-[[nodiscard]] inline Result<void> validate(const Clip& clip)
+inline Result<void> checkAmplitude(const Curve& curve, double duration, const std::string& where)
 {
-    using namespace detail;
-    if (auto r = checkNumber(clip.duration, 0.0, limits::duration, "duration"); !r)
-        return r;
-    if (auto r = checkNumber(clip.source.sampleRate, 0.0, 1e9, "source.sampleRate"); !r)
-        return r;
-    if (clip.source.channels < 0)
-        return brokenRule("source.channels", "is negative");
+    return checkCurve(curve, "amplitude", duration, 0.0, limits::amplitude, where);
+}
+
+/// The parameters of the encoder, and the size of all texts.
+inline Result<void> checkTexts(const Clip& clip)
+{
     std::size_t textBytes = clip.name.size() + clip.source.file.size();
     for (const Marker& marker : clip.markers)
         textBytes += marker.name.size();
@@ -195,70 +190,93 @@ inline Result<void> checkCurve(const Curve& curve, std::string_view valueName, d
     if (textBytes > limits::text)
         return brokenRule("", "has more than " + std::to_string(limits::text) + " bytes of names and parameters",
                           ErrorCode::tooLarge);
-    if (auto r = checkCurve(clip.envelope, "amplitude", clip.duration, 0.0, limits::amplitude, "envelope"); !r)
+    return {};
+}
+
+inline Result<void> checkItem(const Band& band, double duration, const std::string& where)
+{
+    for (const auto& [value, field] :
+         {std::pair(band.lowFrequency, ".lowFrequency"), std::pair(band.centreFrequency, ".centreFrequency"),
+          std::pair(band.highFrequency, ".highFrequency")})
+        if (auto r = checkNumber(value, 0.0, limits::frequency, where + field); !r)
+            return r;
+    if (!(band.lowFrequency <= band.centreFrequency && band.centreFrequency <= band.highFrequency))
+        return brokenRule(where, "needs lowFrequency <= centreFrequency <= highFrequency");
+    if (auto r = checkAmplitude(band.amplitude, duration, where + ".amplitude"); !r)
+        return r;
+    return checkCurve(band.pitch, "frequency", duration, 1e-3, limits::frequency, where + ".pitch");
+}
+
+inline Result<void> checkItem(const NoiseBand& band, double duration, const std::string& where)
+{
+    if (auto r = checkNumber(band.lowFrequency, 0.0, limits::frequency, where + ".lowFrequency"); !r)
+        return r;
+    if (auto r = checkNumber(band.highFrequency, band.lowFrequency, limits::frequency, where + ".highFrequency"); !r)
+        return r;
+    return checkAmplitude(band.amplitude, duration, where + ".amplitude");
+}
+
+inline Result<void> checkItem(const Transient& transient, double, const std::string& where)
+{
+    if (auto r = checkNumber(transient.amplitude, 0.0, limits::amplitude, where + ".amplitude"); !r)
+        return r;
+    return checkNumber(transient.sharpness, 0.0, 1.0, where + ".sharpness");
+}
+
+inline Result<void> checkItem(const Marker&, double, const std::string&)
+{
+    return {};
+}
+
+/// Each item of a list `name`; of those that have a time, also that they are in order, each called `noun`.
+template <typename Item>
+Result<void> checkList(const std::vector<Item>& items, double duration, std::string_view name, std::string_view noun)
+{
+    [[maybe_unused]] double before = 0.0;
+    for (std::size_t i = 0; i < items.size(); ++i)
+    {
+        const std::string where = indexed(name, i);
+        if constexpr (requires { items[i].time; })
+        {
+            if (auto r = checkNumber(items[i].time, 0.0, duration + 1e-6, where + ".time"); !r)
+                return r;
+            if (items[i].time < before)
+                return brokenRule(where + ".time", "is earlier than the " + std::string(noun) + " before it");
+            before = items[i].time;
+        }
+        if (auto r = checkItem(items[i], duration, where); !r)
+            return r;
+    }
+    return {};
+}
+} // namespace detail
+
+/// Checks every invariant of a clip: finite numbers, times in order and within the duration, amplitudes from 0,
+/// frequencies above 0, low <= centre <= high. The first broken rule comes back with its place.
+[[nodiscard]] inline Result<void> validate(const Clip& clip)
+{
+    using namespace detail;
+    if (auto r = checkNumber(clip.duration, 0.0, limits::duration, "duration"); !r)
+        return r;
+    if (auto r = checkNumber(clip.source.sampleRate, 0.0, 1e9, "source.sampleRate"); !r)
+        return r;
+    if (clip.source.channels < 0)
+        return brokenRule("source.channels", "is negative");
+    if (auto r = checkTexts(clip); !r)
+        return r;
+    if (auto r = checkAmplitude(clip.envelope, clip.duration, "envelope"); !r)
         return r;
     if (auto r = checkCurve(clip.centroid, "frequency", clip.duration, 0.0, limits::frequency, "centroid"); !r)
         return r;
     if (clip.bands.size() > limits::bands)
         return brokenRule("bands", "has more than 256 bands", ErrorCode::tooLarge);
-    for (std::size_t i = 0; i < clip.bands.size(); ++i)
-    {
-        const Band& band = clip.bands[i];
-        const auto where = indexed("bands", i);
-        for (const auto& [value, field] :
-             {std::pair(band.lowFrequency, ".lowFrequency"), std::pair(band.centreFrequency, ".centreFrequency"),
-              std::pair(band.highFrequency, ".highFrequency")})
-            if (auto r = checkNumber(value, 0.0, limits::frequency, where + field); !r)
-                return r;
-        if (!(band.lowFrequency <= band.centreFrequency && band.centreFrequency <= band.highFrequency))
-            return brokenRule(where, "needs lowFrequency <= centreFrequency <= highFrequency");
-        if (auto r =
-                checkCurve(band.amplitude, "amplitude", clip.duration, 0.0, limits::amplitude, where + ".amplitude");
-            !r)
-            return r;
-        if (auto r = checkCurve(band.pitch, "frequency", clip.duration, 1e-3, limits::frequency, where + ".pitch"); !r)
-            return r;
-    }
-    double before = 0.0;
-    for (std::size_t i = 0; i < clip.transients.size(); ++i)
-    {
-        const Transient& transient = clip.transients[i];
-        const auto where = indexed("transients", i);
-        if (auto r = checkNumber(transient.time, 0.0, clip.duration + 1e-6, where + ".time"); !r)
-            return r;
-        if (transient.time < before)
-            return brokenRule(where + ".time", "is earlier than the transient before it");
-        if (auto r = checkNumber(transient.amplitude, 0.0, limits::amplitude, where + ".amplitude"); !r)
-            return r;
-        if (auto r = checkNumber(transient.sharpness, 0.0, 1.0, where + ".sharpness"); !r)
-            return r;
-        before = transient.time;
-    }
-    for (std::size_t i = 0; i < clip.noise.size(); ++i)
-    {
-        const NoiseBand& band = clip.noise[i];
-        const auto where = indexed("noise", i);
-        if (auto r = checkNumber(band.lowFrequency, 0.0, limits::frequency, where + ".lowFrequency"); !r)
-            return r;
-        if (auto r = checkNumber(band.highFrequency, band.lowFrequency, limits::frequency, where + ".highFrequency");
-            !r)
-            return r;
-        if (auto r =
-                checkCurve(band.amplitude, "amplitude", clip.duration, 0.0, limits::amplitude, where + ".amplitude");
-            !r)
-            return r;
-    }
-    before = 0.0;
-    for (std::size_t i = 0; i < clip.markers.size(); ++i)
-    {
-        const auto where = indexed("markers", i) + ".time";
-        if (auto r = checkNumber(clip.markers[i].time, 0.0, clip.duration + 1e-6, where); !r)
-            return r;
-        if (clip.markers[i].time < before)
-            return brokenRule(where, "is earlier than the marker before it");
-        before = clip.markers[i].time;
-    }
-    return {};
+    if (auto r = checkList(clip.bands, clip.duration, "bands", "band"); !r)
+        return r;
+    if (auto r = checkList(clip.transients, clip.duration, "transients", "transient"); !r)
+        return r;
+    if (auto r = checkList(clip.noise, clip.duration, "noise", "noise"); !r)
+        return r;
+    return checkList(clip.markers, clip.duration, "markers", "marker");
 }
 
 } // namespace pacini

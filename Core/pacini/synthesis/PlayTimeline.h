@@ -124,87 +124,97 @@ void appendSides(Curve& result, double time, Value&& at)
             result.push_back({time, left});
     result.push_back({time, at(time)});
 }
+
+/// Curves of all that changes in a play.
+struct PlayMoves
+{
+    GlideCurve level, pan, delay;
+    PerRole<std::optional<GlideCurve>> roles; ///< those that are ever off 1
+    bool late;                                ///< the delay is ever above 0
+    std::vector<DecoderChange> changes;       ///< of pitch and speed
+
+    PlayMoves(const ScenePlay& play, std::span<const SceneChange> moved)
+        : level(sceneGain(play.gain)), pan(play.pan), delay(play.delay), late(play.delay > 0.0)
+    {
+        for (const Role role : allRoles)
+            if (const double start = sceneGain(roleLevel(play, role)); start != 1.0)
+                roles[role].emplace(start);
+        double transposition = play.transposition, stretch = play.stretch;
+        for (const SceneChange& change : moved)
+        {
+            switch (change.parameter)
+            {
+            case SceneParameter::gain:
+                level.glideTo(sceneGain(change.value), change.time, change.glide);
+                continue;
+            case SceneParameter::pan:
+                pan.glideTo(change.value, change.time, change.glide);
+                continue;
+            case SceneParameter::delay:
+                delay.glideTo(change.value, change.time, change.glide);
+                late = late || change.value > 0.0;
+                continue;
+            case SceneParameter::transposition:
+                transposition = change.value;
+                break;
+            case SceneParameter::stretch:
+                stretch = change.value;
+                break;
+            case SceneParameter::tones:
+            case SceneParameter::events:
+            case SceneParameter::noise:
+            {
+                auto& role = roles[*roleOf(change.parameter)];
+                if (!role)
+                    role.emplace(1.0);
+                role->glideTo(sceneGain(change.value), change.time, change.glide);
+                continue;
+            }
+            }
+            changes.push_back({std::max(0.0, change.time - play.start), transposition, stretch});
+        }
+    }
+};
 } // namespace detail
 
 /// The timeline of play `index` in a valid scene.
 [[nodiscard]] inline PlayTimeline makeTimeline(const Scene& scene, std::size_t index,
                                                std::span<const SceneChange> changes)
 {
-    const ScenePlay& play = scene.plays[index];
+    detail::PlayMoves moves(scene.plays[index], changes);
+    const Curve &level = moves.level.curve(), &pan = moves.pan.curve(), &delay = moves.delay.curve();
     PlayTimeline timeline;
-    detail::GlideCurve level(sceneGain(play.gain)), pan(play.pan), delay(play.delay);
-    PerRole<std::optional<detail::GlideCurve>> roles;
+    timeline.changes = std::move(moves.changes);
     for (const Role role : allRoles)
-        if (const double start = sceneGain(roleLevel(play, role)); start != 1.0)
-            roles[role].emplace(start);
-    bool late = play.delay > 0.0;
-    double transposition = play.transposition, stretch = play.stretch;
-    for (const SceneChange& change : changes)
-    {
-        switch (change.parameter)
-        {
-        case SceneParameter::gain:
-            level.glideTo(sceneGain(change.value), change.time, change.glide);
-            continue;
-        case SceneParameter::pan:
-            pan.glideTo(change.value, change.time, change.glide);
-            continue;
-        case SceneParameter::delay:
-            delay.glideTo(change.value, change.time, change.glide);
-            late = late || change.value > 0.0;
-            continue;
-        case SceneParameter::transposition:
-            transposition = change.value;
-            break;
-        case SceneParameter::stretch:
-            stretch = change.value;
-            break;
-        case SceneParameter::tones:
-        case SceneParameter::events:
-        case SceneParameter::noise:
-        {
-            auto& role = roles[*roleOf(change.parameter)];
-            if (!role)
-                role.emplace(1.0);
-            role->glideTo(sceneGain(change.value), change.time, change.glide);
-            continue;
-        }
-        }
-        timeline.changes.push_back({std::max(0.0, change.time - play.start), transposition, stretch});
-    }
-
-    for (const Role role : allRoles)
-        if (roles[role])
-            timeline.roles[role] = roles[role]->curve();
+        if (moves.roles[role])
+            timeline.roles[role] = moves.roles[role]->curve();
 
     // Levels follow a pan along a cosine, which 64 chords between neighbours hold within -80 dB.
-    const auto times = detail::bends(level.curve(), pan.curve(), 64 * std::max(1, scene.actuators - 1));
+    const int chords = 64 * std::max(1, scene.actuators - 1);
+    const auto times = detail::bends(level, pan, chords);
     const auto actuators = static_cast<std::size_t>(scene.actuators);
     const double whole = sceneGain(scene.gain);
-    for (const Breakpoint& point : level.curve())
+    for (const Breakpoint& point : level)
         timeline.level.push_back({point.time, whole * point.value});
     const bool panDelays = scene.panLaw != PanLaw::constantPower && actuators > 1;
-    if (late)
-        timeline.delay = delay.curve();
-    const auto delayTimes =
-        late ? detail::bends(delay.curve(), pan.curve(), 64 * std::max(1, scene.actuators - 1)) : times;
+    if (moves.late)
+        timeline.delay = delay;
+    const auto delayTimes = moves.late ? detail::bends(delay, pan, chords) : times;
     for (std::size_t a = 0; a < actuators; ++a)
     {
         Curve gains, delays;
         for (double time : times)
-            detail::appendSides(gains, time,
-                                [&](double t) {
-                                    return whole * valueAt(level.curve(), t) *
-                                           panGain(scene.panLaw, valueAt(pan.curve(), t), a, actuators);
-                                });
+            detail::appendSides(
+                gains, time,
+                [&](double t)
+                { return whole * valueAt(level, t) * panGain(scene.panLaw, valueAt(pan, t), a, actuators); });
         timeline.gains.push_back(std::move(gains));
-        if (!late && !panDelays)
+        if (!moves.late && !panDelays)
             continue;
         for (double time : delayTimes)
         {
-            const double position =
-                panDelays ? panDelay(valueAt(pan.curve(), time), a, actuators, scene.panDelay) : 0.0;
-            delays.push_back({time, valueAt(delay.curve(), time) + position});
+            const double position = panDelays ? panDelay(valueAt(pan, time), a, actuators, scene.panDelay) : 0.0;
+            delays.push_back({time, valueAt(delay, time) + position});
         }
         timeline.delays.push_back(std::move(delays));
     }

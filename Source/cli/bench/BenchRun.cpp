@@ -62,6 +62,46 @@ std::string buildText()
     return "with assertions: times are not those of a release build";
 #endif
 }
+
+/// Adds each sound to all reports. False: one could not be read, which has been said.
+bool measureSounds(const std::vector<InputFile>& files, const BenchSettings& settings,
+                   std::vector<BenchReport>& reports, Console& console)
+{
+    bool good = true;
+    for (std::size_t i = 0; i < files.size(); ++i)
+    {
+        const auto& file = files[i];
+        const auto sound = readBenchSound(file.path);
+        if (!sound)
+        {
+            console.endProgress();
+            console.error(file.path.string(), sound.error());
+            good = false;
+            continue;
+        }
+        for (std::size_t b = 0; b < reports.size(); ++b)
+        {
+            const double done = static_cast<double>(b) / static_cast<double>(reports.size());
+            console.progress((static_cast<double>(i) + done) / static_cast<double>(files.size()),
+                             fmt::format("{} of {}  {}  {}", i + 1, files.size(), sound->name, reports[b].bench.name));
+            reports[b].measure(*sound, settings);
+        }
+    }
+    console.endProgress();
+    return good;
+}
+
+/// The start of the page that --markdown writes.
+std::string pageHead(const BenchOptions& options, const std::vector<std::string>& inputs, bool demo)
+{
+    return fmt::format("# Measurements\n\nMade by Pacini " PACINI_VERSION
+                       " with\n\n    pacini bench {}{} --repeat {}{} --markdown {}\n\n"
+                       "Compiled by {}, {}. Times are of one processor and differ between computers; "
+                       "ratios hardly do.\n",
+                       options.what, demo ? "" : fmt::format(" {}", fmt::join(inputs, " ")), options.settings.repeats,
+                       options.settings.sweep ? " --sweep" : "", fs::path(options.markdown).filename().string(),
+                       compilerText(), buildText());
+}
 } // namespace
 
 Exit runBenches(const BenchOptions& options, Console& console)
@@ -94,27 +134,7 @@ Exit runBenches(const BenchOptions& options, Console& console)
         return console.fail(
             programFolder().string(),
             {ErrorCode::io, "", "has no folder 'profiles' in it or above it, which bench actuators measures"});
-    for (std::size_t i = 0; i < found.files.size(); ++i)
-    {
-        const auto& file = found.files[i];
-        const auto sound = readBenchSound(file.path);
-        if (!sound)
-        {
-            console.endProgress();
-            console.error(file.path.string(), sound.error());
-            failed = true;
-            continue;
-        }
-        for (std::size_t b = 0; b < reports.size(); ++b)
-        {
-            const double done = static_cast<double>(b) / static_cast<double>(reports.size());
-            console.progress(
-                (static_cast<double>(i) + done) / static_cast<double>(found.files.size()),
-                fmt::format("{} of {}  {}  {}", i + 1, found.files.size(), sound->name, reports[b].bench.name));
-            reports[b].measure(*sound, options.settings);
-        }
-    }
-    console.endProgress();
+    failed = !measureSounds(found.files, options.settings, reports, console) || failed;
     if (std::all_of(reports.begin(), reports.end(), [](const BenchReport& report) { return report.sounds == 0; }))
         return Exit::failed;
 
@@ -122,13 +142,7 @@ Exit runBenches(const BenchOptions& options, Console& console)
                                   {"build", buildText()},
                                   {"repeat", options.settings.repeats},
                                   {"benches", nlohmann::ordered_json::array()}};
-    std::string page = fmt::format("# Measurements\n\nMade by Pacini " PACINI_VERSION
-                                   " with\n\n    pacini bench {}{} --repeat {}{} --markdown {}\n\n"
-                                   "Compiled by {}, {}. Times are of one processor and differ between computers; "
-                                   "ratios hardly do.\n",
-                                   options.what, demo ? "" : fmt::format(" {}", fmt::join(inputs, " ")),
-                                   options.settings.repeats, options.settings.sweep ? " --sweep" : "",
-                                   fs::path(options.markdown).filename().string(), compilerText(), buildText());
+    std::string page = pageHead(options, inputs, demo);
     std::vector<fs::path> written;
     for (BenchReport& report : reports)
     {

@@ -53,13 +53,8 @@ Result<Fitted> openInput(Console& console, const std::string& input)
         if (!(*profile)->measurement || (*profile)->measurement->points.empty())
             return Error{ErrorCode::invalidData, "measurement",
                          "is missing in this profile; 'pacini measure analyse' makes one from recordings"};
-        Fitted fitted{{}, std::move(**profile), true};
-        for (const MeasuredPoint& point : fitted.profile->measurement->points)
-        {
-            fitted.response.frequency.push_back(point.frequency);
-            fitted.response.level.push_back(point.level);
-        }
-        return fitted;
+        FrequencyResponse response = measuredResponse(*(*profile)->measurement);
+        return Fitted{std::move(response), std::move(**profile), true};
     }
     auto response = readResponse(input);
     if (!response)
@@ -131,6 +126,7 @@ public:
     Exit run(Console& console) override;
 
 private:
+    [[nodiscard]] EqualizerFitParams paramsFor(const std::optional<Profile>& profile) const;
     Result<std::size_t> drawPicture(const FrequencyResponse& response, const EqualizerFit& fit,
                                     const EqualizerFitParams& params) const;
 
@@ -191,6 +187,30 @@ CLI::App* FitSubcommand::declare(CLI::App& app)
     return command;
 }
 
+EqualizerFitParams FitSubcommand::paramsFor(const std::optional<Profile>& profile) const
+{
+    EqualizerFitParams params;
+    params.sampleRate = rate;
+    if (sections != "auto")
+        params.sections = std::stoi(sections);
+    params.maxBoost = maxBoost;
+    params.lowFrequency = low.value_or(profile ? profile->range.lowFrequency : 0.0);
+    params.highFrequency = high.value_or(profile ? profile->range.highFrequency : 0.0);
+    params.goalMax = goal;
+    params.goalRms = 0.25 * goal;
+    params.boostOutside = boostOutside;
+    params.shelves = !peaksOnly;
+    if (highpass)
+    {
+        EqualizerSection section;
+        section.type = EqualizerType::highpass;
+        section.frequency = *highpass;
+        section.order = 5;
+        params.highpass = section;
+    }
+    return params;
+}
+
 Exit FitSubcommand::run(Console& console)
 {
     auto opened = openInput(console, input);
@@ -212,25 +232,7 @@ Exit FitSubcommand::run(Console& console)
                             {ErrorCode::invalidArgument, "--plot", "has none of the extensions .png, .svg and .pdf"},
                             Exit::usage);
 
-    EqualizerFitParams params;
-    params.sampleRate = rate;
-    if (sections != "auto")
-        params.sections = std::stoi(sections);
-    params.maxBoost = maxBoost;
-    params.lowFrequency = low.value_or(profile ? profile->range.lowFrequency : 0.0);
-    params.highFrequency = high.value_or(profile ? profile->range.highFrequency : 0.0);
-    params.goalMax = goal;
-    params.goalRms = 0.25 * goal;
-    params.boostOutside = boostOutside;
-    params.shelves = !peaksOnly;
-    if (highpass)
-    {
-        EqualizerSection section;
-        section.type = EqualizerType::highpass;
-        section.frequency = *highpass;
-        section.order = 5;
-        params.highpass = section;
-    }
+    const EqualizerFitParams params = paramsFor(profile);
     const auto fit = fitEqualizer(response, params);
     if (!fit)
         return console.fail(input, fit.error());

@@ -46,6 +46,13 @@ private:
     std::vector<double> levels = SweepParams().levels;
     int rate = 48000;
     OverwriteOptions overwriting;
+
+    [[nodiscard]] SweepParams params() const;
+
+    /// Reads the equaliser that the sweep goes through, and begins the sweep where it can be verified. False: what is
+    /// wrong has been said.
+    bool readEqualizer(Console& console, SweepFile& file, EqualizerSections& sections) const;
+    void tell(Console& console, const SweepFile& file, const EqualizedSweep& played) const;
 };
 } // namespace
 
@@ -77,10 +84,9 @@ CLI::App* SweepSubcommand::declare(CLI::App& app)
     return command;
 }
 
-Exit SweepSubcommand::run(Console& console)
+SweepParams SweepSubcommand::params() const
 {
-    SweepFile file;
-    SweepParams& params = file.sweep;
+    SweepParams params;
     params.lowFrequency = low.value_or(params.lowFrequency);
     params.highFrequency = high;
     params.duration = duration;
@@ -89,7 +95,61 @@ Exit SweepSubcommand::run(Console& console)
     params.repeats = repeats;
     params.levels = levels;
     params.sampleRate = rate;
-    if (auto valid = validate(params); !valid)
+    return params;
+}
+
+bool SweepSubcommand::readEqualizer(Console& console, SweepFile& file, EqualizerSections& sections) const
+{
+    const auto actuator = openProfile(console, profile);
+    if (!actuator)
+        return false;
+    if (actuator->equalizer.empty())
+    {
+        console.error(profile, {ErrorCode::invalidData, "equalizer",
+                                "is empty, so there is nothing to verify; 'pacini measure fit' finds one"});
+        return false;
+    }
+    sections = actuator->equalizer;
+    if (!low)
+        file.sweep.lowFrequency =
+            provingLowFrequency(file.sweep.lowFrequency, file.sweep.highFrequency, actuator->range.lowFrequency);
+    file.equalizedFor = actuator->name;
+    return true;
+}
+
+void SweepSubcommand::tell(Console& console, const SweepFile& file, const EqualizedSweep& played) const
+{
+    const double seconds = static_cast<double>(played.signal.size()) / file.sweep.sampleRate;
+    const std::size_t sweeps = levels.size() * static_cast<std::size_t>(repeats);
+    console.addToReport({{"output", output},
+                         {"sweep", sweepFileBeside(output).string()},
+                         {"duration", seconds},
+                         {"sampleRate", rate},
+                         {"sweeps", sweeps},
+                         {"levels", file.sweep.levels},
+                         {"lowered", played.lowered},
+                         {"gain", played.gain},
+                         {"equalizedFor", file.equalizedFor}});
+    std::string through;
+    if (!file.equalizedFor.empty())
+        through = fmt::format(" through the equaliser of '{}'", printable(file.equalizedFor));
+    if (played.lowered > 0.0)
+        through += fmt::format(", {:g} dB lower ({:g} dB) so that what the equaliser raises fits", played.lowered,
+                               fmt::join(file.sweep.levels, ", "));
+    if (played.gain > 0.0)
+        through += fmt::format(", {:.1f} dB louder than that alone leaves it", played.gain);
+
+    console.wrote(output,
+                  fmt::format("{} sweep{} from {:.4g} to {:g} Hz{}, {} in all", sweeps, sweeps == 1 ? "" : "s",
+                              file.sweep.lowFrequency, file.sweep.highFrequency, through, durationText(seconds)));
+    console.wrote(sweepFileBeside(output), "keep it for the analysis");
+}
+
+Exit SweepSubcommand::run(Console& console)
+{
+    SweepFile file;
+    file.sweep = params();
+    if (auto valid = validate(file.sweep); !valid)
     {
         Error error = valid.error();
         error.where = optionFor(error.where);
@@ -111,67 +171,31 @@ Exit SweepSubcommand::run(Console& console)
     if (isOccupied(description) && !overwriting.replacesAll() && !readSweepFile(description))
         return console.fail("", notReplaced(description, "exists and does not describe a sweep"));
     EqualizerSections sections;
-    if (!profile.empty())
-    {
-        const auto actuator = openProfile(console, profile);
-        if (!actuator)
-            return Exit::failed;
-        if (actuator->equalizer.empty())
-            return console.fail(profile, {ErrorCode::invalidData, "equalizer",
-                                          "is empty, so there is nothing to verify; 'pacini measure fit' finds one"});
-        sections = actuator->equalizer;
-        if (!low)
-            params.lowFrequency =
-                provingLowFrequency(params.lowFrequency, params.highFrequency, actuator->range.lowFrequency);
-        file.equalizedFor = actuator->name;
-    }
-    const auto played = makeEqualizedSweep(params, sections, true);
+    if (!profile.empty() && !readEqualizer(console, file, sections))
+        return Exit::failed;
+    const auto played = makeEqualizedSweep(file.sweep, sections, true);
     if (!played)
     {
         Error error = played.error();
         error.where = optionFor(error.where);
         return console.fail(profile, error);
     }
-    const std::vector<float>& signal = played->signal;
-    params = played->sweep;
+    file.sweep = played->sweep;
     file.gain = played->gain;
 
     AudioWriteParams writing;
     writing.sampleRate = rate;
     writing.encoding = SampleEncoding::pcm24;
-    writing.expectedFrames = signal.size();
+    writing.expectedFrames = played->signal.size();
     if (!named)
         writing.origin = origin;
     writing.existing = *existing;
-    const auto written = writeAudio(output, signal, writing);
+    const auto written = writeAudio(output, played->signal, writing);
     if (!written)
         return console.fail(output, written.error());
     if (const auto described = writeSweepFile(description, file); !described)
         return console.fail(description, described.error());
-
-    const double seconds = static_cast<double>(signal.size()) / params.sampleRate;
-    const std::size_t sweeps = levels.size() * static_cast<std::size_t>(repeats);
-    console.addToReport({{"output", output},
-                         {"sweep", description},
-                         {"duration", seconds},
-                         {"sampleRate", rate},
-                         {"sweeps", sweeps},
-                         {"levels", params.levels},
-                         {"lowered", played->lowered},
-                         {"gain", played->gain},
-                         {"equalizedFor", file.equalizedFor}});
-    std::string through;
-    if (!file.equalizedFor.empty())
-        through = fmt::format(" through the equaliser of '{}'", printable(file.equalizedFor));
-    if (played->lowered > 0.0)
-        through += fmt::format(", {:g} dB lower ({:g} dB) so that what the equaliser raises fits", played->lowered,
-                               fmt::join(params.levels, ", "));
-    if (played->gain > 0.0)
-        through += fmt::format(", {:.1f} dB louder than that alone leaves it", played->gain);
-
-    console.wrote(output, fmt::format("{} sweep{} from {:.4g} to {:g} Hz{}, {} in all", sweeps, sweeps == 1 ? "" : "s",
-                                      params.lowFrequency, params.highFrequency, through, durationText(seconds)));
-    console.wrote(description, "keep it for the analysis");
+    tell(console, file, *played);
     return Exit::ok;
 }
 

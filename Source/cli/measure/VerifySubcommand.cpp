@@ -59,17 +59,6 @@ std::string linearityText(const Linearity& linearity)
     return text;
 }
 
-FrequencyResponse responseBefore(const ProfileMeasurement& measurement)
-{
-    FrequencyResponse response;
-    for (const MeasuredPoint& point : measurement.points)
-    {
-        response.frequency.push_back(point.frequency);
-        response.level.push_back(point.level);
-    }
-    return response;
-}
-
 /// `pacini measure verify`: whether an actuator is flat through its equaliser.
 class VerifySubcommand : public Command
 {
@@ -78,6 +67,9 @@ public:
     Exit run(Console& console) override;
 
 private:
+    [[nodiscard]] Result<std::size_t> drawPicture(const Profile& actuator, const AnalysedRecordings& analysed,
+                                                  const LinearityParams& params, const Linearity& linearity) const;
+
     RecordingOptions options;
     std::string profile;
     std::string output;
@@ -149,26 +141,7 @@ Exit VerifySubcommand::run(Console& console)
 
     if (!picture.empty())
     {
-        plot::ResponseFigureContent content;
-        content.title = actuator->name;
-        content.subtitle = fmt::format("{}: {:.2f} dB mean deviation, {} dB at most, tolerance \u00b1{:.3g} dB",
-                                       linearity->passed() ? "flat" : "not flat", linearity->meanDeviation,
-                                       signedText(linearity->worstDeviation, 2), tolerance);
-        content.equalizer = actuator->equalizer;
-        content.sampleRate = analysed->sweep.sweep.sampleRate;
-        content.lowFrequency = params.lowFrequency;
-        content.highFrequency = params.highFrequency;
-        content.linearity = *linearity;
-        for (const AnalysedRecording& recording : analysed->recordings)
-            if (analysed->recordings.size() > 1)
-                content.responses.push_back({fmt::format("{} placements", analysed->recordings.size()),
-                                             recording.measurement.response(), plot::ResponseRole::placement});
-        if (!actuator->measurement->points.empty())
-            content.responses.push_back(
-                {"before", responseBefore(*actuator->measurement), plot::ResponseRole::measured});
-        content.responses.push_back({"with the equaliser", after, plot::ResponseRole::flattened});
-        const plot::FigureStyle style;
-        if (const auto drawn = plot::writeFigure(picture, makeResponseFigure(content, style), style); !drawn)
+        if (const auto drawn = drawPicture(*actuator, *analysed, params, *linearity); !drawn)
             return console.fail(picture, drawn.error());
         console.wrote(picture);
     }
@@ -190,6 +163,30 @@ Exit VerifySubcommand::run(Console& console)
         return Exit::ok;
     return console.fail(target,
                         {ErrorCode::invalidData, "", fmt::format("is not flat within \u00b1{:.3g} dB", tolerance)});
+}
+
+Result<std::size_t> VerifySubcommand::drawPicture(const Profile& actuator, const AnalysedRecordings& analysed,
+                                                  const LinearityParams& params, const Linearity& linearity) const
+{
+    plot::ResponseFigureContent content;
+    content.title = actuator.name;
+    content.subtitle = fmt::format("{}: {:.2f} dB mean deviation, {} dB at most, tolerance \u00b1{:.3g} dB",
+                                   linearity.passed() ? "flat" : "not flat", linearity.meanDeviation,
+                                   signedText(linearity.worstDeviation, 2), tolerance);
+    content.equalizer = actuator.equalizer;
+    content.sampleRate = analysed.sweep.sweep.sampleRate;
+    content.lowFrequency = params.lowFrequency;
+    content.highFrequency = params.highFrequency;
+    content.linearity = linearity;
+    for (const AnalysedRecording& recording : analysed.recordings)
+        if (analysed.recordings.size() > 1)
+            content.responses.push_back({fmt::format("{} placements", analysed.recordings.size()),
+                                         recording.measurement.response(), plot::ResponseRole::placement});
+    if (!actuator.measurement->points.empty())
+        content.responses.push_back({"before", measuredResponse(*actuator.measurement), plot::ResponseRole::measured});
+    content.responses.push_back({"with the equaliser", analysed.average.response, plot::ResponseRole::flattened});
+    const plot::FigureStyle style;
+    return plot::writeFigure(picture, makeResponseFigure(content, style), style);
 }
 
 std::unique_ptr<Command> verifySubcommand()

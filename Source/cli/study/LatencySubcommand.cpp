@@ -35,6 +35,10 @@ private:
     Exit writeProbe(Console& console, const OpenedStudy& opened);
     Exit measure(Console& console, const OpenedStudy& opened);
 
+    /// Errors: those of the reader and of LatencyMeter::latency(), at the options.
+    [[nodiscard]] Result<study::Latency> listen(Console& console, AudioReader& reader) const;
+    void tell(Console& console, const study::Latency& latency) const;
+
     std::string named, recording, probeFile, profile;
     study::LatencyProbe probe;
     int sound = 1, touch = 2;
@@ -136,6 +140,61 @@ Exit LatencySubcommand::writeProbe(Console& console, const OpenedStudy& opened)
     return Exit::ok;
 }
 
+Result<study::Latency> LatencySubcommand::listen(Console& console, AudioReader& reader) const
+{
+    study::LatencyMeter meter(probe);
+    const auto channels = static_cast<std::size_t>(reader.channels());
+    const double frames = static_cast<double>(reader.frames().value_or(0));
+    double done = 0.0;
+    std::vector<float> heard, felt;
+    constexpr std::size_t blockFrames = 1 << 16;
+    const auto read = reader.forEachBlock(blockFrames,
+                                          [&](std::span<const float> block)
+                                          {
+                                              const std::size_t count = block.size() / channels;
+                                              heard.resize(count);
+                                              felt.resize(count);
+                                              for (std::size_t n = 0; n < count; ++n)
+                                              {
+                                                  heard[n] = block[n * channels + static_cast<std::size_t>(sound) - 1];
+                                                  felt[n] = block[n * channels + static_cast<std::size_t>(touch) - 1];
+                                              }
+                                              meter.push(heard, felt);
+                                              done += static_cast<double>(count);
+                                              if (frames > 0.0)
+                                                  console.progress(std::min(1.0, done / frames), "listening");
+                                              return true;
+                                          });
+    console.endProgress();
+    if (!read)
+        return read.error();
+    auto latency = meter.latency();
+    if (!latency)
+        return Error{latency.error().code, "--" + latency.error().where, latency.error().message};
+    return latency;
+}
+
+void LatencySubcommand::tell(Console& console, const study::Latency& latency) const
+{
+    console.print(fmt::format("the touch comes {} ms {} the sound: {} bursts, SD {} ms, largest difference {} ms",
+                              decimalText(1000.0 * std::abs(latency.delay), 3),
+                              latency.delay < 0.0 ? "before" : "after", latency.bursts,
+                              decimalText(1000.0 * latency.deviation, 3), decimalText(1000.0 * latency.largest, 3)));
+    console.print(fmt::format("drift {} ms in an hour; levels {} and {} dB re full scale",
+                              decimalText(1000.0 * latency.drift, 3), decimalText(latency.soundLevel, 1),
+                              decimalText(latency.touchLevel, 1)));
+    if (latency.missed > 0)
+        console.warning(recording, fmt::format("{} bursts came back on one channel alone", latency.missed));
+    console.addToReport({{"delay", latency.delay},
+                         {"deviation", latency.deviation},
+                         {"largest", latency.largest},
+                         {"drift", latency.drift},
+                         {"bursts", latency.bursts},
+                         {"missed", latency.missed},
+                         {"soundLevel", latency.soundLevel},
+                         {"touchLevel", latency.touchLevel}});
+}
+
 Exit LatencySubcommand::measure(Console& console, const OpenedStudy& opened)
 {
     auto reader = AudioReader::open(recording);
@@ -154,56 +213,10 @@ Exit LatencySubcommand::measure(Console& console, const OpenedStudy& opened)
         return console.fail(recording, {ErrorCode::invalidArgument, "--touch", "must be another channel than --sound"},
                             Exit::usage);
     probe.sampleRate = reader->sampleRate();
-    study::LatencyMeter meter(probe);
-    const auto channels = static_cast<std::size_t>(reader->channels());
-    const double frames = static_cast<double>(reader->frames().value_or(0));
-    double done = 0.0;
-    std::vector<float> heard, felt;
-    constexpr std::size_t blockFrames = 1 << 16;
-    const auto read = reader->forEachBlock(blockFrames,
-                                           [&](std::span<const float> block)
-                                           {
-                                               const std::size_t count = block.size() / channels;
-                                               heard.resize(count);
-                                               felt.resize(count);
-                                               for (std::size_t n = 0; n < count; ++n)
-                                               {
-                                                   heard[n] = block[n * channels + static_cast<std::size_t>(sound) - 1];
-                                                   felt[n] = block[n * channels + static_cast<std::size_t>(touch) - 1];
-                                               }
-                                               meter.push(heard, felt);
-                                               done += static_cast<double>(count);
-                                               if (frames > 0.0)
-                                                   console.progress(std::min(1.0, done / frames), "listening");
-                                               return true;
-                                           });
-    console.endProgress();
-    if (!read)
-        return console.fail(recording, read.error());
-    const auto latency = meter.latency();
+    const auto latency = listen(console, *reader);
     if (!latency)
-    {
-        Error error = latency.error();
-        error.where = "--" + error.where;
-        return console.fail(recording, error);
-    }
-    console.print(fmt::format("the touch comes {} ms {} the sound: {} bursts, SD {} ms, largest difference {} ms",
-                              decimalText(1000.0 * std::abs(latency->delay), 3),
-                              latency->delay < 0.0 ? "before" : "after", latency->bursts,
-                              decimalText(1000.0 * latency->deviation, 3), decimalText(1000.0 * latency->largest, 3)));
-    console.print(fmt::format("drift {} ms in an hour; levels {} and {} dB re full scale",
-                              decimalText(1000.0 * latency->drift, 3), decimalText(latency->soundLevel, 1),
-                              decimalText(latency->touchLevel, 1)));
-    if (latency->missed > 0)
-        console.warning(recording, fmt::format("{} bursts came back on one channel alone", latency->missed));
-    console.addToReport({{"delay", latency->delay},
-                         {"deviation", latency->deviation},
-                         {"largest", latency->largest},
-                         {"drift", latency->drift},
-                         {"bursts", latency->bursts},
-                         {"missed", latency->missed},
-                         {"soundLevel", latency->soundLevel},
-                         {"touchLevel", latency->touchLevel}});
+        return console.fail(recording, latency.error());
+    tell(console, *latency);
     if (dry)
         return Exit::ok;
     study::MeasuredLatency measured;

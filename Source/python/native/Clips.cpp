@@ -305,19 +305,11 @@ TimeRange rangeOf(double from, double to)
         raise({ErrorCode::invalidArgument, "range", "must not end before it starts"});
     return {from, to};
 }
-} // namespace
+using ClipClass = nb::class_<ClipHandle>;
 
-void bindClip(nb::module_& module)
+void bindParts(ClipClass& bound)
 {
-    nb::class_<ExportOptions>(module, "ExportOptions")
-        .def(
-            "__init__",
-            [](ExportOptions* self, nb::dict options, const ProfileHandle* profile) {
-                new (self) ExportOptions{std::move(options), profile};
-            },
-            "options"_a, "profile"_a.none(), nb::keep_alive<1, 3>());
-
-    nb::class_<ClipHandle>(module, "ClipHandle")
+    bound
         .def(
             "__init__",
             [](ClipHandle* self, double duration)
@@ -380,7 +372,12 @@ void bindClip(nb::module_& module)
                                  nb::make_tuple(band.lowFrequency, band.highFrequency, viewOf(self, band.amplitude)));
                          return list;
                      })
-        .def_prop_ro("breakpoints", [](const ClipHandle& self) { return breakpointCount(self.clip()); })
+        .def_prop_ro("breakpoints", [](const ClipHandle& self) { return breakpointCount(self.clip()); });
+}
+
+void bindEdits(ClipClass& bound)
+{
+    bound
         .def("edited", &edited, "name"_a.none() = nb::none(), "duration"_a.none() = nb::none(),
              "source"_a.none() = nb::none(), "envelope"_a.none() = nb::none(), "centroid"_a.none() = nb::none(),
              "bands"_a.none() = nb::none(), "noise"_a.none() = nb::none(), "transients"_a.none() = nb::none(),
@@ -438,7 +435,12 @@ void bindClip(nb::module_& module)
             [](const ClipHandle& self, const std::string& method, std::optional<std::size_t> count,
                std::optional<double> error, bool refit)
             { return simplified(self, simplifyParams(method, count, error, refit)); },
-            "method"_a, "count"_a.none(), "error"_a.none(), "refit"_a)
+            "method"_a, "count"_a.none(), "error"_a.none(), "refit"_a);
+}
+
+void bindFiles(ClipClass& bound)
+{
+    bound
         .def("to_json",
              [](const ClipHandle& self)
              {
@@ -500,6 +502,23 @@ void bindClip(nb::module_& module)
         .def(
             "__eq__", [](const ClipHandle& self, const ClipHandle& other) { return self.clip() == other.clip(); },
             nb::is_operator());
+}
+} // namespace
+
+void bindClip(nb::module_& module)
+{
+    nb::class_<ExportOptions>(module, "ExportOptions")
+        .def(
+            "__init__",
+            [](ExportOptions* self, nb::dict options, const ProfileHandle* profile) {
+                new (self) ExportOptions{std::move(options), profile};
+            },
+            "options"_a, "profile"_a.none(), nb::keep_alive<1, 3>());
+
+    ClipClass clip(module, "ClipHandle");
+    bindParts(clip);
+    bindEdits(clip);
+    bindFiles(clip);
     module.def("export_parameters", [] { return exportDescriptionsJson().dump(); });
     module.def("read_clip", &readFile, "path"_a, "strict"_a);
     module.def("read_clip_bytes", &readBytes, "data"_a, "extension"_a, "strict"_a);
