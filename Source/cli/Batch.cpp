@@ -36,8 +36,8 @@ CLI::Option* addShard(CLI::App& command, std::string& text)
         },
         "1/N to N/N");
     return addOption(command, "--shard", text,
-                     "Only part I of N, of about the same size each: the same on every machine that sees the same "
-                     "files",
+                     "Process only part I of N parts of about the same size; all machines that see the same files "
+                     "agree on the parts",
                      partOfWhole, "I/N");
 }
 
@@ -79,10 +79,10 @@ void Batch::declare(CLI::App& commandToRun)
     command = &commandToRun;
     addShard(*command, shardText);
     auto* named = addOption(*command, "--manifest", manifestFile,
-                            "File that records hash, error and time of each file, a line each; with --shard 2/8 "
-                            "NAME.2-of-8.json. Best called NAME.manifest.json",
+                            "Record hash, error and time of each file in FILE, one line for each, best named "
+                            "NAME.manifest.json; --shard 2/8 writes NAME.2-of-8.json",
                             "FILE");
-    command->add_flag("--retry", retry, "Only the files that failed before, as the manifest says")->needs(named);
+    command->add_flag("--retry", retry, "Process only the files that failed according to the manifest")->needs(named);
 }
 
 Result<std::vector<bool>> Batch::start(const std::vector<BatchFile>& files, bool dryRun)
@@ -100,10 +100,10 @@ Result<std::vector<bool>> Batch::start(const std::vector<BatchFile>& files, bool
     auto there = readManifest(manifest);
     if (!there)
         return Error{ErrorCode::invalidData, manifest.string(),
-                     "exists and is no manifest; name another with --manifest"};
+                     "exists and is not a manifest; name another file with --manifest"};
     if (!there->command.empty() && there->command != command->get_name())
         return Error{ErrorCode::invalidData, manifest.string(),
-                     fmt::format("is a manifest of pacini {}; name another with --manifest", there->command)};
+                     fmt::format("is a manifest of pacini {}; name another file with --manifest", there->command)};
     before = std::move(*there);
     if (retry)
         for (std::size_t i = 0; i < files.size(); ++i)

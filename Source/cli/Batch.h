@@ -1,6 +1,6 @@
 #pragma once
 
-// Batch of files as one of several runs: its shard, and the manifest of what was done.
+// Batch of files as one of several runs: its shard, and the manifest of its results.
 
 #include "cli/Manifest.h"
 #include "cli/Task.h"
@@ -27,7 +27,7 @@ struct BatchFile
     bool left = false; ///< is not worked on, as -n says: has no entry
 };
 
-/// What a run did to one file.
+/// Result of a run for one file.
 struct BatchOutcome
 {
     std::vector<std::filesystem::path> outputs;
@@ -62,7 +62,7 @@ void keepChosen(std::vector<TaskType>& tasks, const std::vector<bool>& chosen)
     tasks = std::move(kept);
 }
 
-/// --shard, --manifest and --retry, declared once per command, and what they ask for.
+/// Options --shard, --manifest and --retry, declared once per command, and their values.
 class Batch
 {
 public:

@@ -31,20 +31,19 @@ public:
             names += ", " + std::string(name);
             allowed.emplace_back(name);
         }
-        addPreset(*command, "what", options.what, "What to measure: " + names, oneOf(allowed), "WHAT");
-        addOption(*command, "inputs", options.inputs, "Sounds, or folders of them [the demo sounds]", "IN");
+        addPreset(*command, "what", options.what, "Measurement: " + names, oneOf(allowed), "WHAT");
+        addOption(*command, "inputs", options.inputs, "Sounds or folders of sounds [the demo sounds]", "IN");
         addPreset(*command, "-o,--output", options.output, "Folder for the tables and charts", "DIR");
         addPreset(*command, "--repeat", options.settings.repeats,
-                  "Runs of which the fastest counts; long ones are not repeated", wholeNumberFrom(1, 1000));
-        command->add_flag(
-            "--sweep", options.settings.sweep,
-            "methods: also Pacini's own at many settings; actuators: also small steps of strength, other boosts");
+                  "Number of runs; the fastest one counts. Long runs are not repeated", wholeNumberFrom(1, 1000));
+        command->add_flag("--sweep", options.settings.sweep,
+                          "Measure more settings: of Pacini's own method (methods); of strength and boost (actuators)");
         addPreset(*command, "--format", options.format, "Format of the charts", oneOf({"svg", "png"}));
         addOption(*command, "--markdown", options.markdown, "Also write all tables into one Markdown page", "FILE");
         options.overwriting.declare(*command);
         command->footer(
-            "Errors and times come from the same runs, one at a time on one processor. Times differ between\n"
-            "computers; compare ratios.\n"
+            "Errors and times are measured in the same runs, one at a time, on one processor. Times differ "
+            "between\ncomputers; compare ratios.\n"
             "Examples:\n  pacini bench simplify                         the demo sounds, into pacini-bench/\n"
             "  pacini bench methods sounds/ --sweep -o out   all methods over a folder\n"
             "  pacini bench all sounds/ --markdown measurements.md");

@@ -1,6 +1,6 @@
 #pragma once
 
-// Options of `pacini bench`, and the names of what it measures.
+// Options of `pacini bench`, and the names of its measurements.
 
 #include "cli/Overwrite.h"
 
@@ -23,7 +23,7 @@ struct BenchSettings
     bool sweep = false; ///< also Pacini's own method at many settings
 };
 
-/// What the user asked for.
+/// Values of the options.
 struct BenchOptions
 {
     std::string what = "all";

@@ -41,7 +41,7 @@ Exit runBenchProgram(const std::vector<std::string>& words, Console& console)
 #endif
     return console.fail(program, {ErrorCode::io, "",
                                   std::string("cannot be started: ") + std::strerror(errno) +
-                                      "; it belongs beside pacini, built as the target pacini-bench"});
+                                      "; build the target pacini-bench, which puts it beside pacini"});
 }
 
 } // namespace pacini::cli

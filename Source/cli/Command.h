@@ -1,6 +1,6 @@
 #pragma once
 
-// Interface of the subcommands of pacini, what makes each of them, and the program that runs them.
+// Interface of the subcommands of pacini, their factory functions, and the program that runs them.
 
 #include "cli/Console.h"
 
@@ -12,7 +12,7 @@
 namespace pacini::cli
 {
 
-/// A subcommand: declares its options once, then runs with what the user gave.
+/// A subcommand: declares its options once, then runs with their values.
 class Command
 {
 public:

@@ -76,9 +76,9 @@ Exit parseAndRun(Console& console, int argc, const char* const* argv, const Benc
     bool quiet = false, json = false, strict = false;
     const auto addCommon = [&](CLI::App& where)
     {
-        where.add_flag("-q,--quiet", quiet, "Say nothing but results, warnings and errors");
-        where.add_flag("--json", json, "Print one JSON object instead of text, also when something fails");
-        where.add_flag("--strict", strict, "Refuse clips, scenes and profiles with keys that are not known");
+        where.add_flag("-q,--quiet", quiet, "Print only results, warnings and errors");
+        where.add_flag("--json", json, "Print one JSON object instead of text, also on failure");
+        where.add_flag("--strict", strict, "Refuse clips, scenes and profiles with unknown keys");
     };
     addCommon(app);
     for (auto& command : commands)
@@ -89,10 +89,10 @@ Exit parseAndRun(Console& console, int argc, const char* const* argv, const Benc
             addCommon(*step);
     }
     app.footer("Examples:\n"
-               "  pacini encode impact.wav -o impact.pacb     a recording becomes a clip of a few hundred bytes\n"
-               "  pacini render impact.pacb -o impact.wav     the clip becomes a drive signal for an actuator\n"
+               "  pacini encode impact.wav -o impact.pacb     encodes a recording as a clip of a few hundred bytes\n"
+               "  pacini render impact.pacb -o impact.wav     renders the clip as the drive signal of an actuator\n"
                "  pacini encode sounds/ -o clips/ --format packed\n"
-               "  pacini compare sounds/ rendered/           how much of each sound its haptic signal keeps\n"
+               "  pacini compare sounds/ rendered/           scores how much of each sound its haptic signal keeps\n"
                "'pacini help COMMAND' explains a command.");
     try
     {

@@ -52,8 +52,9 @@ bool readOnsetFiles(Console& console, const std::string& path, const ComparePair
         return false;
     if (!settings.onsets->namesFiles && found.pairs.size() > 1)
     {
-        console.error(path, {ErrorCode::invalidData, "",
-                             "has onsets of one sound, but there are several; write {\"door.wav\": [0.12, 0.8], ...}"});
+        console.error(
+            path, {ErrorCode::invalidData, "",
+                   "has the onsets of one sound, but several are compared; write {\"door.wav\": [0.12, 0.8], ...}"});
         return false;
     }
     const auto isNamed = [&](const ComparePair& pair)
@@ -87,7 +88,7 @@ void compareOne(CompareJob& job, CompareTask& task, const std::function<void(dou
     }
     catch (const std::bad_alloc&)
     {
-        fail({ErrorCode::tooLarge, "", "needs more memory than there is; compare it alone, with -j 1"});
+        fail({ErrorCode::tooLarge, "", "needs more memory than is available; compare it alone, with -j 1"});
     }
     catch (const std::exception& error)
     {
@@ -106,23 +107,23 @@ void report(Console& console, const CompareTask& task)
     console.warnings(task.pair.events.string(), r.warnings);
     if (std::abs(r.duration - r.candidateDuration) > 0.05)
         console.warning(task.pair.candidate.string(),
-                        fmt::format("lasts {:.3f} s and its reference {:.3f} s; compared over the reference's length, "
-                                    "what is missing as silence",
+                        fmt::format("lasts {:.3f} s, its reference {:.3f} s; compared over the length of the "
+                                    "reference, with silence for any missing part",
                                     r.candidateDuration, r.duration));
     constexpr double noticed = 20.0; // ms: rises that are less steep than those of the sound are as late
     if (std::abs(r.matchLag) > (r.aligned ? 4.0 : noticed))
         console.warning(task.pair.candidate.string(),
                         fmt::format("is {:.0f} ms {} than its reference, {}", std::abs(r.matchLag),
                                     r.matchLag > 0.0 ? "later" : "earlier",
-                                    r.aligned ? "as their lengths differ its match is that without the lag"
-                                              : "as it will be felt: its match is lower for that"));
+                                    r.aligned ? "the match is computed without the lag, as the lengths differ"
+                                              : "the lag will be felt and lowers the match"));
     if (r.notFinite > 0)
         console.warning(task.pair.candidate.string(),
-                        counted(r.notFinite, "sample of it or its reference was not finite and counts as silence",
-                                "samples of it or its reference were not finite and count as silence"));
+                        counted(r.notFinite, "sample in it or its reference is not finite and counts as silence",
+                                "samples in it or its reference are not finite and count as silence"));
     if (r.measures.silentReference)
         console.warning(task.pair.reference.string(),
-                        "is silent between 30 and 1000 Hz; only match and HTS say something");
+                        "is silent between 30 and 1000 Hz; only match and HTS are meaningful");
 }
 
 /// What the manifest says of a pair.
@@ -160,35 +161,31 @@ private:
 CLI::App* CompareCommand::declare(CLI::App& app)
 {
     auto* command = app.add_subcommand("compare", "Measure how much of a sound a haptic signal keeps");
-    addOption(*command, "reference", reference, "The sound: an audio file, or a folder of them", "REF")->required();
+    addOption(*command, "reference", reference, "Sound: an audio file or a folder of audio files", "REF")->required();
     addOption(*command, "candidate", candidate,
-              "The haptic signal, such as a rendered clip: an audio file, or a folder of files with the same names",
-              "CAND")
+              "Haptic signal, such as a rendered clip: an audio file, or a folder of files with the same names", "CAND")
         ->required();
     auto* onsetOption =
         addOption(*command, "--onsets", onsets,
                   "Known onsets of the sound: JSON, {\"door.wav\": [0.12, 0.8]} in seconds, or text with one "
-                  "time per line. FILE_ambiguous.json beside FILE.json lists events that count neither way",
+                  "time per line. FILE_ambiguous.json beside FILE.json lists events that are not scored",
                   "FILE");
     addOption(*command, "--events", events,
-              "Clip whose transients are the candidate's events, or folder of clips "
-              "[found in the candidate]",
+              "Clip, or folder of clips, whose transients are the events of the candidate [detected in the candidate]",
               "CLIP")
         ->needs(onsetOption);
-    command->add_flag("--allow-truncated", allowTruncated, "Compare what is there of a file that was cut off");
-    addOption(*command, "-j,--jobs", jobs, "Pairs to work on at a time [number of processors]",
+    command->add_flag("--allow-truncated", allowTruncated, "Compare the remaining part of truncated files");
+    addOption(*command, "-j,--jobs", jobs, "Number of pairs processed in parallel [number of processors]",
               wholeNumberFrom(1u, 256u), "N");
     batch.declare(*command);
     command->footer(
-        "Measures (from 30 to 1000 Hz unless said otherwise; the level of the candidate does not matter):\n"
-        "  match           how well people would say that it matches the sound, 0 to 100: a prediction, of the mean "
-        "of\n"
-        "                  ratings. It reads from 35 to 71; the JSON has its parts and that of the sound itself\n"
+        "Measures (from 30 to 1000 Hz unless noted; the level of the candidate does not matter):\n"
+        "  match           predicted mean rating by people of how well it matches the sound, 0 to 100. Values range\n  "
+        "                from 35 to 71; the JSON also has its parts and the match of the sound itself\n"
         "  HTS             haptic translation similarity, 0 to 100: envelope and events as heard, spectrum as felt\n"
-        "  of REF          the HTS of the sound itself, played as it is: the score of keeping everything. It is below\n"
-        "                  100 where much of the sound cannot be felt; a translation that makes this part felt can\n"
-        "                  score higher\n"
-        "  HTS-F           as HTS, comparing only what is felt on both sides\n"
+        "  of REF          the HTS of the unchanged sound. It is below 100 when much of the sound cannot be felt; a\n  "
+        "                translation that makes this part perceptible can score higher\n"
+        "  HTS-F           like HTS, but compares only the parts that can be felt\n"
         "  LSD             log-spectral distance in third octaves; 0 is equal\n"
         "  wide SNR        of the envelope of the whole band; 60 is equal\n"
         "  band SNR        of the envelopes of 12 bands; 60 is equal\n"
@@ -215,7 +212,7 @@ Exit CompareCommand::run(Console& console)
     for (const InputFailure& failure : paired->failures)
         console.error(failure.path.string(), failure.error);
     for (const fs::path& file : paired->leftOver)
-        console.warning(file.string(), "has no reference and is not compared");
+        console.warning(file.string(), "has no reference and is skipped");
 
     std::vector<CompareTask> tasks;
     for (const ComparePair& pair : paired->pairs)

@@ -37,7 +37,7 @@ Result<fs::path> counterpart(const FilesByStem& files, const std::string& stem, 
     if (found->second.size() > 1)
         return Error{ErrorCode::invalidData, "",
                      "has two counterparts, " + found->second[0].string() + " and " + found->second[1].string() +
-                         "; take one away"};
+                         "; remove one of them"};
     return found->second.front();
 }
 } // namespace

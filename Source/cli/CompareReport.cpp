@@ -21,7 +21,7 @@ namespace
 {
 using Json = nlohmann::ordered_json;
 
-/// How a figure of one pair is shown; `heading` is empty for what only the JSON has.
+/// Format of a figure of one pair; `heading` is empty for figures that only the JSON contains.
 struct Column
 {
     const char* heading;
@@ -110,7 +110,7 @@ struct JsonSink
     }
 };
 
-/// Sums over what was done.
+/// Sums over all completed pairs.
 struct Totals
 {
     std::size_t done = 0;

@@ -19,7 +19,7 @@ namespace pacini::cli
 
 namespace
 {
-/// What may stand for the value of an option.
+/// Completions for the value of an option.
 struct Values
 {
     std::vector<std::string> words;
@@ -286,7 +286,7 @@ std::string fishScript(const CommandText& program)
     return text;
 }
 
-/// `pacini completions`: what a shell needs to complete commands, options and their values.
+/// `pacini completions`: prints shell scripts that complete commands, options and their values.
 class CompletionsCommand : public Command
 {
 public:

@@ -27,8 +27,8 @@ enum class Exit
     usage = 2,  ///< something was wrong with the command line
 };
 
-/// Writes whole lines from any thread. A progress line, if one stands on the terminal, gives way to messages. No
-/// colours; a screen reader gets whole lines, and progress only where a terminal is watched.
+/// Writes whole lines from any thread. Messages replace the progress line on a terminal. No colours; a screen reader
+/// gets whole lines, and progress only where a terminal is watched.
 class Console
 {
 public:

@@ -126,10 +126,9 @@ Result<std::optional<Controller>> chosenController(const std::vector<Controller>
     if (named.empty() && std::any_of(meant.begin(), meant.end(), isGamePad))
         meant.erase(std::remove_if(meant.begin(), meant.end(), std::not_fn(isGamePad)), meant.end());
     if (meant.size() > 1)
-        return Error{
-            ErrorCode::invalidArgument, "",
-            fmt::format("{} controllers could be meant; name one by --device and its number in 'pacini devices'",
-                        meant.size())};
+        return Error{ErrorCode::invalidArgument, "",
+                     fmt::format("matches {} controllers; choose one with --device and its number in 'pacini devices'",
+                                 meant.size())};
     if (meant.empty())
         return std::optional<Controller>();
     return std::optional(meant.front());

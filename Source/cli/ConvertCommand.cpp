@@ -114,7 +114,7 @@ void report(Console& console, const std::vector<ConvertTask>& tasks, bool severa
     if (several)
         console.note(summary(tasks));
     else if (!tasks.empty() && tasks.front().skipped)
-        console.note(fmt::format("{} exists and was left", printable(tasks.front().output.string())));
+        console.note(fmt::format("{} exists and was kept", printable(tasks.front().output.string())));
 }
 
 /// `pacini convert`: clips, or profiles, of one format become another.
@@ -165,8 +165,8 @@ CLI::App* ConvertCommand::declare(CLI::App& app)
 {
     auto* command = app.add_subcommand("convert", "Convert clips between formats, or a profile between JSON and ACF");
     addOption(*command, "inputs", inputs,
-              "Clips or folders of them, - for standard input, or a profile; then the output unless -o names it; a "
-              "file there is replaced only if its content stays the same",
+              "Clips, folders of clips, - for standard input, or a profile. The last argument is the output unless -o "
+              "names it; an existing file is replaced only if it has the same content",
               "IN... OUT")
         ->required();
     addOption(*command, "-o,--output", output, "File, folder for several inputs, or - for standard output", "OUT|DIR");
@@ -175,25 +175,27 @@ CLI::App* ConvertCommand::declare(CLI::App& app)
         if (known.isWritten())
             names.emplace_back(known.name);
     addOption(*command, "--format", format,
-              "Format to write; 'pacini lint --targets' explains them [by the extension of OUT]", oneOf(names));
+              "Format to write; 'pacini lint --targets' describes all formats [by the extension of OUT]", oneOf(names));
     addOption(*command, "--quantise", quantise,
-              "Bits of each value of a packed clip [those the clip was encoded with, else 12]", wholeNumberFrom(4, 16));
+              "Bits of each value in a packed clip [as the clip was encoded, else 12]", wholeNumberFrom(4, 16));
     options.declare(*command);
     addShard(*command, shard);
-    addOption(*command, "--manifest", manifest,
-              fmt::format("File that records the result of each input; with --shard 2/8 NAME.2-of-8.json [{} in the "
-                          "output folder]",
-                          manifestName),
-              "FILE");
-    command->add_flag("-f,--force", force, "Convert also what the manifest says is up to date");
+    addOption(
+        *command, "--manifest", manifest,
+        fmt::format(
+            "Record the result of each input in FILE; --shard 2/8 writes NAME.2-of-8.json [{} in the output folder]",
+            manifestName),
+        "FILE");
+    command->add_flag("-f,--force", force, "Also convert files that are up to date");
     overwriting.declare(*command);
-    command->add_flag("--dry-run", dryRun, "Only say what would be done with each file; write nothing");
-    addOption(*command, "-j,--jobs", jobs, "Files to work on at a time [number of processors]",
+    command->add_flag("--dry-run", dryRun, "Print what would be done with each file and write nothing");
+    addOption(*command, "-j,--jobs", jobs, "Number of files processed in parallel [number of processors]",
               wholeNumberFrom(1u, 256u), "N");
-    command->footer("Examples:\n  pacini convert door.json door.pacb             no loss between the two\n"
-                    "  pacini convert door.pacb door.haptic           for Lofelt's and Meta's players\n"
-                    "  pacini convert door.haptic door.ahap --split   from one to another, through a clip\n"
-                    "  pacini convert clips/ ios/ --format ahap -j 8  a folder; a second time only what changed");
+    command->footer(
+        "Examples:\n  pacini convert door.json door.pacb             no loss between the two\n"
+        "  pacini convert door.pacb door.haptic           for the players of Lofelt and Meta\n"
+        "  pacini convert door.haptic door.ahap --split   from one format to another, by way of a clip\n"
+        "  pacini convert clips/ ios/ --format ahap -j 8  a folder; the second run converts only changed files");
     return command;
 }
 
@@ -203,8 +205,7 @@ Exit ConvertCommand::run(Console& console)
     {
         if (inputs.size() < 2)
             return console.fail(
-                "",
-                {ErrorCode::invalidArgument, "convert", "a file to work on is missing; try 'pacini convert --help'"},
+                "", {ErrorCode::invalidArgument, "convert", "the input file is missing; try 'pacini convert --help'"},
                 Exit::usage);
         byName = false;
         output = std::move(inputs.back());
@@ -219,7 +220,7 @@ bool ConvertCommand::overwritesInput(Console& console) const
     std::error_code unknown;
     if (!std::filesystem::equivalent(inputs.front(), output, unknown))
         return false;
-    console.error(output, {ErrorCode::invalidArgument, "", "is input and output; name another output"});
+    console.error(output, {ErrorCode::invalidArgument, "", "is both input and output; name another output"});
     return true;
 }
 
@@ -228,12 +229,14 @@ Exit ConvertCommand::convertProfile(Console& console)
     const std::string& input = inputs.front();
     const bool toAcf = hasAcfExtension(output);
     if (!format.empty() || quantise > 0 || !options.firstGiven().empty())
-        return console.fail(
-            input, {ErrorCode::invalidArgument, "", "is a profile; --format, --quantise and the others are for clips"},
-            Exit::usage);
+        return console.fail(input,
+                            {ErrorCode::invalidArgument, "",
+                             "is a profile; leave out --format, --quantise and the other options for clips"},
+                            Exit::usage);
     if (!toAcf && lowerExtension(output) != ".json")
         return console.fail(
-            output, {ErrorCode::invalidArgument, "", "has neither the extension .json nor .acf, as a profile needs"},
+            output,
+            {ErrorCode::invalidArgument, "", "must have the extension .json or .acf, as the input is a profile"},
             Exit::usage);
     std::vector<std::string> warnings;
     const auto read = [&]() -> Result<Profile>
@@ -266,7 +269,7 @@ Exit ConvertCommand::convertProfile(Console& console)
     if (overwriting.keepsAll() && isOccupied(output))
     {
         console.addToReport(fileList(nlohmann::ordered_json::array(), false));
-        console.note(fmt::format("{} exists and was left", printable(output)));
+        console.note(fmt::format("{} exists and was kept", printable(output)));
         return Exit::ok;
     }
     const auto textOf = [&]() -> std::string
@@ -301,20 +304,20 @@ std::optional<ConvertSettings> ConvertCommand::settingsFor(Console& console, boo
     };
     const ClipFormat* target = clipFormatNamed(format);
     if (target == nullptr && several)
-        return wrongUsage(output, "is a folder for clips of one format; say which with --format");
+        return wrongUsage(output, "is a folder; choose the format of its clips with --format");
     if (target == nullptr)
         target = clipFormatWrittenTo(lowerExtension(output));
     if (target == nullptr)
-        return wrongUsage(output,
-                          "has neither the extension .json nor .pacb nor that of another format; say which with "
-                          "--format");
+        return wrongUsage(
+            output,
+            "has an unknown extension; use .json, .pacb or that of another format, or choose the format with --format");
     if (const auto fits = options.checkFor(*target); !fits)
     {
         console.error(output, fits.error());
         return std::nullopt;
     }
     if (!target->isOwn() && quantise > 0)
-        return wrongUsage(output, "is no packed clip; --quantise is for those");
+        return wrongUsage(output, "is not a packed clip; leave out --quantise");
     const auto params = options.params(console, *target);
     if (!params)
         return std::nullopt;
@@ -395,8 +398,9 @@ Exit ConvertCommand::convertClips(Console& console)
         settings->folder = record.parent_path();
     const auto before = readManifest(record);
     if (!before && !overwriting.replacesAll())
-        return console.fail(record.string(), {ErrorCode::invalidData, "",
-                                              "exists and is no record of conversions; name another with --manifest"});
+        return console.fail(record.string(),
+                            {ErrorCode::invalidData, "",
+                             "exists and is not a manifest of conversions; name another file with --manifest"});
     GrowingManifest growing;
     Manifest begun = before.value_or(Manifest());
     begun.shards = manifestShards(*inShard, shard);

@@ -28,11 +28,10 @@ CLI::App* DevicesCommand::declare(CLI::App& app)
 {
     auto* command =
         app.add_subcommand("devices", "List the connected game controllers and other devices that can play haptics");
-    command->footer(
-        "'pacini play CLIP --device N' plays on the one with that number.\n"
-        "Known are Joy-Con, Switch Pro, DualShock 4, DualSense, Steam Controller (2026), Steam Deck and, on\n"
-        "Bluetooth, Xbox controllers, and as 'Waveforms' devices with waveforms of HID page 0x0E: some\n"
-        "touchpads, mice, pens and dials. The Steam devices were not tried: what they are sent is from readings.");
+    command->footer("'pacini play CLIP --device N' plays on device N.\nPacini supports Joy-Con, Switch Pro, DualShock "
+                    "4, DualSense, Steam Controller (2026), Steam Deck,\nXbox controllers on Bluetooth, and as "
+                    "'Waveforms' devices with waveforms of HID page 0x0E: some\ntouchpads, mice, pens and dials. The "
+                    "Steam devices follow published sources and were not tested.");
     return command;
 }
 
@@ -58,7 +57,7 @@ Exit DevicesCommand::run(Console& console)
                              printable(controller.path), haptics, transport, printable(controller.name));
     }
     console.addToReport({{"controllers", list}});
-    console.print(lines.empty() ? "No known game controller is connected" : lines);
+    console.print(lines.empty() ? "No supported game controller is connected" : lines);
     return Exit::ok;
 }
 

@@ -159,7 +159,7 @@ CLI::App* EncodeCommand::declare(CLI::App& app)
     for (const MethodInfo& info : methodTable)
         names.emplace_back(info.name);
     addOption(*command, "inputs", inputs,
-              "Audio files, folders of them (WAV, AIFF, FLAC, Ogg, MP3 ...), or - for standard input", "IN");
+              "Audio files (WAV, AIFF, FLAC, Ogg, MP3 ...), folders of audio files, or - for standard input", "IN");
     const auto group = [this](const char* heading)
     {
         command->option_defaults()->group(heading);
@@ -169,12 +169,11 @@ CLI::App* EncodeCommand::declare(CLI::App& app)
         (parameter->group == "Analysis" ? common : special).push_back(parameter);
     group("Analysis");
     addPreset(*command, "--method", methodName,
-              "How sound is translated, see --list-methods; six of them write drive signals as WAV", oneOf(names),
-              "NAME");
-    command->add_flag("--list-methods", listMethods, "List the methods and do nothing else");
+              "Translation method, see --list-methods; six methods write drive signals as WAV", oneOf(names), "NAME");
+    command->add_flag("--list-methods", listMethods, "List the methods and exit");
     addOption(*command, "--settings", settingsFile,
-              "Values of these options from a JSON file; options of the command line come before them", "FILE");
-    command->add_flag("--print-settings", printSettings, "Print all settings as such a file, and do nothing else");
+              "Read the values of these options from a JSON file; options on the command line override them", "FILE");
+    command->add_flag("--print-settings", printSettings, "Print all settings in the form of that file and exit");
     described.declare(*command, common);
     group("Output");
     addOption(*command, "-o,--output", output,
@@ -184,24 +183,24 @@ CLI::App* EncodeCommand::declare(CLI::App& app)
         if (known.isWritten())
             formats.emplace_back(known.name);
     addOption(*command, "--format", format,
-              "json (to read and edit), packed (small), or one of other programs, see 'pacini lint --targets' "
-              "[by the extension of OUT, else json]",
+              "Format to write: json (readable), packed (small), or a format of another program, see 'pacini lint "
+              "--targets' [by the extension of OUT, else json]",
               oneOf(formats));
     group("Other formats");
     exporting.declare(*command);
     group("Files");
     command->add_flag("--allow-nan", allowNan,
-                      "Read samples that are not finite, or absurdly large, as 0 instead of refusing the file");
-    command->add_flag("--allow-truncated", allowTruncated, "Encode what is there of a file that was cut off");
-    command->add_flag("-f,--force", force, "Encode also what is up to date");
+                      "Replace samples that are not finite or absurdly large by 0 instead of refusing the file");
+    command->add_flag("--allow-truncated", allowTruncated, "Encode the remaining part of truncated files");
+    command->add_flag("-f,--force", force, "Also encode files that are up to date");
     overwriting.declare(*command);
-    command->add_flag("--dry-run", dryRun, "Only say what would be done with each file; write nothing");
+    command->add_flag("--dry-run", dryRun, "Print what would be done with each file and write nothing");
     group("Many files");
-    addOption(*command, "-j,--jobs", jobs, "Files to work on at a time [number of processors]",
+    addOption(*command, "-j,--jobs", jobs, "Number of files processed in parallel [number of processors]",
               wholeNumberFrom(1u, 256u), "N");
     batch.declare(*command);
     addOption(*command, "--ray", rayAddress,
-              "Encode on the machines of a Ray cluster, which see the same files: its address, auto, or local for this "
+              "Encode on a Ray cluster whose machines see the same files: its address, auto, or local for this "
               "machine; needs Python with pacini[ray]",
               "ADDRESS");
     described.declare(*command, special);
@@ -241,22 +240,26 @@ std::optional<Settings> EncodeCommand::chosenSettings(Console& console) const
 Result<void> EncodeCommand::checkOptions(const MethodInfo& method) const
 {
     if (inputs.empty())
-        return wrongUsage("encode", "a file to work on is missing; try 'pacini encode --help'");
+        return wrongUsage("encode", "the input file is missing; try 'pacini encode --help'");
     if (method.output == MethodOutput::signal)
     {
         const std::string clips = methodNames(MethodOutput::clip);
         if (const std::string option = exporting.firstGiven(); !option.empty())
-            return wrongUsage(option,
-                              fmt::format("is for clips in formats of other programs, but {} writes a WAV file; "
-                                          "leave it out",
-                                          method.name));
+            return wrongUsage(
+                option,
+                fmt::format("is for formats of other programs, but the method {} writes a WAV file; leave it out",
+                            method.name));
         if (!format.empty())
-            return wrongUsage("--format", fmt::format("is for clips, but {} writes a WAV file; clips come from {}",
-                                                      method.name, clips));
+            return wrongUsage(
+                "--format",
+                fmt::format("is for clips, but the method {} writes a WAV file; these methods write clips: {}",
+                            method.name, clips));
         if (isOwnExtension(lowerExtension(output)))
             return wrongUsage(
                 "--output",
-                fmt::format("is named like a clip, but {} writes a WAV file; clips come from {}", method.name, clips));
+                fmt::format(
+                    "has the extension of a clip, but the method {} writes a WAV file; these methods write clips: {}",
+                    method.name, clips));
         // Results between the recordings would be taken for recordings the next time.
         const auto isFolder = [](const std::string& input)
         {
@@ -280,12 +283,12 @@ Result<void> EncodeCommand::checkFormat() const
     const std::string extension = lowerExtension(output);
     const auto& sounds = audioExtensions();
     if (std::find(sounds.begin(), sounds.end(), extension) != sounds.end())
-        return wrongUsage("--output", fmt::format("{} is named like a sound, but a clip is written; name it .json or "
-                                                  ".pacb, or render the clip afterwards",
+        return wrongUsage("--output", fmt::format("{} has the extension of a sound, but encode writes clips; use .json "
+                                                  "or .pacb, or render the clip afterwards",
                                                   output));
     if (inputs.size() == 1 && !std::filesystem::is_directory(inputs.front(), ignored) &&
         clipFormatWrittenTo(extension) == nullptr)
-        return wrongUsage("--output", fmt::format("{} has the extension of no clip; name it .json or .pacb, say which "
+        return wrongUsage("--output", fmt::format("{} has an unknown extension; use .json or .pacb, choose the format "
                                                   "with --format, or write {}/ for a folder",
                                                   output, output));
     return {};
@@ -303,7 +306,7 @@ Error EncodeCommand::runOnCluster() const
     for (const CLI::Option* option : command->get_options())
         if (const std::string name = option->get_single_name();
             option->count() > 0 && std::find(known.begin(), known.end(), name) == known.end())
-            return wrongUsage("--" + name, "does not go with --ray; leave it out");
+            return wrongUsage("--" + name, "cannot be combined with --ray; leave it out");
     std::vector<std::string> words = lastingArguments(*command);
     std::erase_if(words, [](const std::string& word) { return word.starts_with("--ray="); });
     if (rayAddress != "local")
@@ -351,8 +354,8 @@ void EncodeCommand::tell(Console& console, const EncodeTask& task) const
         console.wrote(task.output, bytesText(static_cast<double>(result.bytes)));
     if (result.replacedSamples > 0)
         console.warning(task.input.string(),
-                        counted(result.replacedSamples, "sample was no number or absurdly large and was taken as 0",
-                                "samples were no numbers or absurdly large and were taken as 0"));
+                        counted(result.replacedSamples, "sample is not finite or absurdly large and counts as 0",
+                                "samples are not finite or absurdly large and count as 0"));
     if (!result.stray.empty())
         console.warning(task.input.string(), strayWarning(result.stray));
 }

@@ -158,7 +158,7 @@ Result<Existing> EncodeJob::lookAt(const fs::path& input, const Target& target, 
     const std::string source = sourceNameOf(input);
     const ClipFormat* there = ownFormatOf(output);
     if (there == nullptr)
-        return replaceable == Replaceable::own ? Result<Existing>(notReplaced(output, "exists and is no clip"))
+        return replaceable == Replaceable::own ? Result<Existing>(notReplaced(output, "exists and is not a clip"))
                                                : Existing::replace;
     const auto read = readClip(output);
     const Clip* clip = read ? &read->clip : nullptr;
@@ -178,11 +178,11 @@ Result<Existing> EncodeJob::lookAt(const fs::path& input, const Target& target, 
     if (replaceable == Replaceable::any)
         return Existing::replace;
     if (!clip)
-        return notReplaced(output, "is no clip as pacini encoded it");
+        return notReplaced(output, "is not a clip that pacini encoded");
     if (seal == ClipSeal::broken)
         return notReplaced(output, "was edited since it was encoded");
     if (mayBeEdited)
-        return notReplaced(output, "exists and may have been edited, since it has no seal of the encoder");
+        return notReplaced(output, "exists without the seal of the encoder and may have been edited");
     if (replaceable == Replaceable::own && clip->source.file != source)
         return notReplaced(output, "was encoded from " + clip->source.file);
     return Existing::replace;

@@ -12,7 +12,7 @@ Result<void> checkFelt(const Profile& profile, const std::filesystem::path& prog
 {
     if (profile.body)
         return {};
-    std::string message = "is missing in this profile, so nothing is known of what is felt";
+    std::string message = "is missing in this profile, so the acceleration of the skin cannot be predicted";
     bool first = true;
     for (const ShippedProfile& shipped : shippedProfiles(programFolder))
         if (const auto other = readProfile(shipped.path); other && other->body)

@@ -1,6 +1,6 @@
 #pragma once
 
-// Check that a profile tells what is felt of an actuator.
+// Check that a profile has the body model that predicts the acceleration of the skin.
 
 #include <pacini/actuator/Profile.h>
 #include <pacini/foundation/Result.h>

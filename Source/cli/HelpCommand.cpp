@@ -30,11 +30,11 @@ Error unknownCommand(const CommandText& program, const std::vector<std::string>&
         return {ErrorCode::invalidArgument, "help", fmt::format("'{}' has no steps", topic.front())};
     const std::string meant = meantText(word, names);
     return {ErrorCode::invalidArgument, "help",
-            fmt::format("'{}' is no {}{}", word, isStep ? "step" : "command",
+            fmt::format("unknown {1} '{0}'{2}", word, isStep ? "step" : "command",
                         meant.empty() ? fmt::format("; there are {}", fmt::join(names, ", ")) : meant)};
 }
 
-/// `pacini help`: what the commands and their options do.
+/// `pacini help`: explains the commands and their options.
 class HelpCommand : public Command
 {
 public:
@@ -51,7 +51,8 @@ CLI::App* HelpCommand::declare(CLI::App& app)
 {
     program = &app;
     auto* command = app.add_subcommand("help", "Explain a command");
-    addOption(*command, "command", topic, "The command, and a step of it if it has some [all in short]", "COMMAND");
+    addOption(*command, "command", topic, "Command, and a step of it if it has steps [a summary of all commands]",
+              "COMMAND");
     command->footer("Examples:\n  pacini help encode\n  pacini help measure fit");
     return command;
 }

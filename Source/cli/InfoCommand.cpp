@@ -139,7 +139,7 @@ Result<Json> describeAudio(const std::string& file)
                 {"peak", peak}};
 }
 
-/// `pacini info`: what a clip, a scene, a sound file or a profile holds.
+/// `pacini info`: shows the content of a clip, a scene, a sound file or a profile.
 class InfoCommand : public Command
 {
 public:
@@ -155,11 +155,11 @@ private:
 CLI::App* InfoCommand::declare(CLI::App& app)
 {
     auto* command =
-        app.add_subcommand("info", "Show what is in a clip of any format, a scene, a sound or an actuator profile");
-    addOption(*command, "inputs", inputs, "Clips, scenes, audio files, profiles or names of shipped profiles",
+        app.add_subcommand("info", "Show the content of a clip of any format, a scene, a sound or an actuator profile");
+    addOption(*command, "inputs", inputs, "Clips, scenes, audio files, profiles, or names of shipped profiles",
               "FILE|PROFILE")
         ->required();
-    addOption(*command, "--clips", clipFolder, "Where the clip files of scenes are [beside the scene]", "DIR");
+    addOption(*command, "--clips", clipFolder, "Folder with the clip files of scenes [the folder of the scene]", "DIR");
     command->footer("Examples:\n  pacini info door.json door.haptic door.wav\n"
                     "  pacini info l5-wristband                       a profile that comes with Pacini");
     return command;

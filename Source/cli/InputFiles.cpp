@@ -64,7 +64,7 @@ void addFolder(const fs::path& folder, const std::vector<std::string>& extension
     for (const auto& path : paths)
         found.files.push_back({path, path.lexically_relative(folder)}); // of a link where it stands, not where it leads
     if (paths.empty() && !error)
-        found.failures.push_back({folder, {ErrorCode::invalidData, "", "holds no files that this command reads"}});
+        found.failures.push_back({folder, {ErrorCode::invalidData, "", "contains no files that this command reads"}});
 }
 } // namespace
 
@@ -136,20 +136,19 @@ Result<void> checkOutput(const InputFiles& inputs, const std::string& output, bo
     if (output.empty())
     {
         if (takesStandardInput)
-            return wrong("what comes from standard input has no folder to be beside; name an output with -o, - is "
-                         "standard output");
+            return wrong("standard input has no folder for the output; name a file with -o, or - for standard output");
         return {};
     }
     if (json && isStandardOutput(output))
-        return wrong("is where --json prints its report; name a file with -o");
+        return wrong("is used by the report of --json; name a file with -o");
     std::error_code unknown;
     if (!inputs.several || namesFolder(output))
         return {};
     if (isStream(output) || fs::exists(output, unknown))
-        return wrong("is no folder, but there is more than one input; name a folder with -o");
+        return wrong("is not a folder, but there are several inputs; name a folder with -o");
     if (isFileExtension(lowerExtension(output)))
-        return wrong("is named like a file, but there is more than one input; name a folder, or write -o " + output +
-                     "/ if it is one");
+        return wrong("looks like a file, but there are several inputs; name a folder, or write -o " + output +
+                     "/ if it is a folder");
     return {};
 }
 

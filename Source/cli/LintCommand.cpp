@@ -82,7 +82,7 @@ std::string errorText(const FormatLoss& loss)
     return fmt::format("{:.3f}", loss.error);
 }
 
-/// `pacini lint`: what a format will lose of clips, before anything is written, and what in a scene does nothing.
+/// `pacini lint`: lists the losses of clips in a format before export, and the parts of a scene without effect.
 class LintCommand : public Command
 {
 public:
@@ -120,31 +120,29 @@ private:
 CLI::App* LintCommand::declare(CLI::App& app)
 {
     auto* command = app.add_subcommand(
-        "lint", "Show what clips lose in another format, where and how much, and what a scene never plays");
-    addOption(*command, "inputs", inputs, "Clips of any format, scenes, or folders of them", "CLIP");
+        "lint", "Show losses of clips in another format, with place and size, and unplayed parts of scenes");
+    addOption(*command, "inputs", inputs, "Clips of any format, scenes, or folders with clips and scenes", "CLIP");
     std::vector<std::string> names;
     for (const ClipFormat& known : clipFormats())
         if (known.isWritten() && !known.isOwn())
             names.emplace_back(known.name);
-    addOption(*command, "--target", target, "Format to check, see --targets; scenes are checked without one too",
-              oneOf(names));
-    command->add_flag("--targets", listTargets, "List the formats and do nothing else");
+    addOption(*command, "--target", target, "Format to check, see --targets; scenes need none", oneOf(names));
+    command->add_flag("--targets", listTargets, "List the formats and exit");
     options.declare(*command);
-    addOption(*command, "--clips", clipFolder, "Where the clip files of scenes are [beside the scene]", "DIR");
+    addOption(*command, "--clips", clipFolder, "Folder with the clip files of scenes [the folder of the scene]", "DIR");
     addOption(*command, "--max-error", maxError,
-              "Fail when an amplitude is off by more (1 = full drive): bands, points, events, noise",
+              "Fail when an amplitude error is larger (1 = full drive): bands, points, events, noise",
               numberFrom(0.0, 1000.0));
-    addOption(*command, "--max-octaves", maxOctaves, "Fail when a frequency is off by more octaves",
+    addOption(*command, "--max-octaves", maxOctaves, "Fail when a frequency error is larger, octaves",
               numberFrom(0.0, 100.0));
-    addOption(*command, "--max-time", maxTime, "Fail when a time is off by more seconds",
+    addOption(*command, "--max-time", maxTime, "Fail when a time error is larger, s",
               numberFrom(0.0, limits::duration, "24 h"));
     addOption(*command, "--fail-on", forbidden,
-              "Fail on any loss of these kinds, or on what is found in a scene (scene)", oneOf(kindNames()))
+              "Fail on any loss of these kinds; scene fails on any finding in a scene", oneOf(kindNames()))
         ->delimiter(',');
-    command->footer(
-        "Examples:\n  pacini lint door.json --target ahap\n"
-        "  pacini lint clips/ --target haptic --max-error 0.1   exits with 1 when a clip loses more\n"
-        "  pacini lint hall.scene.json --fail-on scene   exits with 1 when something in it is never played");
+    command->footer("Examples:\n  pacini lint door.json --target ahap\n"
+                    "  pacini lint clips/ --target haptic --max-error 0.1   exits with 1 if a clip loses more\n"
+                    "  pacini lint hall.scene.json --fail-on scene   exits with 1 if part of it is never played");
     return command;
 }
 
@@ -204,7 +202,7 @@ Result<nlohmann::ordered_json> LintCommand::lint(Console& console, const InputFi
     const auto* scene = std::get_if<Scene>(&read->content);
     if (scene == nullptr && target.empty())
         return Error{ErrorCode::invalidArgument, "",
-                     "is a clip, and --target is missing; 'pacini lint --targets' lists them"};
+                     "is a clip and needs --target; 'pacini lint --targets' lists the formats"};
     console.warnings(name, read->warnings);
     std::size_t beyond = 0;
     Json found = Json::array(), losses = Json::array();
@@ -257,15 +255,15 @@ Exit LintCommand::run(Console& console)
         return Exit::ok;
     }
     if (inputs.empty())
-        return console.fail(
-            "", {ErrorCode::invalidArgument, "lint", "a file to work on is missing; try 'pacini lint --help'"},
-            Exit::usage);
+        return console.fail("",
+                            {ErrorCode::invalidArgument, "lint", "the input file is missing; try 'pacini lint --help'"},
+                            Exit::usage);
     if (target.empty())
     {
         if (const std::string option = options.firstGiven(); !option.empty())
             return console.fail("",
                                 {ErrorCode::invalidArgument, option,
-                                 "is for a format to check; name it with --target, see 'pacini lint --targets'"},
+                                 "needs a format to check; name it with --target, see 'pacini lint --targets'"},
                                 Exit::usage);
     }
     else if (const auto fits = options.checkFor(*clipFormatNamed(target)); !fits)

@@ -89,7 +89,7 @@ std::string manualPage(const CommandText& program)
                                    ".SH NAME\npacini \\- sound to touch\n"
                                    ".SH SYNOPSIS\n.B pacini\n.I COMMAND\n[\\fIOPTIONS\\fR] ...\n"
                                    ".SH DESCRIPTION\n{}\n"
-                                   "Defaults stand in brackets behind the description of an option.\n"
+                                   "Defaults are in brackets after the description of an option.\n"
                                    ".SH OPTIONS\nOf every command:\n",
                                    upperCase("pacini"), PACINI_VERSION, plain(program.summary));
     for (const OptionText& option : program.options)
@@ -98,17 +98,17 @@ std::string manualPage(const CommandText& program)
     for (const CommandText& command : program.commands)
         text += commandSection(command);
     text += ".SH \"EXIT STATUS\"\n"
-            ".TP\n0\nAll well.\n"
-            ".TP\n1\nSomething was wrong with an input or an output; messages on standard error name it.\n"
+            ".TP\n0\nSuccess.\n"
+            ".TP\n1\nAn input or an output failed; messages on standard error name it.\n"
             ".TP\n2\nThe command line could not be understood.\n"
             ".SH NOTES\n"
-            "With\n.B \\-\\-json\nevery command prints one object of one shape, whether it went well or not; "
+            "With\n.B \\-\\-json\nevery command prints one object, on success and on failure; "
             "pacini.report.schema.json describes it.\n"
-            "Files are written under temporary names and renamed when they are whole.\n";
+            "Files are written under temporary names and renamed when complete.\n";
     return text;
 }
 
-/// `pacini man`: the manual page, made of what the commands declare.
+/// `pacini man`: prints the manual page, made from the declarations of the commands.
 class ManCommand : public Command
 {
 public:

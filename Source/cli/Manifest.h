@@ -1,7 +1,7 @@
 #pragma once
 
-// Manifest of a run over many files: which inputs became which outputs, and which failed, so that a later run does only
-// what is left.
+// Manifest of a run over many files: outputs and failures of all inputs, so that a later run processes only the
+// rest.
 
 #include "cli/Shard.h"
 #include "io/FileHandle.h"
@@ -35,7 +35,7 @@ struct ManifestOutput
     bool operator==(const ManifestOutput&) const = default;
 };
 
-/// One input and what it became.
+/// One input and its result.
 struct ManifestEntry
 {
     std::string inputSha256; ///< empty where a run does not go by it
@@ -49,7 +49,7 @@ struct ManifestEntry
     bool operator==(const ManifestEntry&) const = default;
 };
 
-/// A shard of a run and how many files it has.
+/// A shard of a run and its number of files.
 struct ManifestShard
 {
     Shard shard;
@@ -58,7 +58,7 @@ struct ManifestShard
     bool operator==(const ManifestShard&) const = default;
 };
 
-/// What was done to many files.
+/// Results for many files.
 struct Manifest
 {
     std::string command;                          ///< such as "encode"; empty for a conversion
@@ -75,7 +75,7 @@ struct Manifest
     bool operator==(const Manifest&) const = default;
 };
 
-/// What of a run no shard made.
+/// Shards missing in a run.
 struct MissingShards
 {
     std::string names;     ///< "shard 2/3", or several; empty for none

@@ -36,9 +36,9 @@ std::optional<Manifest> openManifest(Console& console, const std::string& path)
     auto manifest = fs::exists(path, ignored) ? readManifest(path) : std::nullopt;
     if (!manifest)
         console.error(path, {ErrorCode::invalidData, "",
-                             fs::exists(path, ignored) ? "is no manifest; those are written by encode, render, convert "
-                                                         "and compare with --manifest"
-                                                       : "does not exist"});
+                             fs::exists(path, ignored)
+                                 ? "is not a manifest; encode, render, convert and compare write one with --manifest"
+                                 : "does not exist"});
     return manifest;
 }
 
@@ -83,8 +83,8 @@ class MergeSubcommand : public Command
 public:
     CLI::App* declare(CLI::App& app) override
     {
-        auto* command = app.add_subcommand("merge", "Make one manifest of those of several runs or shards");
-        addOption(*command, "inputs", inputs, "Manifests; of a file that several name, the last that went well counts",
+        auto* command = app.add_subcommand("merge", "Merge the manifests of several runs or shards");
+        addOption(*command, "inputs", inputs, "Manifests; when several name the same file, the last success counts",
                   "MANIFEST")
             ->required();
         addOption(*command, "-o,--output", output, "File to write", "OUT")->required();
@@ -121,12 +121,12 @@ public:
             merged.shards = made.shards;
         if (overwriting.keepsAll() && isOccupied(output))
         {
-            console.note(fmt::format("{} exists and was left", printable(output)));
+            console.note(fmt::format("{} exists and was kept", printable(output)));
             return Exit::ok;
         }
         // The user named it; only what is no manifest at all is worth a word.
         if (!overwriting.replacesAll() && !readManifest(output))
-            return console.fail("", notReplaced(output, "exists and is no manifest"));
+            return console.fail("", notReplaced(output, "exists and is not a manifest"));
         const auto written = writeFileAtomically(output, manifestText(merged));
         if (!written)
             return console.fail(output, written.error());
@@ -176,9 +176,9 @@ class CheckSubcommand : public Command
 public:
     CLI::App* declare(CLI::App& app) override
     {
-        auto* command = app.add_subcommand(
-            "check", "Say which files failed, are missing or were changed since, and which shards nobody made");
-        addOption(*command, "inputs", inputs, "Manifests; the outputs are where they were from there", "MANIFEST")
+        auto* command =
+            app.add_subcommand("check", "List files that failed, are missing or changed since, and missing shards");
+        addOption(*command, "inputs", inputs, "Manifests; output paths are relative to each manifest", "MANIFEST")
             ->required();
         command->footer("Example:\n  pacini manifest check clips/run.manifest.json");
         return command;
@@ -232,17 +232,18 @@ private:
     std::vector<std::string> inputs;
 };
 
-/// `manifest retry`: what can be retried is run in its stead, see retriedCommand().
+/// `manifest retry`: replaced by the command of the manifest, see retriedCommand().
 class RetrySubcommand : public Command
 {
 public:
     CLI::App* declare(CLI::App& app) override
     {
         auto* command = app.add_subcommand(
-            "retry", "Run the command again that the manifest is of, for the files that failed; from the same folder");
-        addOption(*command, "input", input, "Manifest of encode, render or compare, before all options", "MANIFEST")
+            "retry", "Run the command of a manifest again for the files that failed, from the same folder");
+        addOption(*command, "input", input, "Manifest of encode, render or compare; give it before all options",
+                  "MANIFEST")
             ->required();
-        command->footer("Options after the manifest are those of the command.\n\nExample:\n"
+        command->footer("Options after the manifest are passed to the command.\n\nExample:\n"
                         "  pacini manifest retry clips/run.manifest.json -j 2");
         command->allow_extras();
         return command;
@@ -253,13 +254,12 @@ public:
         const auto manifest = openManifest(console, input);
         if (!manifest)
             return Exit::failed;
-        return console.fail(
-            input, {ErrorCode::invalidData, "",
-                    manifest->command.empty()
-                        ? std::string("is of a conversion; convert again: what failed is tried anew, the rest is up to "
-                                      "date")
-                        : fmt::format("is of pacini {}; only encode, render and compare can be retried",
-                                      printable(manifest->command))});
+        return console.fail(input, {ErrorCode::invalidData, "",
+                                    manifest->command.empty()
+                                        ? std::string("is of a conversion; run convert again: it retries failed files "
+                                                      "and skips those that are up to date")
+                                        : fmt::format("is of pacini {}; only encode, render and compare can be retried",
+                                                      printable(manifest->command))});
     }
 
 private:
@@ -278,12 +278,12 @@ public:
         addStep(*command, std::make_unique<CheckSubcommand>());
         addStep(*command, std::make_unique<RetrySubcommand>());
         command->footer(
-            "encode, render and compare write a manifest with --manifest, convert of a folder always does. After\n"
+            "encode, render and compare write a manifest with --manifest, convert of a folder always. After\n"
             "'encode sounds/ -o clips/ --shard 3/8 --manifest clips/run.manifest.json' on each of eight machines:\n"
             "  pacini manifest merge clips/run.manifest.*-of-8.json -o clips/run.manifest.json\n"
             "  pacini manifest check clips/run.manifest.json\n"
             "  pacini manifest retry clips/run.manifest.json\n"
-            "A run that was stopped goes on when it is started again, with any number of shards.");
+            "A stopped run continues when it is started again, with any number of shards.");
         return command;
     }
 };

@@ -69,7 +69,7 @@ template <typename Integer>
                 if (text == name)
                     return std::string();
             const std::string meant = meantText(text, names);
-            return fmt::format("'{}' is none of {}{}", text, fmt::join(names, ", "), meant);
+            return fmt::format("'{}' is not one of {}{}", text, fmt::join(names, ", "), meant);
         },
         std::move(set));
 }
@@ -101,7 +101,7 @@ CLI::Option* addOption(CLI::App& command, const std::string& names, T& value, co
     return valueName.empty() ? option : option->type_name(valueName);
 }
 
-/// As addOption(), for a `value` that is taken as it is where the option is not given, and shown in help texts.
+/// Like addOption(), for a `value` that is the default and is shown in help texts.
 template <typename T, typename... More>
 CLI::Option* addPreset(CLI::App& command, const std::string& names, T& value, const std::string& description,
                        const More&... more)

@@ -9,12 +9,11 @@ namespace fs = std::filesystem;
 
 void OverwriteOptions::declare(CLI::App& command)
 {
-    auto* no = command.add_flag("-n,--no-overwrite", keep, "Leave every file that exists as it is");
+    auto* no = command.add_flag("-n,--no-overwrite", keep, "Keep all existing files");
     command
-        .add_flag(
-            "-y,--overwrite", replace,
-            "Replace every file that exists [the one that -o names, and those that pacini made from the same input "
-            "and nobody changed since]")
+        .add_flag("-y,--overwrite", replace,
+                  "Replace all existing files [only the one named by -o, and unchanged files that pacini made from the "
+                  "same input]")
         ->excludes(no);
 }
 

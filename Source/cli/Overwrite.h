@@ -1,9 +1,9 @@
 #pragma once
 
-// Options of the overwrite policy (see io/Overwrite.h), and what to do about files that are not replaced.
+// Options of the overwrite policy (see io/Overwrite.h), and errors for files that are not replaced.
 //
-// A file that -o names is replaced, unless it is one of the inputs or what they were made from. -n leaves all that
-// exist, -y replaces all.
+// A file that -o names is replaced, unless it is one of the inputs or their source. -n keeps all existing files, -y
+// replaces them.
 
 #include "io/Overwrite.h"
 
@@ -37,7 +37,7 @@ private:
 /// Why the file at `output` is not replaced: "exists and `reason`; ...", with what to do.
 [[nodiscard]] Error notReplaced(const std::filesystem::path& output, const std::string& reason);
 
-/// See mayOverwrite(); the error says what to do, too.
+/// See mayOverwrite(); the error also suggests a remedy.
 template <typename Made>
 [[nodiscard]] Result<Existing> mayReplace(const std::filesystem::path& output, const Made& made, Replaceable allowed)
 {

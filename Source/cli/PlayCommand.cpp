@@ -34,7 +34,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr double shortestLoop = 0.1; // s
 
-/// Keeps what would be sent.
+/// Stores the packets instead of sending them.
 class PacketList : public devices::ReportSink
 {
 public:
@@ -77,7 +77,7 @@ std::string shownName(const devices::Controller& controller)
 void warnOfSilence(Console& console, const std::string& clip, const devices::ControllerModel& model)
 {
     if (model.haptics == devices::ControllerHaptics::waveforms && !model.trigger.lasts())
-        console.warning(clip, "only the events are played, as the device has no lasting waveform");
+        console.warning(clip, "only the events are played, as the device has no continuous waveform");
 }
 
 /// `pacini play`: a clip on a game controller or another haptic device.
@@ -129,18 +129,18 @@ CLI::App* PlayCommand::declare(CLI::App& app)
 {
     auto* command = app.add_subcommand("play", "Play a clip on a game controller or another haptic device");
     addOption(*command, "input", input, "A clip of any format", "CLIP");
-    addOption(*command, "--device", device,
-              "Its number in 'pacini devices', its path, or a part of its name [the only "
-              "game controller]",
-              "N|NAME");
+    addOption(
+        *command, "--device", device,
+        "Device to play on: its number in 'pacini devices', its path, or part of its name [the only game controller]",
+        "N|NAME");
     addPreset(*command, "--intensity", intensity, "Gain of the playback, dB", numberFrom(-60.0, 40.0));
     addPreset(*command, "--from", from, "Start of the part to play, s", numberFrom(0.0, limits::duration, "24 h"), "S");
     addOption(*command, "--to", to, "End of the part to play, s [the end]", numberFrom(0.0, limits::duration, "24 h"),
               "S");
-    command->add_flag("--loop", loop, "Play over and over until it is ended by Ctrl-C");
+    command->add_flag("--loop", loop, "Repeat until Ctrl-C");
     command->add_flag("--wait", wait, "Wait until the controller is connected");
-    command->add_flag("--dry-run", dryRun, "Only print what would be sent: seconds and bytes");
-    addOption(*command, "--like", like, "With --dry-run: for this kind of controller, whatever is connected",
+    command->add_flag("--dry-run", dryRun, "Print the packets (seconds and bytes) and send nothing");
+    addOption(*command, "--like", like, "With --dry-run: print the packets for this kind of controller",
               oneOf(modelNames()));
     command->footer("The motors stop when the clip ends, on Ctrl-C, and when the program fails.\n"
                     "Examples:\n  pacini play door.json --device 1\n"
@@ -156,15 +156,15 @@ std::optional<Error> PlayCommand::usageError() const
         return Error{ErrorCode::invalidArgument, "play", std::move(message)};
     };
     if (input.empty())
-        return wrong("a file to work on is missing; try 'pacini play --help'");
+        return wrong("the input file is missing; try 'pacini play --help'");
     if (dryRun && loop)
-        return wrong("--loop has no end that --dry-run could print");
+        return wrong("--loop has no end; leave it out, or --dry-run");
     if (!like.empty() && !dryRun)
-        return wrong("--like is for --dry-run");
+        return wrong("--like needs --dry-run");
     if (!like.empty() && !device.empty())
-        return wrong("--like is for no device that is connected; leave out --device or --like");
+        return wrong("--like and --device exclude each other; leave one of them out");
     if (dryRun && wait)
-        return wrong("--wait has no controller to wait for with --dry-run; leave one of them out");
+        return wrong("--wait and --dry-run exclude each other; leave one of them out");
     return std::nullopt;
 }
 
@@ -219,8 +219,9 @@ Result<std::optional<PlayCommand::Opened>> PlayCommand::openDevice(Console& cons
         }
         else if (!wait)
             return Error{ErrorCode::io, "",
-                         connected->empty() ? "no known game controller is connected; --wait waits for one"
-                                            : "no such controller is connected; 'pacini devices' lists them"};
+                         connected->empty()
+                             ? "no supported game controller is connected; connect one, or wait for it with --wait"
+                             : "no such controller is connected; 'pacini devices' lists the connected ones"};
         if (!told)
             console.note("Waiting for a controller ...");
         if (interruption.wait(pause))
@@ -253,7 +254,7 @@ Result<devices::ControllerModel> PlayCommand::listedModel() const
     if (!chosen)
         return chosen.error();
     if (!*chosen)
-        return Error{ErrorCode::io, "", "no such controller is connected; --like names a kind"};
+        return Error{ErrorCode::io, "", "no such controller is connected; choose a kind with --like"};
     if (!(*chosen)->waveforms)
         return devices::ControllerModel{(*chosen)->haptics, (*chosen)->transport};
     const auto opened = openOne(**chosen); // only it can tell its waveforms

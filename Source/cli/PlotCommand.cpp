@@ -162,18 +162,19 @@ private:
 
 CLI::App* PlotCommand::declare(CLI::App& app)
 {
-    auto* command = app.add_subcommand("plot", "Draw a clip, a scene, a sound and the clip it becomes, or an actuator");
+    auto* command = app.add_subcommand("plot", "Draw a clip, a scene, a sound with its clip, or an actuator");
     addOption(*command, "input", input,
-              "Clip of any format, scene, sound, which is encoded first, or actuator profile: a file or the "
-              "name of a shipped one",
+              "Clip of any format, scene, sound (encoded first), or actuator profile (a file or a shipped profile)",
               "IN|PROFILE")
         ->required();
-    addOption(*command, "-o,--output", output, "Picture (.png, .svg or .pdf), or folder [IN's name with .png]", "OUT");
+    addOption(*command, "-o,--output", output, "Picture (.png, .svg or .pdf) or folder [the name of IN with .png]",
+              "OUT");
     addOption(*command, "--sound", sound, "Sound to show above the clip instead of its drive signal", "FILE");
     addOption(*command, "--profile", profile,
-              "Actuator profile: a file, or a shipped one such as l5-wristband; shows the drive signal for it",
+              "Actuator profile: a file or a shipped profile such as l5-wristband; draws the drive signal for it",
               "PROFILE");
-    addOption(*command, "--clips", clipFolder, "Where the clip files of a scene are [beside the scene]", "DIR");
+    addOption(*command, "--clips", clipFolder, "Folder with the clip files of a scene [the folder of the scene]",
+              "DIR");
     addPreset(*command, "--size", size, "Size of the picture in pixels",
               CLI::Validator(
                   [](const std::string& text)
@@ -193,7 +194,7 @@ CLI::App* PlotCommand::declare(CLI::App& app)
     command->footer("Examples:\n  pacini plot door.pacb -o door.png --sound door.wav\n"
                     "  pacini plot door.wav -o door.svg --from 0.5 --to 1.5\n"
                     "  pacini plot door.haptic -o door.png\n"
-                    "  pacini plot hall.scene.json -o hall.png        when each clip plays, and where\n"
+                    "  pacini plot hall.scene.json -o hall.png        times and actuators of each clip\n"
                     "  pacini plot l5-wristband -o l5.png");
     return command;
 }
@@ -208,15 +209,16 @@ Exit PlotCommand::run(Console& console)
     replaceable = overwriting.of(place->named);
     if (!plot::pictureFormatOf(*target))
         return console.fail(target->string(),
-                            {ErrorCode::invalidArgument, "", "has none of the extensions .png, .svg and .pdf"},
+                            {ErrorCode::invalidArgument, "", "must have the extension .png, .svg or .pdf"},
                             Exit::usage);
     if (from && to && *from >= *to)
         return console.fail("", {ErrorCode::invalidArgument, "--from", "must be before --to"}, Exit::usage);
     if (std::error_code ignored; std::filesystem::equivalent(*target, path, ignored))
-        return console.fail(input, {ErrorCode::invalidArgument, "", "would be overwritten by its own picture"});
+        return console.fail(
+            input, {ErrorCode::invalidArgument, "", "would be overwritten by its own picture; name another with -o"});
     if (overwriting.keepsAll() && isOccupied(*target))
     {
-        console.note(fmt::format("{} exists and was left", printable(target->string())));
+        console.note(fmt::format("{} exists and was kept", printable(target->string())));
         return Exit::ok;
     }
 
@@ -228,10 +230,11 @@ Exit PlotCommand::run(Console& console)
         if (!*shown)
             return console.fail(input, shown->error());
         if (from || to || !sound.empty() || !profile.empty())
-            return console.fail(input,
-                                {ErrorCode::invalidArgument, "",
-                                 "is a profile; --from, --to, --sound and --profile are for clips and sounds"},
-                                Exit::usage);
+            return console.fail(
+                input,
+                {ErrorCode::invalidArgument, "",
+                 "is a profile; leave out --from, --to, --sound and --profile, which are for clips and sounds"},
+                Exit::usage);
         return write(console, *target, makeProfileFigure(**shown, style), style);
     }
 
@@ -302,8 +305,9 @@ Exit PlotCommand::plotScene(Console& console, const std::filesystem::path& targe
                             const plot::FigureStyle& style) const
 {
     if (!sound.empty() || !profile.empty())
-        return console.fail(input, {ErrorCode::invalidArgument, "", "is a scene; --sound and --profile are for clips"},
-                            Exit::usage);
+        return console.fail(
+            input, {ErrorCode::invalidArgument, "", "is a scene; leave out --sound and --profile, which are for clips"},
+            Exit::usage);
     const auto range = rangeWithin(timelineOf(scene).duration);
     if (!range)
         return console.fail(input, range.error());

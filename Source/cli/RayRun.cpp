@@ -27,7 +27,7 @@ Error runOnRay(const std::vector<std::string>& arguments)
 #if defined(_WIN32)
     static_cast<void>(arguments);
     static_cast<void>(program);
-    return {ErrorCode::invalidArgument, "--ray", "is not there on Windows; run 'python -m pacini.ray'"};
+    return {ErrorCode::invalidArgument, "--ray", "is not available on Windows; run 'python -m pacini.ray'"};
 #else
     std::vector<std::string> words{"python3", "-c", program};
     words.insert(words.end(), arguments.begin(), arguments.end());

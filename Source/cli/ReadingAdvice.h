@@ -11,9 +11,9 @@ namespace pacini::cli
 [[nodiscard]] inline Error withAdvice(Error error, bool hasAllowNan)
 {
     if (error.code == ErrorCode::truncated)
-        error.message += ", or take what is there with --allow-truncated";
+        error.message += ", or use the remaining part with --allow-truncated";
     if (error.code == ErrorCode::notFinite && hasAllowNan)
-        error.message += ", or take such samples as 0 with --allow-nan";
+        error.message += ", or replace such samples by 0 with --allow-nan";
     return error;
 }
 

@@ -118,16 +118,17 @@ void tellLevel(Console& console, const RenderTask& task, const RenderSettings& s
     const double gain = settings.adjustment.gain;
     const RenderResult& result = *task.result;
     if (gain > 0.0 && result.reduction > noticed)
-        console.warning(task.input.string(), fmt::format("up to {:.1f} of the {:.1f} dB of --gain are taken away again "
-                                                         "to keep within what the actuator bears",
-                                                         std::min(result.reduction, gain), gain));
+        console.warning(task.input.string(),
+                        fmt::format("the limiter takes back up to {:.1f} of the {:.1f} dB of --gain, "
+                                    "to stay within the limits of the actuator",
+                                    std::min(result.reduction, gain), gain));
     else if (result.clippedSamples > 0)
         console.warning(task.input.string(),
                         fmt::format("{} clipped; {}", counted(result.clippedSamples, "sample was", "samples were"),
                                     clippingAdvice(result.peak, gain, settings.felt)));
 }
 
-/// `pacini render`: clips and scenes become drive signals, or what is felt of them.
+/// `pacini render`: renders clips and scenes as drive signals, or as the acceleration of the skin.
 class RenderCommand : public Command
 {
 public:
@@ -170,26 +171,27 @@ private:
 
 CLI::App* RenderCommand::declare(CLI::App& app)
 {
-    command = app.add_subcommand(
-        "render", "Turn clips and scenes into drive signals, or into the acceleration of the skin (WAV)");
+    command = app.add_subcommand("render",
+                                 "Render clips and scenes as drive signals, or as the acceleration of the skin (WAV)");
     addOption(*command, "inputs", inputs,
-              "Clips (JSON or packed) and scenes (JSON), folders of them, or - for standard input", "CLIP|SCENE")
+              "Clips (JSON or packed), scenes (JSON), folders of both, or - for standard input", "CLIP|SCENE")
         ->required();
-    addOption(
-        *command, "-o,--output", output,
-        "Sound file (.wav or .flac) with a channel for each actuator, folder for several, or - for WAV on standard "
-        "output [beside each input, as .haptic.wav]",
-        "OUT|DIR");
+    addOption(*command, "-o,--output", output,
+              "Sound file (.wav or .flac) with one channel for each actuator, folder for several inputs, or - for WAV "
+              "on standard output [beside each input, as .haptic.wav]",
+              "OUT|DIR");
     addOption(*command, "--profile", profile,
-              "Actuator profile: a file, or a shipped one such as l5-wristband; clips are fitted to it", "PROFILE");
-    addPreset(*command, "--encoding", encoding, "Samples of the output: float32, pcm24 or pcm16", oneOf(encodings));
+              "Actuator profile that clips are adapted to: a file or a shipped profile such as l5-wristband",
+              "PROFILE");
+    addPreset(*command, "--encoding", encoding, "Sample format of the output: float32, pcm24 or pcm16",
+              oneOf(encodings));
     described.declare(*command, infosOf(renderParameters));
     addPreset(*command, "--seed", seed, "Seed of the variation", countingNumber());
-    addOption(*command, "--clips", clipFolder, "Where the clip files of scenes are [beside the scene]", "DIR");
-    auto* all = command->add_flag("--everything", everything, "Leave nothing out");
+    addOption(*command, "--clips", clipFolder, "Folder with the clip files of scenes [the folder of the scene]", "DIR");
+    auto* all =
+        command->add_flag("--everything", everything, "Render everything, also inaudible and imperceptible parts");
     command->get_option("--tolerance")->excludes(all);
-    auto* asIs =
-        command->add_flag("--no-adapt", noAdaptation, "Play clips as they are, not fitted to the profile's actuator");
+    auto* asIs = command->add_flag("--no-adapt", noAdaptation, "Do not adapt clips to the profile's actuator");
     auto* mapped = command->get_option("--mapping");
     auto* boosted = command->get_option("--max-boost");
     auto* strengthened = command->get_option("--strength");
@@ -197,24 +199,23 @@ CLI::App* RenderCommand::declare(CLI::App& app)
         fitted->needs(command->get_option("--profile"));
     for (CLI::Option* fitted : {mapped, boosted, strengthened})
         fitted->excludes(asIs);
-    command->add_flag("--no-protection", noProtection,
-                      "Do not keep the drive within full drive and the profile's limits: samples beyond 1 are written "
-                      "as they are, or clipped as PCM");
-    auto* asFelt =
-        command->add_flag("--felt", felt,
-                          "Write the acceleration of the skin that the profile's body model predicts instead "
-                          "of the drive signal");
+    command->add_flag(
+        "--no-protection", noProtection,
+        "Switch off the limiter and the profile's limits: samples beyond 1 are written unchanged, or clipped in PCM");
+    auto* asFelt = command->add_flag(
+        "--felt", felt,
+        "Write the acceleration of the skin, predicted by the profile's body model, instead of the drive signal");
     asFelt->needs(command->get_option("--profile"));
     describedFelt.declare(*command, infosOf(feltParameters));
     for (const auto& parameter : feltParameters)
         command->get_option(optionName(parameter))->needs(asFelt);
-    command->add_flag("--explain", explain, "Show what is played, and what is left out, why, and with what error");
-    command->add_flag("--measured", measured,
-                      "Like --explain, and also render everything, to measure the error of what is left out");
-    command->add_flag("-f,--force", force, "Render also what is up to date");
+    command->add_flag("--explain", explain,
+                      "Show the parts that are played, and those that are skipped, with reason and error");
+    command->add_flag("--measured", measured, "Like --explain, and also measure the error by rendering everything");
+    command->add_flag("-f,--force", force, "Also render files that are up to date");
     overwriting.declare(*command);
-    command->add_flag("--dry-run", dryRun, "Only say what would be done with each file; write nothing");
-    addOption(*command, "-j,--jobs", jobs, "Files to work on at a time [number of processors]",
+    command->add_flag("--dry-run", dryRun, "Print what would be done with each file and write nothing");
+    addOption(*command, "-j,--jobs", jobs, "Number of files processed in parallel [number of processors]",
               wholeNumberFrom(1u, 256u), "N");
     batch.declare(*command);
     command->footer("Examples:\n  pacini render door.pacb -o door.wav\n"
@@ -271,7 +272,7 @@ Exit RenderCommand::readSettings(Console& console, RenderSettings& settings) con
         if (command->count(option) > 0 && pulse.value_or(TransientShape::adaptive) == TransientShape::adaptive)
             return console.fail("",
                                 {ErrorCode::invalidArgument, option,
-                                 "is for square and sine pulses; leave it out, or choose one of them with --pulse"},
+                                 "is for square and sine pulses; leave it out, or choose --pulse square or sine"},
                                 Exit::usage);
     settings.compile.sampleRate = std::round(settings.compile.sampleRate);
     settings.adjustment.variation.seed = seed;

@@ -120,7 +120,7 @@ private:
     std::vector<float> interleaved;
 };
 
-/// What was read, and what is made of it.
+/// The input and the planned output.
 struct RenderInput
 {
     Scene scene;
@@ -158,7 +158,7 @@ Result<RenderInput> readInput(const std::filesystem::path& input, const std::fil
         std::error_code unknown; // no recording when one of them is missing
         const std::string& recording = found.scene.clips.front().source.file;
         if (!recording.empty() && std::filesystem::equivalent(input.parent_path() / recording, output, unknown))
-            return notReplaced(output, "is the recording that this clip was made from");
+            return notReplaced(output, "is the recording of this clip");
     }
     found.existing = *existing;
     return found;
@@ -192,7 +192,7 @@ Result<RenderResult> render(const std::filesystem::path& input, const std::files
     {
         Error error = rendered->error();
         if (error.code == ErrorCode::tooLarge && error.where.empty())
-            error.message += "; make --stretch or --delay smaller";
+            error.message += "; reduce --stretch or --delay";
         return error;
     }
     static_cast<RenderReport&>(result) = std::move(**rendered);
@@ -200,8 +200,8 @@ Result<RenderResult> render(const std::filesystem::path& input, const std::files
     if (!written)
         return written.error();
     if (profile != nullptr)
-        result.protection =
-            settings.protect ? protectionText(*profile, file.isMotor) : "is off: no limit of the profile is kept";
+        result.protection = settings.protect ? protectionText(*profile, file.isMotor)
+                                             : "is off: the limits of the profile are not enforced";
     result.duration = static_cast<double>(result.frames) / settings.compile.sampleRate;
     result.seconds = work.seconds();
     result.peak = file.peak;

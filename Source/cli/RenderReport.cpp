@@ -78,7 +78,7 @@ std::string playText(const DecodedPlay& play, const std::string& name)
     return text;
 }
 
-/// The items of one kind, which share their reason and are plays, bands, or whatever else.
+/// Items of one kind (plays, bands or others) with the same reason.
 using Kind = std::pair<std::string, std::vector<const LeftOut*>>;
 
 std::vector<Kind> kindsOf(const std::vector<LeftOut>& items)

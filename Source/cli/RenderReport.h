@@ -1,6 +1,6 @@
 #pragma once
 
-// Report of a rendering and of what its plan left out, as JSON and as text.
+// Report of a rendering and of the skipped parts of its plan, as JSON and as text.
 
 #include "cli/RenderJob.h"
 

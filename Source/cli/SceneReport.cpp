@@ -80,7 +80,7 @@ std::string playText(const TimedPlay& timed, const Scene& scene)
     return text + "\n";
 }
 
-/// The first lines of a list, and how many more there are.
+/// The first lines of a list, and the number of the others.
 template <typename Line>
 void appendList(std::string& text, std::size_t count, std::string_view one, Line line)
 {

@@ -1,4 +1,4 @@
-// Subcommand that lets phones in the local network feel a clip.
+// Subcommand that plays a clip on phones in the local network.
 
 #include "cli/Command.h"
 #include "cli/Interruption.h"
@@ -81,16 +81,15 @@ private:
 
 CLI::App* ServeCommand::declare(CLI::App& app)
 {
-    auto* command = app.add_subcommand("serve", "Let phones in the local network feel a clip");
+    auto* command = app.add_subcommand("serve", "Play a clip on phones in the local network");
     addOption(*command, "input", input, "A clip of any format", "CLIP");
-    addOption(*command, "--address", address, "Address of this machine to listen on [that of its network]", "IPV4");
-    addOption(*command, "--port", port, "Port to listen on [one that is free]", numberFrom(1.0, 65535.0), "N");
-    command->add_flag("--inverted", inverted, "For terminals that are dark on light");
-    command->footer(
-        "Scan the picture with the phone. Its code works once; then there is another for the next phone, up to 64.\n"
-        "Enter plays the clip on all phones that are connected, Ctrl-C ends. Browsers of Android vibrate,\n"
-        "those of iPhones and Firefox do not. What goes over the network is not encrypted.\n"
-        "Example:\n  pacini serve door.json");
+    addOption(*command, "--address", address, "Address to listen on [that of this machine in its network]", "IPV4");
+    addOption(*command, "--port", port, "Port to listen on [a free port]", numberFrom(1.0, 65535.0), "N");
+    command->add_flag("--inverted", inverted, "Invert the QR code, for terminals with a light background");
+    command->footer("Scan the QR code with the phone. Each code works once; a new one appears for the next phone, up "
+                    "to 64.\nEnter plays the clip on all connected phones, Ctrl-C ends. Browsers on Android vibrate, "
+                    "those on\niPhones and Firefox do not. The connection is not encrypted.\n"
+                    "Example:\n  pacini serve door.json");
     return command;
 }
 
@@ -140,7 +139,7 @@ Exit ServeCommand::run(Console& console)
 {
     if (input.empty())
         return console.fail(
-            "", {ErrorCode::invalidArgument, "serve", "a file to work on is missing; try 'pacini serve --help'"},
+            "", {ErrorCode::invalidArgument, "serve", "the input file is missing; try 'pacini serve --help'"},
             Exit::usage);
     const auto read = readClip(input, console.isStrict());
     if (!read)

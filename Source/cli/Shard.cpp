@@ -26,7 +26,7 @@ Result<Shard> parseShard(std::string_view text)
     const auto count = slash == std::string_view::npos ? std::nullopt : parseNumber<unsigned>(text.substr(slash + 1));
     if (!number || !count || *number < 1 || *number > *count || *count > mostShards)
         return Error{ErrorCode::invalidArgument, "--shard",
-                     fmt::format("'{}' is no part of a whole, such as 1/8 to 8/8", text)};
+                     fmt::format("'{}' is not a shard such as 1/8 to 8/8", text)};
     return Shard{*number, *count};
 }
 

@@ -25,7 +25,7 @@
 namespace pacini::cli
 {
 
-/// One file: has an error, or a result once it is done, unless its output was there and is to be kept.
+/// One file: has an error, or a result when it is done, unless its existing output is kept.
 template <typename ResultType>
 struct Task
 {
@@ -54,8 +54,8 @@ private:
     std::atomic<bool> full = false;
 };
 
-/// Runs `work`, which gives a Result<ResultType>, unless the task has failed already or is skipped. What it throws
-/// becomes the task's error: one file must not stop the others.
+/// Runs `work`, which gives a Result<ResultType>, unless the task has failed already or is skipped. Exceptions become
+/// the task's error, so that one file does not stop the others.
 template <typename ResultType, typename Work>
 void attempt(Task<ResultType>& task, const BatchEnd& end, Work&& work)
 {
@@ -63,7 +63,7 @@ void attempt(Task<ResultType>& task, const BatchEnd& end, Work&& work)
         return;
     if (end.come())
     {
-        task.error = Error{ErrorCode::diskFull, "", "was not tried, since the disk is full"};
+        task.error = Error{ErrorCode::diskFull, "", "was skipped, as the disk is full"};
         return;
     }
     try
@@ -76,7 +76,7 @@ void attempt(Task<ResultType>& task, const BatchEnd& end, Work&& work)
     }
     catch (const std::bad_alloc&)
     {
-        task.error = Error{ErrorCode::tooLarge, "", "needs more memory than there is; try it alone, with -j 1"};
+        task.error = Error{ErrorCode::tooLarge, "", "needs more memory than is available; try it alone, with -j 1"};
     }
     catch (const std::exception& failure)
     {
@@ -84,7 +84,7 @@ void attempt(Task<ResultType>& task, const BatchEnd& end, Work&& work)
     }
 }
 
-/// Tells the error of a task, if it has one; what ends the whole list is said once.
+/// Prints the error of a task, if any; errors that end the whole list are printed once.
 template <typename ResultType>
 void tellError(Console& console, const Task<ResultType>& task, BatchEnd& end)
 {
@@ -169,13 +169,13 @@ template <typename ResultType>
 {
     std::string text = upToDate > 0 ? fmt::format(", {} up to date", upToDate) : "";
     if (skipped > 0)
-        text += ", " + counted(skipped, "exists and was left", "exist and were left");
+        text += ", " + counted(skipped, "exists and was kept", "exist and were kept");
     if (failed > 0)
         text += fmt::format(", {} failed", failed);
     return text;
 }
 
-/// Says what would be done with each file that `work` only looked at: a result that is up to date is skipped.
+/// Prints the action for each file that `work` only checked; results that are up to date are skipped.
 template <typename ResultType>
 void reportPlan(Console& console, const std::vector<Task<ResultType>>& tasks)
 {
@@ -199,7 +199,7 @@ void reportPlan(Console& console, const std::vector<Task<ResultType>>& tasks)
     console.addToReport({{"dryRun", true}, {"files", files}});
 }
 
-/// The list of files of a report: toJson(task) for each result; `alone` as for fileList(). Outputs that were kept stand
+/// The list of files of a report: toJson(task) for each result; `alone` as for fileList(). Kept outputs are listed
 /// under "skipped". The console knows the failures.
 template <typename ResultType, typename ToJson>
 [[nodiscard]] nlohmann::ordered_json jsonReport(const std::vector<Task<ResultType>>& tasks, ToJson&& toJson,

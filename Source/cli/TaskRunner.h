@@ -18,8 +18,8 @@
 namespace pacini::cli
 {
 
-/// Calls work(i, progress) for i = 0..count-1 on `threads` threads (0: as many as there are processors); makeWorker()
-/// makes each thread's own `work`, neither may throw. `nameOf(i)` is shown on the progress line.
+/// Calls work(i, progress) for i = 0..count-1 on `threads` threads (0: the number of processors); makeWorker() makes
+/// each thread's own `work`, neither may throw. `nameOf(i)` is shown on the progress line.
 template <typename MakeWorker>
 void runTasks(Console& console, std::size_t count, unsigned threads,
               const std::function<std::string(std::size_t)>& nameOf, MakeWorker&& makeWorker)

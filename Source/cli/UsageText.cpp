@@ -48,9 +48,9 @@ std::string missingCommand(const CLI::App& app)
     if (rest.empty())
         return fmt::format("a {} is missing{}", kind, all);
     if (rest.front().starts_with('-'))
-        return fmt::format("{} is no option here{}", rest.front(), meantText(rest.front(), optionNames(app)));
+        return fmt::format("unknown option {}{}", rest.front(), meantText(rest.front(), optionNames(app)));
     const std::string meant = meantText(rest.front(), names);
-    return fmt::format("'{}' is no {}{}", rest.front(), kind, meant.empty() ? all : meant);
+    return fmt::format("unknown {1} '{0}'{2}", rest.front(), kind, meant.empty() ? all : meant);
 }
 
 /// The first word that was not understood and looks like an option; empty when there is none.
@@ -67,11 +67,11 @@ std::string surplus(const CLI::App& program, const CLI::App& chosen)
 {
     const auto words = chosen.remaining(true);
     if (const std::string name = unknownOption(words); !name.empty())
-        return fmt::format("{} is no option of '{}'{}", name, commandPath(program),
+        return fmt::format("unknown option {} of '{}'{}", name, commandPath(program),
                            meantText(name, optionNames(chosen)));
     if (const std::string name = unknownOption(program.remaining(true)); !name.empty())
-        return fmt::format("{} is no option here{}", name, meantText(name, optionNames(program)));
-    return fmt::format("'{}' is one argument too many", words.empty() ? "" : words.front());
+        return fmt::format("unknown option {}{}", name, meantText(name, optionNames(program)));
+    return fmt::format("unexpected argument '{}'", words.empty() ? "" : words.front());
 }
 
 /// What must be there and is not.
@@ -80,7 +80,7 @@ std::string missingArgument(const std::string& what, const CLI::App& app)
     const std::string name = what.substr(0, what.find(' '));
     for (const CLI::Option* option : app.get_options())
         if (option->get_name() == name && option->get_positional() && optionText(*option).choices.empty())
-            return "a file to work on is missing";
+            return "the input file is missing";
     return name + " is missing";
 }
 

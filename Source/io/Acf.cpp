@@ -123,7 +123,7 @@ Result<Acf> readAcf(std::string_view text)
     if (!document)
         return document.error();
     if (!document->is_object())
-        return Error{ErrorCode::invalidData, "", "is not an ACF file, which is an object in braces"};
+        return Error{ErrorCode::invalidData, "", "is not an ACF file, as it is not an object in braces"};
 
     constexpr bool required = true;
     Acf acf;

@@ -91,13 +91,13 @@ ProfileOfAcf profileOfAcf(const Acf& acf)
     Profile& profile = result.profile;
     profile.name = acf.device.empty() ? "Unnamed actuator" : acf.device;
     profile.sources = {{"drive.overdrive", "ACF file, emphasis.gain over continuous.gain"},
-                       {"polyphony", "assumed: an ACF file does not tell the number of voices"},
+                       {"polyphony", "assumed: an ACF file does not state the number of voices"},
                        {"range", "ACF file, continuous"},
-                       {"range.dynamicRange", "assumed: an ACF file does not tell it"},
+                       {"range.dynamicRange", "assumed: an ACF file does not state it"},
                        {"resonance.frequency",
                         "assumed: from the emphasis frequencies of an ACF file, by the rule that "
                         "they are 0.8 and 1.8 times the resonance"},
-                       {"resonance.q", "assumed: an ACF file does not tell it"}};
+                       {"resonance.q", "assumed: an ACF file does not state it"}};
     const auto fixed = fixedTransient(acf);
     const double middle = std::sqrt(acf.ends[0].frequency * acf.ends[1].frequency);
     profile.resonance.frequency =

@@ -13,14 +13,14 @@
 namespace pacini
 {
 
-/// A profile made of an ACF, and what did not fit: each warning names the entries that are lost or assumed.
+/// A profile converted from an ACF; each warning names entries that are lost or assumed.
 struct ProfileOfAcf
 {
     Profile profile;
     std::vector<std::string> warnings;
 };
 
-/// An ACF made of a profile, and what did not fit, likewise.
+/// An ACF converted from a profile, with the same kind of warnings.
 struct AcfOfProfile
 {
     Acf acf;

@@ -37,7 +37,7 @@ fs::path temporaryName(const fs::path& target, unsigned number)
 
 Error alreadyThere()
 {
-    return {ErrorCode::io, "", "has appeared meanwhile and was left as it is; choose another name"};
+    return {ErrorCode::io, "", "was created meanwhile and was kept; choose another name"};
 }
 
 std::FILE* openStandardOutput()

@@ -1,6 +1,6 @@
 #pragma once
 
-// Size of the audio data that a file's header states. libsndfile silently shortens it to what the file holds.
+// Size of the audio data that a file's header states. libsndfile silently shortens it to the real size.
 
 #include <cstdint>
 #include <cstdio>

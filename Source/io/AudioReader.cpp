@@ -64,7 +64,7 @@ Error invalid(std::string message)
 Error truncated(std::uint64_t present, std::uint64_t promised, std::string_view unit = "frames")
 {
     return {ErrorCode::truncated, "",
-            fmt::format("is cut off: {} {} are there, {} were promised; get a whole copy", present, unit, promised)};
+            fmt::format("is truncated: it has {} {} of {}; get a complete copy", present, unit, promised)};
 }
 
 /// Bytes of one sample, 0 for codecs that pack samples together.
@@ -111,7 +111,7 @@ std::optional<Error> brokenPromise(const AudioDataSize& data, const SF_INFO& inf
 Error openingFailed(const std::optional<AudioDataSize>& data)
 {
     if (sf_error(nullptr) == SF_ERR_UNRECOGNISED_FORMAT)
-        return invalid("is not audio in a known format; convert it to WAV, AIFF, FLAC, Ogg or CAF");
+        return invalid("is not audio in a supported format; convert it to WAV, AIFF, FLAC, Ogg or CAF");
     if (data && data->present < data->promised)
         return truncated(data->present, data->promised, "bytes of audio");
     auto reason = soundError(nullptr);
@@ -121,7 +121,7 @@ Error openingFailed(const std::optional<AudioDataSize>& data)
     // What its MP3 part says of every file that is too short to start.
     if (reason.starts_with("file does not exist"))
         reason = "its audio is incomplete";
-    return invalid(fmt::format("cannot be read as audio ({}); get a whole copy or convert it to WAV", reason));
+    return invalid(fmt::format("cannot be read as audio ({}); get a complete copy or convert it to WAV", reason));
 }
 } // namespace
 
@@ -168,15 +168,15 @@ struct AudioReader::State
             return {};
         const auto type = info.format & SF_FORMAT_TYPEMASK;
         if (info.frames == SF_COUNT_MAX && type == SF_FORMAT_OGG)
-            return Error{ErrorCode::truncated, "",
-                         fmt::format("is cut off: {} frames are there, but not the mark of its end; get a whole copy",
-                                     delivered)};
+            return Error{
+                ErrorCode::truncated, "",
+                fmt::format("is truncated: it has {} frames, but no end marker; get a complete copy", delivered)};
         if (promisedFrames && delivered + slackFrames < *promisedFrames)
             return truncated(delivered, *promisedFrames);
         if (sf_error(sound.get()) != SF_ERR_NO_ERROR)
             return Error{
                 ErrorCode::truncated, "",
-                fmt::format("is damaged after frame {} ({}); get a whole copy", delivered, soundError(sound.get()))};
+                fmt::format("is damaged after frame {} ({}); get a complete copy", delivered, soundError(sound.get()))};
         return {};
     }
 };
@@ -192,7 +192,7 @@ Result<AudioReader> AudioReader::open(const fs::path& path, AudioReadOptions opt
     if (!file)
         return file.error();
     if (streamLength(file->get()) == 0)
-        return invalid("is empty; it has no audio");
+        return invalid("is empty; choose a file with audio");
 
     auto state = std::make_unique<State>();
     state->file = std::move(*file);
@@ -210,14 +210,14 @@ Result<AudioReader> AudioReader::open(const fs::path& path, AudioReadOptions opt
     if (!state->sound)
         return openingFailed(data);
     if (info.channels < 1 || info.samplerate < 1)
-        return invalid(fmt::format("has a damaged header, which names no {}; get a whole copy",
+        return invalid(fmt::format("has a damaged header without {}; get a complete copy",
                                    info.channels < 1 ? "channels" : "sample rate"));
     if (info.channels > limits::channels)
-        return invalid(
-            fmt::format("has {} channels, 1 to {} are accepted; mix it down", info.channels, limits::channels));
+        return invalid(fmt::format("has {} channels, but only 1 to {} are supported; mix it down", info.channels,
+                                   limits::channels));
     if (info.samplerate < options.lowestSampleRate || info.samplerate > limits::highestSampleRate)
-        return invalid(fmt::format("has a sample rate of {} Hz, {} to {} Hz are accepted; resample it", info.samplerate,
-                                   options.lowestSampleRate, limits::highestSampleRate));
+        return invalid(fmt::format("has a sample rate of {} Hz, but only {} to {} Hz are supported; resample it",
+                                   info.samplerate, options.lowestSampleRate, limits::highestSampleRate));
     if (data && !options.allowTruncated)
         if (auto broken = brokenPromise(*data, info))
             return *broken;

@@ -16,7 +16,7 @@
 namespace pacini
 {
 
-/// Reading options: what is let pass instead of being reported.
+/// Reading options: defects that are accepted instead of reported.
 struct AudioReadOptions
 {
     bool allowTruncated = false; ///< deliver what is there of a file that was cut off

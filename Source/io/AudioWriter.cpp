@@ -77,15 +77,15 @@ Result<int> formatOf(const fs::path& path, const AudioWriteParams& params)
     const std::string extension = lowerExtension(path);
     const bool flac = extension == ".flac";
     if (!flac && extension != ".wav" && !isStream(path)) // WAV is what a stream gets
-        return badArgument("audio is written as .wav or .flac; choose one of these extensions");
+        return badArgument("must have the extension .wav or .flac");
     const int maxChannels = flac ? 8 : limits::channels;
     if (params.channels < 1 || params.channels > maxChannels)
-        return badArgument(fmt::format("{} channels cannot be written, 1 to {} can", params.channels, maxChannels));
+        return badArgument(fmt::format("{} channels are not supported; write 1 to {}", params.channels, maxChannels));
     if (params.sampleRate < limits::lowestWrittenRate || params.sampleRate > limits::highestSampleRate)
-        return badArgument(fmt::format("a sample rate of {} Hz cannot be written, {} to {} Hz can", params.sampleRate,
+        return badArgument(fmt::format("a sample rate of {} Hz is not supported; choose {} to {} Hz", params.sampleRate,
                                        limits::lowestWrittenRate, limits::highestSampleRate));
     if (flac && params.encoding == SampleEncoding::float32)
-        return badArgument("FLAC holds no float samples; choose 16 or 24 bit, or write a .wav");
+        return badArgument("FLAC does not support float samples; choose 16 or 24 bit, or write a .wav");
     const auto frameBytes = static_cast<std::uint64_t>(params.channels * bits(params.encoding) / 8);
     const bool large = params.expectedFrames > largestWav / frameBytes;
     return (flac ? SF_FORMAT_FLAC : large ? SF_FORMAT_RF64 : SF_FORMAT_WAV) | subformat(params.encoding);

@@ -137,7 +137,7 @@ Result<ReadClip> clipIn(const fs::path& path, FoundFile found, bool strict)
 {
     auto& [bytes, format, isScene] = found;
     if (format == nullptr && bytes.empty())
-        return Error{ErrorCode::invalidData, "", "is empty; it has no clip"};
+        return Error{ErrorCode::invalidData, "", "is empty; choose a file with a clip"};
     if (format == nullptr && !looksLikeJson(bytes))
         return notAClip();
     if (format == nullptr) // whose reader says what is missing
@@ -163,7 +163,7 @@ Result<ReadClip> readClip(const fs::path& path, bool strict)
     if (!found)
         return found.error();
     if (found->isScene)
-        return Error{ErrorCode::invalidData, "", "is a scene, and a clip is needed; 'pacini render' plays scenes"};
+        return Error{ErrorCode::invalidData, "", "is a scene, not a clip; 'pacini render' renders scenes"};
     return clipIn(path, std::move(*found), strict);
 }
 
@@ -312,7 +312,8 @@ fs::path strayCompanion(const fs::path& main, const ClipFormat& format, const Ex
 
 std::string strayWarning(const fs::path& stray)
 {
-    return stray.filename().string() + ": was there before and is no part of this clip, but is read with it; remove it";
+    return stray.filename().string() +
+           ": exists already, is not part of this clip, but would be read with it; remove it";
 }
 
 } // namespace pacini

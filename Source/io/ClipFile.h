@@ -1,6 +1,6 @@
 #pragma once
 
-// Reading and writing of clip files in any format, and of what may be a clip or a scene.
+// Reading and writing of clip files in any format, and reading of files that are clips or scenes.
 
 #include "io/AtomicFile.h"
 #include "io/formats/ClipFormat.h"

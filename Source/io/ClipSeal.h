@@ -1,6 +1,6 @@
 #pragma once
 
-// Seal of a clip: a checksum that tells a clip as it was encoded from one that somebody edited since.
+// Seal of a clip: a checksum that detects edits after encoding.
 
 #include <pacini/clip/Clip.h>
 

@@ -52,7 +52,7 @@ struct DocumentFormat
     bool whole = false;         ///< a version with a fraction is none rather than a newer one
 };
 
-/// Whether an entry must be in the file; others keep the default of their struct when they are missing.
+/// Whether an entry is required; other missing entries keep the default of their struct.
 enum class Need
 {
     required,

@@ -85,8 +85,8 @@ struct WholeRange
 inline constexpr WholeRange anyInt{std::numeric_limits<int>::min(), std::numeric_limits<int>::max(),
                                    "a whole number of at most 10 digits", "a whole number"};
 
-/// Follows a list of fields through the events of a document. For each key the list is gone through until the field of
-/// that name says where the value goes; lists of fields must therefore be functions without state.
+/// Fills a list of fields from the events of a document. For each key the handler searches the list for the field of
+/// that name, which receives the value; lists of fields must therefore be functions without state.
 class FieldsHandler final : public JsonHandler
 {
 public:
@@ -450,7 +450,7 @@ private:
         if (given > format.version && (std::trunc(given) == given || !format.whole))
             return handler.stop(ErrorCode::unsupportedVersion,
                                 fmt::format("was written by a newer version ({}) of the format{}", given, readable));
-        return handler.stop(ErrorCode::invalidData, fmt::format("is {}, which is no version of the format{}", given,
+        return handler.stop(ErrorCode::invalidData, fmt::format("is {}, which is not a version of the format{}", given,
                                                                 format.whole ? readable : ""));
     }
 
@@ -517,7 +517,7 @@ private:
                                                                                : wrong(Taken::wrongKind, value);
     }
 
-    bool twice() { return stop(ErrorCode::invalidData, "is given twice; keep one of the two"); }
+    bool twice() { return stop(ErrorCode::invalidData, "is given twice; remove one of the two"); }
 
     bool full(const Entry& where)
     {

@@ -216,7 +216,7 @@ public:
         for (const nlohmann::json& element : *entry)
         {
             if (!element.is_string() || element.get_ref<const std::string&>().empty())
-                return fail(fmt::format("{}[{}]", name, values.size()), "must be a text in quotes that says something");
+                return fail(fmt::format("{}[{}]", name, values.size()), "must be a text in quotes that is not empty");
             values.push_back(element.get<std::string>());
         }
     }
@@ -237,7 +237,7 @@ public:
                       if (!text.is_string())
                           return fail(shownText(key), "must be a text in quotes");
                       if (text.template get_ref<const std::string&>().empty())
-                          return fail(shownText(key), "must say something");
+                          return fail(shownText(key), "must not be empty");
                       values.push_back({key, text.template get<std::string>()});
                   }
               });

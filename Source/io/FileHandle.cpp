@@ -28,7 +28,7 @@ std::string reason(int errnoValue)
         return "is a folder; give the name of a file";
     case EACCES:
     case EPERM:
-        return "permission denied; check the rights of the file and its folder";
+        return "permission denied; check the permissions of the file and its folder";
     case EROFS:
         return "the disk is read-only; choose another folder";
     case ENOSPC:
@@ -47,7 +47,7 @@ std::string reason(int errnoValue)
     case EIO:
         return "the disk reported a read or write error; check the disk";
     case EPIPE:
-        return "the reader of the pipe has gone away";
+        return "the reader of the pipe has closed it";
     default:
         return "the system refused: " + std::generic_category().message(errnoValue);
     }

@@ -17,7 +17,7 @@ struct FileCloser
     void operator()(std::FILE* file) const noexcept { std::fclose(file); }
 };
 
-/// An open stream, closed at the end of its life. Who must know whether closing worked releases it and closes by hand.
+/// An open stream, closed at the end of its life. To check for errors on closing, release it and close it manually.
 using FileHandle = std::unique_ptr<std::FILE, FileCloser>;
 
 /// The Error (code diskFull or io) behind an errno value: a plain sentence that says what to do.

@@ -22,7 +22,7 @@ constexpr std::string_view place = "\" (place ";
 constexpr std::string_view substance = ", substance ";
 constexpr std::string_view seal = ", seal ";
 
-/// An origin as it stands in a file.
+/// An origin in the form stored in files.
 struct FoundOrigin
 {
     FileOrigin origin;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Provenance mark in the header of a sound file that Pacini made, by which it is told from a person's: a line of text.
+// Provenance mark: a line of text in the header of sound files that Pacini made.
 
 #include <pacini/foundation/Result.h>
 
@@ -16,7 +16,7 @@
 namespace pacini
 {
 
-/// Origin of a file: what it was made from.
+/// Origin of a file: the input and the settings that made it.
 struct FileOrigin
 {
     std::string input;     ///< name of that file, without folders; for people

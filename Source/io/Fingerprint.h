@@ -1,6 +1,6 @@
 #pragma once
 
-// Fast non-cryptographic hash of bytes, to see whether something is still what it was.
+// Fast non-cryptographic hash of bytes, for detecting changes.
 
 #include <cstddef>
 #include <cstdint>

@@ -21,7 +21,7 @@ namespace pacini
 /// The same for what can be rewound: devices are refused (io).
 [[nodiscard]] Result<FileHandle> openRewindable(const std::filesystem::path& path);
 
-/// Looks at the first bytes of a file: what is wrong with them, if anything is.
+/// Checks the first bytes of a file; returns their error, if any.
 using StartCheck = std::function<std::optional<Error>(std::string_view start)>;
 
 /// All bytes of `path`, unless `check` says what is wrong with the first 1024. More than `maximumBytes` is an Error

@@ -47,7 +47,7 @@ inline constexpr char32_t endOfText = 0xFFFFFFFF;
     return c < 0x80 && lower >= 'a' && lower <= 'f' ? static_cast<int>(lower - 'a' + 10) : -1;
 }
 
-/// A place in a JSON5 text. What can fail returns false after it has set `error`.
+/// A position in a JSON5 text. Functions that fail set `error` and return false.
 class Cursor
 {
 public:
@@ -159,7 +159,7 @@ public:
         if (c == '0' && !isDigit(peek()))
             letters += '\0';
         else if (isDigit(c))
-            return fail(start, "is not an escape; \\x and two digits give a character");
+            return fail(start, "is not a valid escape; write \\x and two digits");
         else
             appendUtf8(letters, c);
         return true;
@@ -190,7 +190,7 @@ private:
             code = low >= 0xDC00 && low < 0xE000 ? 0x10000 + ((code - 0xD800) << 10) + (low - 0xDC00) : none;
         }
         if (code == none || (code >= 0xD800 && code < 0xE000))
-            return fail(start, "is not an escape of a character");
+            return fail(start, "is not a valid escape of a character");
         appendUtf8(letters, code);
         return true;
     }

@@ -25,7 +25,7 @@ public:
     {
         if (!isUtf8() || !skipSpace() || !value(0) || !skipSpace())
             return false;
-        return peek() == json5::endOfText || fail("has something after its end");
+        return peek() == json5::endOfText || fail("has text after its end");
     }
 
 private:
@@ -53,7 +53,7 @@ private:
     bool container(std::size_t depth)
     {
         if (depth == deepestJson)
-            return fail(position(), "has more than 32 objects or lists in each other", ErrorCode::tooLarge);
+            return fail(position(), "has more than 32 levels of objects and lists", ErrorCode::tooLarge);
         const bool isObject = take() == '{';
         const char32_t close = isObject ? '}' : ']';
         json += isObject ? '{' : '[';
@@ -143,7 +143,7 @@ private:
                 digits = '-';
         for (const std::string_view word : {"Infinity", "NaN"})
             if (sees(word))
-                return fail(start, fmt::format("{} is no number that can be used", word));
+                return fail(start, fmt::format("{} is not a number in the supported range", word));
         if (sees("0x") || sees("0X"))
             return hexadecimal(start, digits);
 
@@ -156,7 +156,7 @@ private:
         };
         const std::size_t whole = run();
         if (whole > 1 && digits[digits.size() - whole] == '0')
-            return fail(start, "starts with a zero; decimal numbers have none in front");
+            return fail(start, "starts with a zero; remove it");
         if (whole == 0)
             digits += '0';
         std::size_t fraction = 0;
@@ -207,7 +207,7 @@ private:
 Result<std::string> jsonFromJson5(std::string_view text, std::size_t maximumBytes)
 {
     if (text.size() > maximumBytes)
-        return Error{ErrorCode::tooLarge, "", "is a longer text than is accepted"};
+        return Error{ErrorCode::tooLarge, "", "is longer than the longest supported text"};
     Converter converter(text);
     if (!converter.document())
         return converter.error;

@@ -117,7 +117,7 @@ private:
         if (depth == deepestJson)
         {
             error = {ErrorCode::tooLarge, source.place(source.passed()),
-                     "has more than 32 objects or lists in each other"};
+                     "has more than 32 levels of objects and lists"};
             return false;
         }
         if (!value([this, list] { return list ? handler->openList() : openObject(); }))
@@ -203,13 +203,13 @@ static Result<void> parseText(std::string_view text, JsonHandler& handler, std::
                               ReadWarnings* warnings)
 {
     if (text.size() > maximumBytes)
-        return Error{ErrorCode::tooLarge, "", "is a longer text than is accepted"};
+        return Error{ErrorCode::tooLarge, "", "is longer than the longest supported text"};
     JsonSource source(text);
     if (source.atEnd())
         return Error{ErrorCode::invalidData, "", "is empty"};
     if (source.startsWith("\xEF\xBB\xBF"))
         return Error{ErrorCode::invalidData, source.place(1),
-                     "starts with a byte order mark; save it as UTF-8 without"};
+                     "starts with a byte order mark; save it as UTF-8 without one"};
     if (source.startsWith("\xFE\xFF") || source.startsWith("\xFF\xFE"))
         return Error{ErrorCode::invalidData, source.place(1), "is UTF-16 text; save it as UTF-8"};
     Events events(handler, source, warnings);
@@ -229,7 +229,7 @@ Result<void> parseJson(std::string_view text, JsonHandler& handler, std::size_t 
     }
     catch (const std::bad_alloc&)
     {
-        return Error{ErrorCode::tooLarge, "", "needs more memory than there is"};
+        return Error{ErrorCode::tooLarge, "", "needs more memory than is available"};
     }
     catch (const std::exception& exception)
     {

@@ -47,7 +47,7 @@ public:
     {
         name = file;
         if (onsets.byFile.contains(name))
-            return stop(ErrorCode::invalidData, "is there twice");
+            return stop(ErrorCode::invalidData, "is given twice");
         return true;
     }
     bool number(double value) override

@@ -39,7 +39,7 @@ Result<Existing> mayOverwrite(const fs::path& output, const FileOrigin& origin, 
         return Existing::keep;
     const auto found = readOrigin(output);
     if (!found)
-        return notReplaced(output, "exists, and nothing in it says that pacini made it");
+        return notReplaced(output, "exists and was not made by pacini");
     if (found->place != origin.place)
         return notReplaced(output, found->input == origin.input ? "was made from another " + found->input
                                                                 : "was made from " + found->input);
@@ -57,7 +57,7 @@ Result<Existing> mayOverwrite(const fs::path& output, std::string_view bytes, Re
     const auto there = readWholeFile(output, bytes.size());
     if (there && *there == bytes)
         return Existing::replace;
-    return notReplaced(output, "exists and holds something else");
+    return notReplaced(output, "exists with other content");
 }
 
 Result<Existing> mayOverwrite(const fs::path& main, const ExportedClip& exported, Replaceable allowed)

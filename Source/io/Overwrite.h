@@ -1,9 +1,9 @@
 #pragma once
 
-// Overwrite policy: which existing files may be replaced by results, and what a file is that stands in the way.
+// Overwrite policy: which existing files results may replace, and descriptions of the others.
 //
-// A file that the user named is replaced, unless it is an input or what that was made from; windows ask first. Any
-// other is replaced only when it was made by Pacini from the same input and is still as it was made.
+// A file that the user named is replaced, unless it is an input or its source; windows ask first. Any other file is
+// replaced only if Pacini made it from the same input and it is unchanged.
 
 #include "io/AtomicFile.h"
 #include "io/FileOrigin.h"
@@ -19,7 +19,7 @@
 namespace pacini
 {
 
-/// Permission to replace a file that stands at the place of one result.
+/// Permission to replace an existing file by a result.
 enum class Replaceable
 {
     own,   ///< what Pacini made from the same input
@@ -42,7 +42,7 @@ enum class Replaceable
 [[nodiscard]] Result<Existing> mayOverwrite(const std::filesystem::path& main, const ExportedClip& exported,
                                             Replaceable allowed);
 
-/// What a file is, for a question.
+/// Description of a file, for a question.
 enum class FileKind
 {
     sound,

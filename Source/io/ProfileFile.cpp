@@ -18,7 +18,7 @@ Result<Profile> readProfile(const std::filesystem::path& path, ReadWarnings* war
     if (!text)
         return text.error();
     if (hasAcfExtension(path))
-        return Error{ErrorCode::invalidData, "", "is an ACF file; make a profile of it first with 'pacini convert'"};
+        return Error{ErrorCode::invalidData, "", "is an ACF file; convert it to a profile with 'pacini convert' first"};
     return readProfileJson(*text, warnings);
 }
 

@@ -16,7 +16,7 @@ Result<Profile> readProfileJson(std::string_view text, ReadWarnings* warnings)
     if (!document)
         return document.error();
     if (!document->is_object())
-        return Error{ErrorCode::invalidData, "", "is not a profile, which is a JSON object"};
+        return Error{ErrorCode::invalidData, "", "is not a profile, as it is not a JSON object"};
     FieldsReader reader(*document, warnings);
     reader.format(profileFormatName, profileFormatVersion);
     Profile profile;

@@ -100,7 +100,7 @@ std::vector<std::string> ReadWarnings::texts() const
 {
     std::vector<std::string> all = kept;
     if (notKept > 0)
-        all.push_back(fmt::format("and {} more of these", notKept));
+        all.push_back(fmt::format("and {} more of this kind", notKept));
     return all;
 }
 
@@ -138,8 +138,8 @@ std::string unknownKeyText(std::string_view given, const std::vector<std::string
 {
     const std::string_view nearest = nearestKey(given, known);
     if (nearest.empty())
-        return "is not known";
-    return fmt::format("is not known; did you mean \"{}\"?", nearest);
+        return "is unknown";
+    return fmt::format("is unknown; did you mean \"{}\"?", nearest);
 }
 
 } // namespace pacini

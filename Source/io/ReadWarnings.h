@@ -1,6 +1,6 @@
 #pragma once
 
-// Warnings of the readers of clips, scenes and profiles: what they let pass, such as unknown keys.
+// Warnings of the readers of clips, scenes and profiles, such as unknown keys.
 
 #include <cstddef>
 #include <string>

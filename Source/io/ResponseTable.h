@@ -1,6 +1,6 @@
 #pragma once
 
-// Tables of frequency responses as text: CSV and what measuring programs export.
+// Tables of frequency responses as text: CSV and exports of measurement programs.
 
 #include <pacini/linearize/FrequencyResponse.h>
 

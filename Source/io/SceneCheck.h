@@ -1,6 +1,6 @@
 #pragma once
 
-// Lint checks of a scene: what in it does nothing, or less than is written there. All of it is in this header, as in
+// Lint checks of a scene: parts without effect, or with less effect than written. All of it is in this header, as in
 // SoundEncoder.h.
 
 #include <pacini/synthesis/CompilePlan.h>
@@ -64,9 +64,9 @@ inline void checkEnds(const SceneTimeline& timeline, std::vector<SceneFinding>& 
     constexpr double margin = 1e-6; // s
     for (const TimedPlay& timed : timeline.plays)
         if (std::isfinite(timed.wanted) && timed.end > timed.start && timed.wanted > timed.end + margin)
-            found.push_back(
-                {indexed("plays", timed.play),
-                 fmt::format("is cut by the end of the scene {:.3f} s before its own", timed.wanted - timed.end)});
+            found.push_back({indexed("plays", timed.play),
+                             fmt::format("is cut off by the end of the scene, {:.3f} s before its own end",
+                                         timed.wanted - timed.end)});
 }
 
 inline void checkChanges(const Scene& scene, const SceneTimeline& timeline, std::vector<SceneFinding>& found)
@@ -81,7 +81,7 @@ inline void checkChanges(const Scene& scene, const SceneTimeline& timeline, std:
             found.push_back({indexed("changes", i),
                              fmt::format("comes after plays[{}], which ends at {:.3f} s", change.play, timed.end)});
         else if (change.parameter == SceneParameter::pan && scene.actuators == 1)
-            found.push_back({indexed("changes", i), "is a pan, but the scene has one actuator"});
+            found.push_back({indexed("changes", i), "is a pan, but the scene has only one actuator"});
         else if (const auto role = roleOf(change.parameter);
                  role && !hasRole(scene.clips[scene.plays[change.play].clip], *role))
             found.push_back({indexed("changes", i), fmt::format("is of {}, but the clip has none", nameOf(*role))});
@@ -93,7 +93,7 @@ inline void checkRoles(const Scene& scene, std::vector<SceneFinding>& found)
     for (std::size_t i = 0; i < scene.plays.size(); ++i)
         for (const Role role : allRoles)
             if (roleLevel(scene.plays[i], role) != 0.0 && !hasRole(scene.clips[scene.plays[i].clip], role))
-                found.push_back({indexed("plays", i) + "." + nameOf(role), "does nothing: the clip has none"});
+                found.push_back({indexed("plays", i) + "." + nameOf(role), "has no effect: the clip has none"});
 }
 
 inline void checkPans(const Scene& scene, std::vector<SceneFinding>& found)
@@ -102,7 +102,7 @@ inline void checkPans(const Scene& scene, std::vector<SceneFinding>& found)
         return;
     for (std::size_t i = 0; i < scene.plays.size(); ++i)
         if (scene.plays[i].pan != ScenePlay{}.pan)
-            found.push_back({indexed("plays", i) + ".pan", "does nothing: the scene has one actuator"});
+            found.push_back({indexed("plays", i) + ".pan", "has no effect: the scene has only one actuator"});
 }
 } // namespace detail
 
@@ -113,7 +113,7 @@ inline void checkPans(const Scene& scene, std::vector<SceneFinding>& found)
 {
     std::vector<SceneFinding> found;
     if (scene.plays.empty())
-        found.push_back({"plays", "is empty, so nothing sounds"});
+        found.push_back({"plays", "is empty and plays nothing"});
     const SceneTimeline timeline = timelineOf(scene);
     detail::checkClips(scene, found);
     detail::checkPlan(scene, found);

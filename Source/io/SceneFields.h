@@ -45,7 +45,7 @@ struct DraftChange : SceneChange
     Reference play; ///< instead of the index of a SceneChange
 };
 
-/// The scene as it stands in the text; those of Scene are empty.
+/// The scene in the form of its text; the fields of Scene are empty.
 struct Draft : Scene
 {
     std::vector<DraftClip> clips;
@@ -131,7 +131,7 @@ inline constexpr auto clipEntry = [](auto& clip, auto& visitor)
             [&]() -> Result<void>
             {
                 if (clip.file.empty() == !clip.embedded)
-                    return Error{ErrorCode::invalidData, "", "needs either a \"file\" or a \"clip\""};
+                    return Error{ErrorCode::invalidData, "", "needs either \"file\" or \"clip\""};
                 return {};
             });
     }

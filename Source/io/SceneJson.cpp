@@ -34,7 +34,7 @@ std::string onOneLine(std::string name)
     return name;
 }
 
-/// Names and what they stand for.
+/// Names and their indices.
 class Names
 {
 public:
@@ -101,16 +101,16 @@ public:
             if (const auto index = indexOf(*number, listed.size()))
                 return listed[*index];
             return Error{ErrorCode::invalidData, where,
-                         fmt::format("is {}; the scene lists {} clips, counted from 0", *number, listed.size())};
+                         fmt::format("is {}, but the scene has {} clips, counted from 0", *number, listed.size())};
         }
         const auto& name = std::get<std::string>(reference);
         for (const Names* names : {&files, &fileNames, &clipNames})
             if (const auto index = names->find(name))
             {
                 if (*index == Names::several)
-                    return Error{ErrorCode::invalidData, where,
-                                 fmt::format("is \"{}\", which several clips are called; give the index of one",
-                                             shownText(name))};
+                    return Error{
+                        ErrorCode::invalidData, where,
+                        fmt::format("is \"{}\", the name of several clips; give the index of one", shownText(name))};
                 return *index;
             }
         return fileIndex(name, where, "is not one of the scene's clips, and as a file it ");
@@ -121,7 +121,7 @@ private:
     {
         points += breakpointCount(newcomer) + newcomer.transients.size();
         if (points > limits::points)
-            return Error{ErrorCode::tooLarge, where, "brings the scene beyond 50000000 points in all its clips"};
+            return Error{ErrorCode::tooLarge, where, "brings the scene beyond 50000000 points in all clips together"};
         clipNames.add(newcomer.name, scene.clips.size());
         scene.clips.push_back(std::move(newcomer));
         return {};
@@ -186,7 +186,8 @@ Result<Scene> resolve(sceneFields::Draft draft, const ClipLoader& load)
         {
             index = indexOf(*number, scene.plays.size());
             if (!index)
-                return wrong(fmt::format("is {}; the scene has {} plays, counted from 0", *number, scene.plays.size()));
+                return wrong(
+                    fmt::format("is {}, but the scene has {} plays, counted from 0", *number, scene.plays.size()));
         }
         else
         {

@@ -20,8 +20,9 @@ Result<Method> chosenMethod(std::string_view name)
     std::vector<std::string> names;
     for (const MethodInfo& info : methodTable)
         names.emplace_back(info.name);
-    return Error{ErrorCode::invalidArgument, "method",
-                 fmt::format("'{}' is none of {}{}", shownText(name), fmt::join(names, ", "), meantText(name, names))};
+    return Error{
+        ErrorCode::invalidArgument, "method",
+        fmt::format("'{}' is not one of {}{}", shownText(name), fmt::join(names, ", "), meantText(name, names))};
 }
 
 Result<TranslationParams> translationOf(const Settings& settings)

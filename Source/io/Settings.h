@@ -1,6 +1,6 @@
 #pragma once
 
-// Settings: what users set of encoding and exports, in files (pacini.settings) and from programs.
+// Settings of encoding and exports, from files (pacini.settings) and from programs.
 
 #include "io/GivenParameters.h"
 #include "io/ReadWarnings.h"
@@ -20,7 +20,7 @@ namespace pacini
 
 inline constexpr DocumentFormat settingsFormat{.name = "pacini.settings", .version = 1, .noun = "settings"};
 
-/// What users set, part by part. What is not given keeps its default.
+/// Settings by part. Unset values keep their defaults.
 struct Settings
 {
     std::string method; ///< of encoding; empty: a2vt

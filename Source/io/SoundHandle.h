@@ -10,8 +10,8 @@
 namespace pacini
 {
 
-/// While it lives, its thread is inside libsndfile, whose MP3 part prints on stderr whatever it finds; who owns stderr
-/// can ask, and leave that out.
+/// While it lives, its thread is inside libsndfile, whose MP3 part prints on stderr; the owner of stderr can query this
+/// and drop the output.
 class SoundLibraryCall
 {
 public:

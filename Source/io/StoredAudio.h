@@ -17,9 +17,9 @@
 namespace pacini
 {
 
-/// A sound that stays in memory while it is looked at and played: ten minutes of stereo with 16 bits at 48 kHz
-/// take 115 MB, half of what floats do. Each piece of it is held with 0, 16, 24 or 32 bits, the fewest that give back
-/// every sample bit by bit. Copies share their samples. Reading never waits or allocates. [any]
+/// A sound in memory for display and playback: ten minutes of stereo with 16 bits at 48 kHz take 115 MB, half of what
+/// floats do. Each piece of it is held with 0, 16, 24 or 32 bits, the fewest that give back every sample bit by bit.
+/// Copies share their samples. Reading never waits or allocates. [any]
 class StoredAudio
 {
 public:

@@ -44,7 +44,7 @@ Result<SweepFile> readSweepJson(std::string_view text)
     if (!document)
         return document.error();
     if (!document->is_object())
-        return Error{ErrorCode::invalidData, "", "is not the description of a sweep, which is a JSON object"};
+        return Error{ErrorCode::invalidData, "", "is not the description of a sweep, as it is not a JSON object"};
     FieldsReader reader(*document);
     reader.format(sweepFormatName, sweepFormatVersion);
     SweepFile file;

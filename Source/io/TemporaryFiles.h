@@ -11,7 +11,7 @@
 namespace pacini
 {
 
-/// Keeps one temporary on the list of what removeTemporariesOnSignals() removes, as long as it lives.
+/// Registers a temporary file for removeTemporariesOnSignals() during its lifetime.
 class TemporaryEntry
 {
 public:

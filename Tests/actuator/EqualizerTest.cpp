@@ -63,7 +63,7 @@ TEST_CASE("All sections of an equaliser together are at most 32 of second order"
     const EqualizerSection alsoFour{EqualizerType::highpass, 20.0, 0.0, 1.0, 7};
     const EqualizerSection one{EqualizerType::highpass, 20.0, 0.0, 1.0, 1};
     const EqualizerSection peak{EqualizerType::peak, 20.0, 0.0, 1.0, 8};
-    const std::string message = "is too much: high-passes count half their order, all together must stay within 32";
+    const std::string message = "is too high: high-passes count with half their order, at most 32 together";
     CHECK(wrongSections({four, four, four, four, four, four, four, four}).empty());
     CHECK(wrongSections({four, four, four, four, four, four, four, alsoFour, one}) == "eq[8]: " + message);
     CHECK(wrongSections({four, four, four, four, four, four, four, peak, peak, peak, peak}).empty());

@@ -276,19 +276,18 @@ TEST_CASE("Limits of a profile need what they are reckoned from, and the first e
         change(profile);
         return wrongWith(profile);
     };
-    const std::string power = "drive.maxPower: needs drive.impedance and drive.maxVoltageRms beside it";
+    const std::string power = "drive.maxPower: also needs drive.impedance and drive.maxVoltageRms";
     CHECK(without([](Profile& p) { p.drive.impedance.reset(); }) == power);
     CHECK(without([](Profile& p) { p.drive.maxVoltageRms.reset(); }) == power);
     CHECK(without([](Profile& p) { p.drive.maxVoltageRms.reset(), p.drive.maxPower.reset(); }).empty());
-    CHECK(without([](Profile& p) { p.drive.excursion.reset(); }) ==
-          "drive.maxExcursion: needs drive.excursion beside it");
+    CHECK(without([](Profile& p) { p.drive.excursion.reset(); }) == "drive.maxExcursion: also needs drive.excursion");
     CHECK(without([](Profile& p) { p.drive.maxExcursion.reset(); }).empty());
     CHECK(without([](Profile& p) { p.drive.thermalTime.reset(); }).empty());
     CHECK(without([](Profile& p) { p.body.reset(); }).empty());
     CHECK(without([](Profile& p) { p.measurement.reset(); }).empty());
     CHECK(without([](Profile& p) { p.equalizer[0].gain = 41.0; }) == "equalizer[0].gain: must be -40 to 40 dB");
     CHECK(without([](Profile& p) { p.measurement->placements = 0; }) == "measurement.fittings: must be 1 to 1000000");
-    CHECK(without([](Profile& p) { p.sources = {{"drive", ""}}; }) == "sources.drive: must say something");
+    CHECK(without([](Profile& p) { p.sources = {{"drive", ""}}; }) == "sources.drive: must not be empty");
     // Of several the first in this order.
     const auto several = [&](int from)
     {
@@ -323,10 +322,10 @@ TEST_CASE("Sources of a profile are sorted, few enough and say something", "[act
     CHECK(text({}).empty());
     CHECK(text({{"a", "x"}, {"b", "y"}, {"b.c", "z"}}).empty());
     CHECK(text({{"", "x"}}) == "sources: has an entry without a path");
-    CHECK(text({{"a", "x"}, {"b", ""}}) == "sources.b: must say something");
-    CHECK(text({{"b", "x"}, {"a", "y"}}) == "sources.a: is not in order, or is there twice");
-    CHECK(text({{"a", "x"}, {"a", "y"}}) == "sources.a: is not in order, or is there twice");
-    CHECK(text({{"a", "x"}, {"c", "y"}, {"b", "y"}}) == "sources.b: is not in order, or is there twice");
+    CHECK(text({{"a", "x"}, {"b", ""}}) == "sources.b: must not be empty");
+    CHECK(text({{"b", "x"}, {"a", "y"}}) == "sources.a: is not in order, or is given twice");
+    CHECK(text({{"a", "x"}, {"a", "y"}}) == "sources.a: is not in order, or is given twice");
+    CHECK(text({{"a", "x"}, {"c", "y"}, {"b", "y"}}) == "sources.b: is not in order, or is given twice");
     ProfileSources many;
     for (int i = 0; i < 256; ++i)
         many.push_back({"p" + std::to_string(1000 + i), "x"});

@@ -94,7 +94,7 @@ class AnyInput(CommandTest):
         for says in ("hum", "knock", "Level at each actuator", "Gain of the plays that change it", "peak 0."):
             self.assertIn(says, text)
         self.succeeds("plot", "hall.json", "-o", "hall.png", "--from", "0.5", "--to", "1.5")
-        self.fails(2, ["plot", "hall.json", "--sound", "x.wav"], "--sound and --profile are for clips")
+        self.fails(2, ["plot", "hall.json", "--sound", "x.wav"], "leave out --sound and --profile")
         self.fails(1, ["plot", "hall.json", "--from", "5"], "--from")
         self.scene(name="many.json", plays=[{"clip": "door.json", "start": 0.01 * i} for i in range(300)])
         self.succeeds("plot", "many.json", "-o", "many.svg")
@@ -116,8 +116,8 @@ class AnyInput(CommandTest):
             "plays[3]": "is cut by the end of the scene 0.300 s before its own",
             "changes[0]": "comes after plays[0], which ends at 0.500 s",
             "changes[1]": "comes after the end of the scene",
-            "plays[4].pan": "does nothing: the scene has one actuator",
-            "plays[4].noise": "does nothing: the clip has none"})
+            "plays[4].pan": "has no effect: the scene has only one actuator",
+            "plays[4].noise": "has no effect: the clip has none"})
         self.assertTrue(report["ok"])
         self.assertIn("hall.json: clips[1]: is never played", self.succeeds("lint", "hall.json"))
         self.fails(1, ["lint", "hall.json", "--fail-on", "scene"], "8 losses are more than is allowed")
@@ -128,14 +128,14 @@ class AnyInput(CommandTest):
 
     def test_keys_that_are_not_known_are_warned_of_in_every_command(self):
         self.clip("typo.json", tranients=[])
-        clip = ['typo.json: warning: tranients: is not known; did you mean "transients"?']
+        clip = ['typo.json: warning: tranients: is unknown; did you mean "transients"?']
         self.scene(plays=[{"clip": "typo.json", "speed": 2}])
-        scene = ['hall.json: warning: plays[0].speed: is not known; did you mean "stretch"?',
-                 'hall.json: warning: typo.json: tranients: is not known; did you mean "transients"?']
+        scene = ['hall.json: warning: plays[0].speed: is unknown; did you mean "stretch"?',
+                 'hall.json: warning: typo.json: tranients: is unknown; did you mean "transients"?']
         profile = json.loads((SOURCE / "profiles/lra-175.json").read_text())
         profile["resonance"]["quality"] = 3
         self.put("mine.json", json.dumps(profile))
-        own = ['mine.json: warning: resonance.quality: is not known; did you mean "q"?']
+        own = ['mine.json: warning: resonance.quality: is unknown; did you mean "q"?']
         for arguments, expected in (
                 (["info", "typo.json"], clip), (["info", "hall.json"], scene), (["info", "mine.json"], own),
                 (["render", "typo.json", "-o", "o.wav"], clip), (["render", "hall.json", "-o", "o.wav"], scene),
@@ -150,7 +150,7 @@ class AnyInput(CommandTest):
                     self.assertIn(line, self.warned(*arguments))
                 (self.folder / "o.pacb").unlink(missing_ok=True)
                 where = expected[0].split(": ")[2]
-                done = self.fails(1, [*arguments, "--strict"], f"{where}: is not known; did you mean")
+                done = self.fails(1, [*arguments, "--strict"], f"{where}: is unknown; did you mean")
                 self.assertNotIn("warning", done.stderr.decode())
 
     def test_a_text_with_very_many_of_them_gives_twenty_lines_and_a_count(self):

@@ -210,17 +210,17 @@ class Batch(CommandTest):
     def test_wrong_usage_is_said(self):
         self.sounds(1)
         for shard in ("0/2", "3/2", "1", "a/b", "1/0"):
-            self.fails(2, ["encode", "in", "--shard", shard], f"'{shard}' is no part of a whole")
+            self.fails(2, ["encode", "in", "--shard", shard], f"'{shard}' is not a shard")
         self.fails(2, ["encode", "in", "--retry"], "--manifest")
         self.put("notes.json", "{}")
-        self.fails(1, ["encode", "in", "--manifest", "notes.json"], "notes.json: exists and is no manifest")
+        self.fails(1, ["encode", "in", "--manifest", "notes.json"], "notes.json: exists and is not a manifest")
         self.assertEqual((self.folder / "notes.json").read_text(), "{}")
-        self.fails(1, ["manifest", "check", "notes.json"], "notes.json: is no manifest")
+        self.fails(1, ["manifest", "check", "notes.json"], "notes.json: is not a manifest")
         self.fails(1, ["manifest", "retry", "missing.json"], "missing.json: does not exist")
         self.succeeds("encode", "in", "-o", "out", "--manifest", "run.manifest.json")
         self.fails(1, ["render", "out", "--manifest", "run.manifest.json"], "is a manifest of pacini encode")
         self.fails(1, ["manifest", "merge", "run.manifest.json", "-o", "notes.json"], "notes.json",
-                   "exists and is no manifest")
+                   "exists and is not a manifest")
         self.succeeds("convert", "out", "packed", "--format", "packed")
         self.fails(1, ["manifest", "merge", "run.manifest.json", "packed/pacini.manifest.json", "-o", "m.json"],
                    "is of pacini convert")
@@ -233,7 +233,7 @@ class Batch(CommandTest):
         manifest = json.loads(text)
         manifest["arguments"] += ["--ray=ray://elsewhere:10001"]
         self.put("sent.manifest.json", json.dumps(manifest))
-        self.fails(2, ["manifest", "retry", "sent.manifest.json"], "does not go with --ray")
+        self.fails(2, ["manifest", "retry", "sent.manifest.json"], "cannot be combined with --ray")
 
 
 if __name__ == "__main__":

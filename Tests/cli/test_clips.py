@@ -81,7 +81,7 @@ class Convert(CommandTest):
         before = (self.folder / "clip.json").read_bytes()
         os.symlink("clip.json", self.folder / "link.json")
         for output in ("clip.json", "./clip.json", "link.json"):
-            self.fails(1, ["convert", "clip.json", output], "is input and output")
+            self.fails(1, ["convert", "clip.json", output], "is both input and output")
         self.assertEqual((self.folder / "clip.json").read_bytes(), before)
 
 
@@ -219,7 +219,7 @@ class BrokenProfiles(CommandTest):
         self.refused(text.replace('"frequency": ', '"frequency": 1e999, "x": ', 1), "beyond the range")
         self.refused("", "is empty")
         self.refused(b"\xff\xfe{", "UTF-16")
-        self.refused("[" * 100000, "line 1, column 33", "32 objects or lists")
+        self.refused("[" * 100000, "line 1, column 33", "32 levels of objects and lists")
         self.refused("[]", "object")
         self.refused(" " * (2 << 20), "larger")
 

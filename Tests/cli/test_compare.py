@@ -64,7 +64,7 @@ class Match(CommandTest):
         itself, late, cut = (
             json.loads(self.warns("compare", "hits.wav", f"{name}.wav", "--json", says=says) if says
                        else self.succeeds("compare", "hits.wav", f"{name}.wav", "--json"))["files"][0]
-            for name, says in (("hits", ""), ("late", "is that without the lag"), ("cut", "its match is lower for that"))
+            for name, says in (("hits", ""), ("late", "computed without the lag"), ("cut", "lowers the match"))
         )
         self.assertEqual(itself["matchLag"], 0)
         self.assertAlmostEqual(late["matchLag"], 50, delta=6)
@@ -76,7 +76,7 @@ class Match(CommandTest):
     def test_what_is_silent_has_none(self):
         self.put("click.wav", wav(clicks(2000), 8000))
         self.put("silence.wav", wav([0.0] * 16000, 8000))
-        says = "only match and HTS say something"
+        says = "only match and HTS are meaningful"
         report = json.loads(self.warns("compare", "silence.wav", "click.wav", "--json", says=says))["files"][0]
         self.assertIsNone(report["match"])
         self.assertIsNone(report["matchParts"])

@@ -27,7 +27,7 @@ class Devices(CommandTest):
         controllers = json.loads(done.stdout)["controllers"]
         lines = self.succeeds("devices").splitlines()
         if not controllers:
-            self.assertEqual(lines, ["No known game controller is connected"])
+            self.assertEqual(lines, ["No supported game controller is connected"])
         self.assertEqual([entry["number"] for entry in controllers], list(range(1, len(controllers) + 1)))
         for entry in controllers:
             self.assertEqual(set(entry), {"number", "name", "haptics", "transport", "path"})

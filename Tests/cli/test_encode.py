@@ -90,7 +90,7 @@ class Encode(CommandTest):
         os.utime(source, (later, later))
         self.assertFalse(fresh("--bands", "3"))
         self.put("a.json", b"{ damaged")
-        self.fails(1, ["encode", "a.wav"], "a.wav: a.json: exists and is no clip", "-y replaces it")
+        self.fails(1, ["encode", "a.wav"], "a.wav: a.json: exists and is not a clip", "-y replaces it")
         self.assertFalse(fresh("-y"))
 
     def test_a_bad_file_does_not_stop_the_others_and_every_failure_is_listed(self):
@@ -135,7 +135,7 @@ class Encode(CommandTest):
         self.put("a.wav", content)
         os.symlink("a.wav", self.folder / "link.wav")
         for output in ("a.wav", "./a.wav", "link.wav"):
-            self.fails(2, ["encode", "a.wav", "-o", output], "named like a sound")
+            self.fails(2, ["encode", "a.wav", "-o", output], "has the extension of a sound")
             self.fails(1, ["encode", "a.wav", "-o", output, "--format", "json"], "would be overwritten", "-o")
         self.assertEqual((self.folder / "a.wav").read_bytes(), content)
 
@@ -183,10 +183,10 @@ class CommandLine(CommandTest):
 
     def test_wrong_usage_is_one_line_that_says_where_to_read_on(self):
         self.fails(2, [], "a command is missing", "encode, render, info, convert", "pacini --help")
-        self.fails(2, ["frobnicate"], "'frobnicate' is no command", "encode, render, info, convert")
+        self.fails(2, ["frobnicate"], "unknown command 'frobnicate'", "encode, render, info, convert")
         self.fails(2, ["--frobnicate"], "pacini --help")
         for command in ("encode", "render", "info", "convert"):
-            self.fails(2, [command], command + ": a file to work on is missing", f"pacini {command} --help")
+            self.fails(2, [command], command + ": the input file is missing", f"pacini {command} --help")
         for command in ("encode", "render", "info", "convert"):
             self.fails(2, [command, "x", "y", "--frobnicate"], "--frobnicate", f"pacini {command} --help")
 

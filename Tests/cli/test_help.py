@@ -53,7 +53,7 @@ class Help(CommandTest):
         text = " ".join(self.succeeds("help", "encode").split())
         self.assertIn("Other formats: --points X Most points of amplitude", text)
         self.assertIn("--bands N Number of frequency bands (1 to 32) [12]", text)
-        self.assertIn("How bands are spaced: log or linear [log]", text)
+        self.assertIn("Spacing of the bands: log or linear [log]", text)
         self.assertIn("--low X Lower end of the bands (1 to 1700 Hz) [30]", text)
         text = " ".join(self.succeeds("help", "plot").split())
         self.assertIn("--from S Start of the part to show, s (0 to 86400 = 24 h) [0]", text)
@@ -67,8 +67,8 @@ class Help(CommandTest):
         self.assertLess(done.stdout.decode().count("\n"), 30)
 
     def test_help_of_what_is_no_command_says_so(self):
-        self.fails(2, ["help", "encdoe"], "'encdoe' is no command; did you mean encode?")
-        self.fails(2, ["help", "measure", "fti"], "'fti' is no step; did you mean fit?")
+        self.fails(2, ["help", "encdoe"], "unknown command 'encdoe'; did you mean encode?")
+        self.fails(2, ["help", "measure", "fti"], "unknown step 'fti'; did you mean fit?")
         self.fails(2, ["help", "encode", "fit"], "'encode' has no steps")
         self.fails(2, ["help", "xyzzy"], "there are encode, render")
 
@@ -78,14 +78,14 @@ class Meant(CommandTest):
         self.put("a.wav", wav(sine(100, 0.1)))
         self.clip()
         for arguments, says in (
-                (["encdoe", "a.wav"], "'encdoe' is no command; did you mean encode?"),
+                (["encdoe", "a.wav"], "unknown command 'encdoe'; did you mean encode?"),
                 (["Encode", "a.wav"], "did you mean encode?"),
-                (["measure", "anaylse"], "'anaylse' is no step; did you mean analyse?"),
-                (["encode", "a.wav", "--brekpoints", "3"], "--brekpoints is no option of 'encode'; did you mean "
+                (["measure", "anaylse"], "unknown step 'anaylse'; did you mean analyse?"),
+                (["encode", "a.wav", "--brekpoints", "3"], "unknown option --brekpoints of 'encode'; did you mean "
                                                            "--breakpoints?"),
-                (["encode", "a.wav", "--band=3"], "--band is no option of 'encode'; did you mean --bands?"),
+                (["encode", "a.wav", "--band=3"], "unknown option --band of 'encode'; did you mean --bands?"),
                 (["render", "--profle", "erm-coin"], "did you mean --profile?"),
-                (["--qiuet", "info", "clip.json"], "--qiuet is no option here; did you mean --quiet?"),
+                (["--qiuet", "info", "clip.json"], "unknown option --qiuet; did you mean --quiet?"),
                 (["measure", "fit", "--secions", "3"], "did you mean --sections?"),
                 (["encode", "a.wav", "--method", "tehsis"], ["--method: 'tehsis' is none of a2vt", "mean thesis?"]),
                 (["encode", "a.wav", "--format", "jsn"], "did you mean json?"),
@@ -99,8 +99,8 @@ class Meant(CommandTest):
         self.fails(1, ["measure", "simulate", "a.wav", "-o", "b.wav", "--profile", "l5wristband"], "did you mean")
 
     def test_what_is_far_from_everything_gets_the_whole_list(self):
-        self.fails(2, ["xyzzy"], "'xyzzy' is no command; there are encode, render, info,", "try 'pacini --help'")
-        self.fails(2, ["encode", "--xyzzy"], "--xyzzy is no option of 'encode'; try 'pacini encode --help'")
+        self.fails(2, ["xyzzy"], "unknown command 'xyzzy'; there are encode, render, info,", "try 'pacini --help'")
+        self.fails(2, ["encode", "--xyzzy"], "unknown option --xyzzy of 'encode'; try 'pacini encode --help'")
         self.clip()
         self.fails(1, ["render", "clip.json", "--profile", "xyzzy"], "there are dualsense-voice-coil, erm-coin")
 

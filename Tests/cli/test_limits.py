@@ -45,7 +45,7 @@ class Limits(CommandTest):
                   "--explain", *options]
         flat = options == ("--strength", "0")  # then a tone on the resonance is too weak for the limits
         held_back = not flat and "--no-protection" not in options
-        text = self.warns(*render, says="of --gain are taken away again") if held_back else self.succeeds(*render)
+        text = self.warns(*render, says="the limiter takes back up to") if held_back else self.succeeds(*render)
         return text, strain(read_float_wav(self.folder / "out.wav")[1])
 
     def test_an_overdriven_actuator_keeps_its_limits_and_the_plan_says_so(self):
@@ -61,7 +61,7 @@ class Limits(CommandTest):
         text, (travel, heat) = self.rendered("--no-adapt", "--no-protection")
         self.assertGreater(travel, 2)
         self.assertGreater(heat, 4)
-        self.assertIn("protection: is off: no limit of the profile is kept", text)
+        self.assertIn("protection: is off: the limits of the profile are not enforced", text)
 
 
 if __name__ == "__main__":

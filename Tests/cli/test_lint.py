@@ -153,7 +153,7 @@ class Lint(CommandTest):
 
     def test_wrong_usage_and_bad_files_are_said(self):
         self.clip()
-        self.fails(2, ["lint", "clip.json"], "--target is missing")
+        self.fails(2, ["lint", "clip.json"], "needs --target")
         self.fails(2, ["lint", "--target", "haptic"], "missing")
         self.fails(2, ["lint", "clip.json", "--target", "nothing"], "--target")
         self.fails(2, ["lint", "clip.json", "--points", "9"], "--points: is for a format to check", "--target")

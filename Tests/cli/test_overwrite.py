@@ -71,7 +71,7 @@ class Recordings(Overwrite):
     def test_the_recording_of_a_clip_is_kept_although_named(self):
         self.put("a.wav", wav(sine(100, 0.2)))
         self.succeeds("encode", "a.wav")
-        self.keeps("a.wav", ["render", "a.json", "-o", "a.wav"], "is the recording that this clip was made from")
+        self.keeps("a.wav", ["render", "a.json", "-o", "a.wav"], "is the recording of this clip")
         self.keeps("a.wav", ["render", str(self.folder / "a.json"), "-o", "./a.wav"], "is the recording")
         (self.folder / "drives").mkdir()
         for _ in range(2):  # of the same name elsewhere it is only a drive signal
@@ -176,11 +176,11 @@ class EditedClips(Overwrite):
     def test_what_is_no_clip_of_this_sound_is_kept(self):
         for content in ('{"format": "pacini.scene"}', "my notes", "{ half a cl"):
             self.put("a.json", content)
-            self.keeps("a.json", ["encode", "a.wav"], "exists and is no clip")
+            self.keeps("a.json", ["encode", "a.wav"], "exists and is not a clip")
             self.succeeds("encode", "a.wav", "-o", "a.json")
         self.put("a.json", '{"format": "pacini.clip", "version": 1, "duration": 1, "bands": [] "transients": []}')
         for more in ([], ["-o", "a.json"]):  # a comma is missing, which a person forgot
-            self.keeps("a.json", ["encode", "a.wav", *more], "is no clip as pacini encoded it")
+            self.keeps("a.json", ["encode", "a.wav", *more], "is not a clip that pacini encoded")
         os.remove(self.folder / "a.json")
         self.put("b.wav", wav(sine(100, 0.2)))
         self.succeeds("encode", "b.wav", "-o", "a.json")
@@ -193,7 +193,7 @@ class EditedClips(Overwrite):
         for _ in range(2):
             self.succeeds(*encode)
         self.put("out/a.haptic", "{}")
-        self.keeps("out/a.haptic", encode, "holds something else")
+        self.keeps("out/a.haptic", encode, "exists with other content")
         self.succeeds(*encode, "-y")
         for _ in range(2):
             self.succeeds("encode", "a.wav", "-o", "a.haptic")
@@ -201,16 +201,16 @@ class EditedClips(Overwrite):
     def test_no_overwrite_skips_what_exists_and_says_so(self):
         self.put("b.wav", wav(sine(100, 0.2)))
         self.put("a.json", "mine")
-        self.assertRegex(self.succeeds("encode", "a.wav", "b.wav", "-n"), r"(?m)^1 encoded, 1 exists and was left: ")
+        self.assertRegex(self.succeeds("encode", "a.wav", "b.wav", "-n"), r"(?m)^1 encoded, 1 exists and was kept: ")
         self.assertEqual(self.bytes_of("a.json"), b"mine")
         report = self.report("encode", "a.wav", "b.wav", "--no-overwrite")
         self.assertEqual((report["files"], report["failures"]), ([], []))
         self.assertEqual(report["skipped"][0], {"input": "a.wav", "output": "a.json"})
         self.clip("c.json")
         self.put("c.haptic.wav", "mine")
-        self.assertIn("1 exists and was left", self.succeeds("render", "c.json", "-n"))
+        self.assertIn("1 exists and was kept", self.succeeds("render", "c.json", "-n"))
         self.put("c.pacb", "mine")
-        self.assertIn("c.pacb exists and was left", self.succeeds("convert", "c.json", "c.pacb", "-n"))
+        self.assertIn("c.pacb exists and was kept", self.succeeds("convert", "c.json", "c.pacb", "-n"))
         self.assertEqual((self.bytes_of("c.haptic.wav"), self.bytes_of("c.pacb")), (b"mine", b"mine"))
         for command in (["encode", "a.wav"], ["render", "c.json"], ["convert", "c.json", "c.pacb"]):
             self.fails(2, [*command, "-n", "-y"], "overwrite")
@@ -222,11 +222,11 @@ class Converted(Overwrite):
         self.clip("b.json", seconds=2)
         for name in "ab":
             self.succeeds("convert", f"{name}.json", f"{name}.pacb")
-        self.keeps("b.pacb", ["convert", "a.pacb", "b.pacb"], "b.pacb: exists and holds something else")
-        self.keeps("b.json", ["convert", "a.pacb", "b.json"], "b.json: exists and holds something else")
+        self.keeps("b.pacb", ["convert", "a.pacb", "b.pacb"], "b.pacb: exists with other content")
+        self.keeps("b.json", ["convert", "a.pacb", "b.json"], "b.json: exists with other content")
         self.clip("c.json")
         before = self.bytes_of("c.json")
-        self.fails(2, ["convert", "a.json", "b.json", "c.json"], "c.json: is no folder", "more than one input")
+        self.fails(2, ["convert", "a.json", "b.json", "c.json"], "c.json: is not a folder", "several inputs")
         self.assertEqual(self.bytes_of("c.json"), before)
         self.succeeds("convert", "a.pacb", "a.json", "-y")
         self.succeeds("convert", "a.json", "a.pacb")  # the same as before
@@ -246,7 +246,7 @@ class Converted(Overwrite):
         self.succeeds(*convert)
         self.put("out/b.haptic", "edited")
         self.clip("in/a.json", seconds=2)
-        self.keeps("out/b.haptic", convert, "b.json: out/b.haptic: exists and holds something else")
+        self.keeps("out/b.haptic", convert, "b.json: out/b.haptic: exists with other content")
         self.assertTrue(self.report(*convert, "-n")["skipped"])
         self.keeps("out/b.haptic", convert)
         self.succeeds(*convert, "-y")
@@ -255,7 +255,7 @@ class Converted(Overwrite):
         self.clip("in/a.json")
         for content in ("[1, 2]", "notes\n", '{"format": "pacini.profile"}'):
             self.put("out/pacini.manifest.json", content)
-            self.fails(1, ["convert", "in", "out", "--format", "haptic"], "no record of conversions")
+            self.fails(1, ["convert", "in", "out", "--format", "haptic"], "not a manifest of conversions")
             self.assertEqual(self.bytes_of("out/pacini.manifest.json"), content.encode())
 
 
@@ -263,7 +263,7 @@ class Measured(Overwrite):
     def test_a_sweep_is_described_beside_it_but_not_over_other_things(self):
         sweep = ["measure", "sweep", "--duration", "1"]
         self.clip("door.json")
-        self.keeps("door.json", [*sweep, "-o", "door.wav"], "door.json: exists and does not describe a sweep")
+        self.keeps("door.json", [*sweep, "-o", "door.wav"], "door.json: exists and is not the description of a sweep; name another output")
         self.assertEqual(self.names(), ["door.json"])
         self.put("sweep.wav", wav(sine(100, 0.2)))
         self.keeps("sweep.wav", sweep, "sweep.wav: exists")  # the usual name is none that was given
@@ -291,8 +291,8 @@ class Measured(Overwrite):
     def test_a_picture_beside_its_clip_is_not_drawn_over_another(self):
         self.clip("a.json")
         self.put("a.png", "a photograph")
-        self.keeps("a.png", ["plot", "a.json"], "exists and holds something else")
-        self.assertIn("a.png exists and was left", self.succeeds("plot", "a.json", "-n"))
+        self.keeps("a.png", ["plot", "a.json"], "exists with other content")
+        self.assertIn("a.png exists and was kept", self.succeeds("plot", "a.json", "-n"))
         os.remove(self.folder / "a.png")
         for arguments in ([], [], ["-o", "a.png", "--dark"], ["-y"]):
             self.succeeds("plot", "a.json", *arguments)
@@ -311,18 +311,18 @@ class Names(Overwrite):
         self.put("x.wav", wav(sine(100, 0.2)))
         self.put("y.wav", wav(sine(150, 0.2)))
         for name in ("y.foo", "y", "y.txt"):
-            self.fails(2, ["encode", "x.wav", "-o", name], "extension of no clip", ".json", ".pacb", "--format")
+            self.fails(2, ["encode", "x.wav", "-o", name], "has an unknown extension", ".json", ".pacb", "--format")
         for name in ("y.mp3", "z.wav", "y.flac"):
-            self.fails(2, ["encode", "x.wav", "-o", name], "named like a sound", ".json", ".pacb")
+            self.fails(2, ["encode", "x.wav", "-o", name], "has the extension of a sound", ".json", ".pacb")
         for name in ("two.json", "two.pacb", "two.haptic"):
-            self.fails(2, ["encode", "x.wav", "y.wav", "-o", name], "named like a file", f"-o {name}/")
-            self.fails(2, ["encode", ".", "-o", name], "named like a file")
+            self.fails(2, ["encode", "x.wav", "y.wav", "-o", name], "looks like a file", f"-o {name}/")
+            self.fails(2, ["encode", ".", "-o", name], "looks like a file")
         self.assertEqual(self.names(), ["x.wav", "y.wav"])
         self.succeeds("encode", "x.wav", "-o", "y.foo", "--format", "packed")
         self.succeeds("encode", "x.wav", "y.wav", "-o", "two.json/")
-        self.fails(2, ["render", "two.json", "-o", "one.wav"], "named like a file")
-        self.fails(2, ["render", "two.json", "-o", "y.foo"], "is no folder")
-        self.fails(2, ["convert", "two.json", "one.haptic"], "named like a file")
+        self.fails(2, ["render", "two.json", "-o", "one.wav"], "looks like a file")
+        self.fails(2, ["render", "two.json", "-o", "y.foo"], "is not a folder")
+        self.fails(2, ["convert", "two.json", "one.haptic"], "looks like a file")
 
 
 if __name__ == "__main__":

@@ -89,9 +89,9 @@ class Pipes(CommandTest):
         self.clip("c.json")
         for arguments in (["encode", "a.wav"], ["render", "c.json"], ["convert", "c.json", "--format", "packed"]):
             self.fails(2, [*arguments, "-o", "-", "--json"], "-: is where --json prints")
-        self.fails(2, ["encode", "-"], "name an output with -o")
-        self.fails(2, ["render", "-"], "name an output with -o")
-        self.fails(2, ["encode", "a.wav", "-", "-o", "-"], "is no folder")
+        self.fails(2, ["encode", "-"], "name a file with -o")
+        self.fails(2, ["render", "-"], "name a file with -o")
+        self.fails(2, ["encode", "a.wav", "-", "-o", "-"], "is not a folder")
         self.fails(2, ["convert", "c.json", "-"], "--format")
 
     def test_named_pipes_and_devices_are_written_to(self):
@@ -133,7 +133,7 @@ class Pipes(CommandTest):
         done = self.run_command("encode", "a.wav", "-o", "-", stdout=write)
         os.close(write)
         self.assertEqual(done.returncode, 1)
-        self.assertIn(b"pipe has gone away", done.stderr)
+        self.assertIn(b"pipe has closed it", done.stderr)
 
     def test_a_long_sound_is_the_same_clip_from_a_pipe(self):
         second = os.urandom(8000)

@@ -47,12 +47,12 @@ class Play(CommandTest):
 
     def test_wrong_usage_is_told(self):
         self.clip()
-        self.fails(2, ["play"], "a file to work on is missing")
+        self.fails(2, ["play"], "the input file is missing")
         self.fails(2, ["play", "clip.json", "--dry-run", "--loop"], "--loop has no end")
-        self.fails(2, ["play", "clip.json", "--like", "switch"], "--like is for --dry-run")
+        self.fails(2, ["play", "clip.json", "--like", "switch"], "--like needs --dry-run")
         self.fails(2, ["play", "clip.json", "--dry-run", "--like", "stone"], "--like")
-        self.fails(2, ["play", "clip.json", "--dry-run", "--like", "xbox", "--device", "1"], "leave out --device or --like")
-        self.fails(2, ["play", "clip.json", "--dry-run", "--like", "xbox", "--wait"], "--wait has no controller")
+        self.fails(2, ["play", "clip.json", "--dry-run", "--like", "xbox", "--device", "1"], "--like and --device exclude each other")
+        self.fails(2, ["play", "clip.json", "--dry-run", "--like", "xbox", "--wait"], "--wait and --dry-run exclude each other")
         self.fails(1, ["play", "clip.json", "--dry-run", "--like", "xbox", "--from", "3"], "clip.json", "nothing between")
         self.fails(1, ["play", "none.json", "--dry-run", "--like", "xbox"], "none.json")
 

@@ -86,7 +86,7 @@ WITHOUT_HARDWARE = {
 }
 
 # Exit codes other than 0, with the words of the comment that say so.
-FAILING = {"pacini lint clips/ --target haptic --max-error 0.1": (1, "exits with 1 when a clip loses more"),
+FAILING = {"pacini lint clips/ --target haptic --max-error 0.1": (1, "exits with 1 if a clip loses more"),
            "pacini manifest merge clips/run.manifest.*-of-8.json -o clips/run.manifest.json":
                (1, "exits with 1 while parts are missing")}
 

@@ -133,7 +133,7 @@ class Render(CommandTest):
         self.clip(envelope=curve, bands=bands)
         text = self.succeeds("render", "clip.json", "--explain")
         self.assertIn("plays[0].bands[1] is silent: nothing lost", text)
-        self.assertRegex(text, r"plays\[0\]\.bands\[2\] is too weak to matter: -\d\d\.\d dB")
+        self.assertRegex(text, r"plays\[0\]\.bands\[2\] is too weak to be perceived: -\d\d\.\d dB")
         self.assertNotIn("left out:", self.succeeds("render", "clip.json", "--explain", "--everything"))
 
     def test_a_bad_clip_does_not_stop_the_others(self):

@@ -113,7 +113,7 @@ class Scenes(CommandTest):
         self.assertEqual([play["play"] for play in plan["plays"]], [0])
         self.assertEqual(plan["plays"][0]["carriers"], 1)
         left = {item["where"]: item for item in plan["leftOut"]}
-        self.assertEqual(left["plays[1]"]["reason"], "is too weak to matter")
+        self.assertEqual(left["plays[1]"]["reason"], "is too weak to be perceived")
         self.assertEqual(left["plays[2]"], {"where": "plays[2]", "reason": "is muted", "error": None})
         self.assertEqual(len(left), plan["leftOutCount"])
         self.assertLess(plan["predictedError"], -60)
@@ -122,7 +122,7 @@ class Scenes(CommandTest):
         text = self.succeeds("render", "a.scene.json", "--measured")
         for part in ("a.scene.json:\n  1 of 33 plays on 1 actuator, at most 1 decoder at a time",
                      'plays[0] "tone": 1.000 s from 0.000 s on; 1 sinusoid at an inner rate of',
-                     "plays[1] is too weak to matter: -8", "plays[2] is muted: nothing lost",
+                     "plays[1] is too weak to be perceived: -8", "plays[2] is muted: nothing lost",
                      "and 10 more of the same kind", "(tolerance -60.0 dB); measured: -8"):
             self.assertIn(part, text)
         everything = self.report("render", "a.scene.json", "--everything")["files"][0]["plan"]
@@ -161,7 +161,7 @@ class Scenes(CommandTest):
                 ({"actuators": 99}, "actuators: is 99; a whole number from 1 to 16 is needed"),
                 ({"version": 2}, "version: was written by a newer version (2)"),
                 ({"duration": 90000}, "duration: is outside"),
-                ({"x": json.loads("[" * 40 + "]" * 40)}, "more than 32 objects or lists")):
+                ({"x": json.loads("[" * 40 + "]" * 40)}, "more than 32 levels of objects and lists")):
             self.scene(**members)
             self.fails(1, ["render", "a.scene.json", "-o", "out.wav"], "pacini: a.scene.json: " if members.get("x") is None
                        else "a.scene.json", says)

@@ -82,7 +82,7 @@ class Settings(CommandTest):
     def test_what_is_wrong_with_a_file_is_told(self):
         self.put("a.wav", wav(sine(100, 0.2)))
         self.settings(encode={"bnads": 3})
-        self.warns("encode", "a.wav", "--settings", "mine.json", says='encode.bnads: is not known; did you mean "bands"?')
+        self.warns("encode", "a.wav", "--settings", "mine.json", says='encode.bnads: is unknown; did you mean "bands"?')
         self.fails(1, ["--strict", "encode", "a.wav", "--settings", "mine.json"], "mine.json: encode.bnads")
         self.settings(encode={"bands": 99})
         self.fails(1, ["encode", "a.wav", "--settings", "mine.json"], "mine.json: encode.bands: must be 1 to 32")

@@ -44,7 +44,7 @@ class Streams(CommandTest):
         for command in ("info clip.json", "render clip.json -o out.wav"):
             done = subprocess.run(["bash", "-c", f'(sleep 0.3; "$0" {command}; echo "$?" >&2) | true', COMMAND],
                                   cwd=self.folder, timeout=60, stdin=subprocess.DEVNULL, stderr=subprocess.PIPE)
-            self.assertEqual(done.stderr, b"pacini: standard output: the reader of the pipe has gone away\n1\n")
+            self.assertEqual(done.stderr, b"pacini: standard output: the reader of the pipe has closed it\n1\n")
         self.assertEqual(self.names(), ["clip.json", "out.wav"])
 
     def test_a_clip_goes_through_a_pipe(self):
@@ -99,7 +99,7 @@ class Disks(CommandTest):
                 done = self.fails(1, ["render", "in", "-o", "small", "--json", "-j", jobs], "the disk is full")
                 report = json.loads(done.stdout)
                 self.assertEqual(len(report["failures"]), 12)
-                self.assertIn("was not tried", report["failures"][-1]["message"])
+                self.assertIn("was skipped", report["failures"][-1]["message"])
                 self.assertEqual(os.listdir(small), [])
         finally:
             subprocess.run(["umount", str(small)], check=True)
@@ -112,7 +112,7 @@ class Disks(CommandTest):
                    "create the folder first")
         self.fails(1, ["encode", "a.wav", "-o", "file/a.json"], "pacini: a.wav: file/a.json: ", "is not a folder")
         self.fails(1, ["encode", "a.wav", "-o", "file/"], "the folder file", "name another with -o")
-        self.fails(2, ["encode", "a.wav", "a.wav", ".", "-o", "file"], "file: is no folder", "name a folder with -o")
+        self.fails(2, ["encode", "a.wav", "a.wav", ".", "-o", "file"], "file: is not a folder", "name a folder with -o")
         self.assertEqual((self.folder / "file").read_text(), "kept")
         self.clip()
         self.fails(1, ["render", "clip.json", "--profile", "dir"], "dir: is neither a file nor a shipped profile")
@@ -123,7 +123,7 @@ class Disks(CommandTest):
         os.mkdir(self.folder / "empty")
         os.symlink("nowhere", self.folder / "dangling.wav")
         os.symlink("loop.wav", self.folder / "loop.wav")
-        for name, says in (("empty", "holds no files that this command reads"), ("dangling.wav", "does not exist"),
+        for name, says in (("empty", "contains no files that this command reads"), ("dangling.wav", "does not exist"),
                            ("loop.wav", "symbolic links"), ("/dev/null", "is a device"),
                            ("x" * 300 + ".wav", "name is too long"),
                            ("", "no file name")):

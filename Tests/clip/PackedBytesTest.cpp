@@ -321,7 +321,7 @@ TEST_CASE("The checksum is CRC-16 CCITT, behind the magic and the version", "[cl
     CHECK(messageOf({bytes.begin(), bytes.begin() + 4}) == "header: ends too early");
     CHECK(messageOf({bytes.begin(), bytes.begin() + 6}) == "header: ends too early");
     CHECK(messageOf({bytes.begin(), bytes.begin() + 7}) ==
-          "checksum: does not match: the file is damaged or cut short");
+          "checksum: does not match: the file is damaged or truncated");
     auto other = bytes;
     other[0] = std::byte{'Q'};
     CHECK(messageOf(other) == "header: is not a packed Pacini clip");
@@ -330,12 +330,12 @@ TEST_CASE("The checksum is CRC-16 CCITT, behind the magic and the version", "[cl
     CHECK(messageOf(other) == "header: was written by a newer version (9) of the format; this program reads version 1");
     other = bytes;
     other[5] ^= std::byte{1};
-    CHECK(messageOf(other) == "checksum: does not match: the file is damaged or cut short");
+    CHECK(messageOf(other) == "checksum: does not match: the file is damaged or truncated");
     other = bytes;
     other[6] ^= std::byte{1};
-    CHECK(messageOf(other) == "checksum: does not match: the file is damaged or cut short");
+    CHECK(messageOf(other) == "checksum: does not match: the file is damaged or truncated");
     CHECK(messageOf(detail::withHeader(std::vector<std::byte>(40, std::byte{0xAB}))) ==
-          "contents: make no sense: the file is damaged");
+          "contents: are invalid: the file is damaged");
 }
 
 TEST_CASE("The grids are those that the clip names, within their limits", "[clip]")
@@ -398,7 +398,7 @@ TEST_CASE("Contents that no clip can have are damage", "[clip]")
         REQUIRE_FALSE(back.ok());
         return back.error().text();
     };
-    const std::string damaged = "contents: make no sense: the file is damaged";
+    const std::string damaged = "contents: are invalid: the file is damaged";
     for (const double duration : {-1.0, 86400.1, std::nan(""), std::numeric_limits<double>::infinity()})
     {
         Clip clip;

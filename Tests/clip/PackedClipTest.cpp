@@ -281,7 +281,7 @@ TEST_CASE("A byte of a packed clip holds 64 points at most, and more than 512 be
         CAPTURE(count);
         const auto tooFew = ofBytes(count);
         REQUIRE_FALSE(tooFew.ok());
-        CHECK(tooFew.error().text() == "contents: make no sense: the file is damaged");
+        CHECK(tooFew.error().text() == "contents: are invalid: the file is damaged");
     }
 }
 

@@ -85,7 +85,7 @@ TEST_CASE("A wrong ACF file fails at its place", "[io]")
     CHECK(errorAfter([](Json& j) { j["continuous"]["frequency_min"] = 300; }) ==
           "continuous.frequency_max: must not be below frequency_min");
     CHECK(errorAfter([](Json& j) { j["metadata"]["device"] = 1; }) == "metadata.device: must be a text in quotes");
-    CHECK(readAcf("[]").error().text() == "is not an ACF file, which is an object in braces");
+    CHECK(readAcf("[]").error().text() == "is not an ACF file, as it is not an object in braces");
     CHECK(readAcf("{a: 1, a: 2}").error().where == "a");
     CHECK(readAcf("{\n continuous: {gain: Infinity}}").error().where == "line 2, column 21");
 }

@@ -79,7 +79,7 @@ TEST_CASE("A file that is to be kept is kept, also one that appears while ours i
     put(folder / "x", "theirs");
     const auto done = file->commit();
     REQUIRE_FALSE(done.ok());
-    CHECK(message(done.error()) == "has appeared meanwhile and was left as it is; choose another name");
+    CHECK(message(done.error()) == "was created meanwhile and was kept; choose another name");
     CHECK(bytesOf(folder / "x") == "theirs");
 
     REQUIRE(writeFileAtomically(folder / "y", std::string_view("ours"), Existing::keep).ok());

@@ -179,9 +179,9 @@ TEST_CASE("Parameters that no file can hold are refused before anything is writt
         CHECK(report.error().code == ErrorCode::invalidArgument);
         return report.error().message;
     };
-    CHECK(refused("x.mp3", {}) == "audio is written as .wav or .flac; choose one of these extensions");
-    CHECK(refused("x", {}) == "audio is written as .wav or .flac; choose one of these extensions");
-    CHECK(refused("x.flac", {}) == "FLAC holds no float samples; choose 16 or 24 bit, or write a .wav");
+    CHECK(refused("x.mp3", {}) == "must have the extension .wav or .flac");
+    CHECK(refused("x", {}) == "must have the extension .wav or .flac");
+    CHECK(refused("x.flac", {}) == "FLAC does not support float samples; choose 16 or 24 bit, or write a .wav");
     CHECK(refused("x.wav", {.channels = 0}) == "0 channels cannot be written, 1 to 64 can");
     CHECK(refused("x.wav", {.channels = 65}) == "65 channels cannot be written, 1 to 64 can");
     CHECK(refused("x.flac", {.channels = 9, .encoding = SampleEncoding::pcm16}) ==

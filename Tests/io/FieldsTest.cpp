@@ -243,7 +243,7 @@ TEST_CASE("A wrong field of a small document is named with what it must be", "[i
     CHECK(readFields({{"name", "x"}, {"numbers", {1, 2, 3, 4}}}).code == ErrorCode::tooLarge);
     CHECK(error("texts", 1) == "texts: must be an object in braces");
     CHECK(error("texts", {{"a", 1}}) == "texts.a: must be a text in quotes");
-    CHECK(error("texts", {{"a", ""}}) == "texts.a: must say something");
+    CHECK(error("texts", {{"a", ""}}) == "texts.a: must not be empty");
     // The first of several wrong fields is the one that is told.
     CHECK(readFields({{"size", "1"}, {"ready", 3}}).error == "name: is missing");
 }
@@ -257,12 +257,11 @@ TEST_CASE("Unknown fields of a small document are doubted at their place, remark
                                      {"$schema", "s"},
                                      {"texts", {{"anything", "goes"}}},
                                      {"point", {{"time", 1}, {"vlaue", 2}}}};
-    CHECK(readFields(document).warnings ==
-          std::vector<std::string>{"point.vlaue: is not known; did you mean \"value\"?",
-                                   "sise: is not known; did you mean \"size\"?"});
-    CHECK(readFields(document, true).error == "point.vlaue: is not known; did you mean \"value\"?");
+    CHECK(readFields(document).warnings == std::vector<std::string>{"point.vlaue: is unknown; did you mean \"value\"?",
+                                                                    "sise: is unknown; did you mean \"size\"?"});
+    CHECK(readFields(document, true).error == "point.vlaue: is unknown; did you mean \"value\"?");
     CHECK(readFields({{"name", "x"}, {"numbers", {2.0}}, {"sise", 3}}, true).error ==
-          "sise: is not known; did you mean \"size\"?");
+          "sise: is unknown; did you mean \"size\"?");
     CHECK(readFields({{"sise", 3}}).warnings.empty()); // an error says enough
     FieldsReader quiet(document);
     quiet.finish();
@@ -352,9 +351,9 @@ TEST_CASE("A streamed document says what is wrong with a field and what is neede
           "points[2]: is beyond the 2 points that it may have");
     CHECK(memberError("\"rows\": [{\"time\": 1}, {\"time\": 1}, {\"time\": 1}, {\"time\": 1}]") ==
           "rows[3]: is beyond the 3 rows that it may have");
-    CHECK(memberError("\"name\": \"a\", \"name\": \"b\"") == "name: is given twice; keep one of the two");
+    CHECK(memberError("\"name\": \"a\", \"name\": \"b\"") == "name: is given twice; remove one of the two");
     CHECK(memberError("\"parameters\": {\"a\": 1, \"b\": 2, \"a\": 3}") ==
-          "parameters.a: is given twice; keep one of the two");
+          "parameters.a: is given twice; remove one of the two");
     CHECK(memberError("\"parameters\": {\"a\": null}") ==
           "parameters.a: is null; a number, a text, true or false is needed");
     CHECK(memberError("\"parameters\": {\"a\": []}") ==

@@ -153,7 +153,7 @@ TEST_CASE("Numbers of an ACF file reach the ends of their ranges and go no furth
     CHECK(acfError("{}") == "continuous: is missing");
     CHECK(acfError("{continuous: 3}") == "continuous: must be an object in braces");
     CHECK(acfError("{metadata: 3}") == "metadata: must be an object in braces");
-    CHECK(acfError(std::string(largestAcfText + 1, ' ')) == "is a longer text than is accepted");
+    CHECK(acfError(std::string(largestAcfText + 1, ' ')) == "is longer than the longest supported text");
     // The defaults of what may be missing.
     const auto least = readAcf("{continuous: {frequency_min: 55, frequency_max: 200}, emphasis: {frequency_min: "
                                "{output_frequency: 55, duration_ms: 36.4, shape: 'sine'}, frequency_max: "
@@ -370,7 +370,7 @@ TEST_CASE("Onsets are taken from lines and lists, and what is none is said", "[i
     CHECK(onsetError("{\"a\": null}") == "a: must be a list of times in seconds, such as [0.12, 0.8]");
     CHECK(onsetError("{\"a\": \"1\"}") == "a: must be a list of times in seconds, such as [0.12, 0.8]");
     CHECK(onsetError("{\"a\": [1, -0.5]}") == "a[1]: is -0.5; times are 0 or more, in seconds");
-    CHECK(onsetError("{\"a\": [1], \"b\": [2], \"a\": [3]}") == "a: is there twice");
+    CHECK(onsetError("{\"a\": [1], \"b\": [2], \"a\": [3]}") == "a: is given twice");
     CHECK(readOnsetText("{\"a\": [3, 1], \"b.wav\": [2]}")->byFile.at("a") == std::vector<double>{1.0, 3.0});
 }
 
@@ -392,7 +392,7 @@ TEST_CASE("A scene says which reference it cannot follow", "[io][scene]")
     CHECK(play("\"no.pacb\"") ==
           "plays[0].clip: no.pacb: is not one of the scene's clips, and as a file it is not there");
     CHECK(sceneError(R"("clips": ["no\u0001.pacb"])") == "clips[0]: no?.pacb: is not there");
-    CHECK(sceneError(R"("clips": [{}])") == "clips[0]: needs either a \"file\" or a \"clip\"");
+    CHECK(sceneError(R"("clips": [{}])") == "clips[0]: needs either \"file\" or \"clip\"");
     CHECK(sceneError(R"("clips": [""])") == "clips[0]: is empty; a file name is needed");
     CHECK(sceneError(R"("clips": [3])") ==
           "clips[0]: is a number; a file name in quotes or an object in braces is needed");
@@ -547,7 +547,7 @@ TEST_CASE("A file being written tells its place and size, and goes where it is t
     CHECK(AtomicFile::create(folder.path() / "none/x").error().text() ==
           "its folder does not exist; create the folder first");
     CHECK(AtomicFile::create(folder / "x", Existing::keep).error().text() ==
-          "has appeared meanwhile and was left as it is; choose another name");
+          "was created meanwhile and was kept; choose another name");
     CHECK(writeFileAtomically(folder / "y", "1234").value() == 4);
     CHECK(writeFileAtomically(folder / "y", "", Existing::replace).value() == 0);
     fs::permissions(folder / "y", fs::perms::owner_read);
@@ -643,12 +643,12 @@ TEST_CASE("Files that are cut off within a frame or of packed codecs are judged 
         };
         CHECK(error(wav(100 * frameBytes, 100 * frameBytes)).empty());
         CHECK(error(wav(100 * frameBytes, 90 * frameBytes)) ==
-              "is cut off: 90 frames are there, 100 were promised; get a whole copy");
+              "is truncated: it has 90 frames of 100; get a complete copy");
         CHECK(error(wav(100 * frameBytes + frameBytes - 1, 100 * frameBytes)).empty()); // no whole frame is missing
     }
-    CHECK(error("") == "is empty; it has no audio");
+    CHECK(error("") == "is empty; choose a file with audio");
     CHECK(error("neither this nor that, but long enough to be looked at") ==
-          "is not audio in a known format; convert it to WAV, AIFF, FLAC, Ogg or CAF");
+          "is not audio in a supported format; convert it to WAV, AIFF, FLAC, Ogg or CAF");
     CHECK(error(wavBytes({.channels = 64}, std::string(128, '\0'))).empty());
     CHECK(error(wavBytes({.channels = 65}, std::string(130, '\0'))) ==
           "has 65 channels, 1 to 64 are accepted; mix it down");
@@ -677,17 +677,17 @@ TEST_CASE("Exports are named after the main file, and companions found by both w
             CHECK(strayCompanion(main, format, exported) == second);
             CHECK(strayWarning(second) ==
                   second.filename().string() +
-                      ": was there before and is no part of this clip, but is read with it; remove it");
+                      ": exists already, is not part of this clip, but would be read with it; remove it");
             exported.files[0].suffix = format.companion;
             CHECK(strayCompanion(main, format, exported).empty());
         }
-    CHECK(readClip(put(folder / "empty.json", "")).error().text() == "is empty; it has no clip");
+    CHECK(readClip(put(folder / "empty.json", "")).error().text() == "is empty; choose a file with a clip");
     CHECK(readClip(put(folder / "no.json", "hello")).error().text() ==
           "is not a clip: neither JSON nor packed; encode audio to get a clip");
     CHECK(readClip(put(folder / "scene.json", R"({"format": "pacini.scene", "version": 1})")).error().text() ==
-          "is a scene, and a clip is needed; 'pacini render' plays scenes");
+          "is a scene, not a clip; 'pacini render' renders scenes");
     CHECK(readProfile(put(folder / "x.acf", "{}")).error().text() ==
-          "is an ACF file; make a profile of it first with 'pacini convert'");
+          "is an ACF file; convert it to a profile with 'pacini convert' first");
     CHECK(isProfile(put(folder / "p.json", R"({"format": "pacini.profile"})")));
     CHECK_FALSE(isProfile(put(folder / "q.json", R"({"format": "pacini.clip"})")));
     CHECK_FALSE(isProfile(put(folder / "q.json", "[]")));
@@ -711,7 +711,7 @@ TEST_CASE("The gain of a sweep is within 200 dB, and its text is as documented",
         file.gain = gain;
         CHECK(readSweepJson(sweepJson(file)).error().text() == "gain: must be -200 to 200 dB");
     }
-    CHECK(readSweepJson("[]").error().text() == "is not the description of a sweep, which is a JSON object");
+    CHECK(readSweepJson("[]").error().text() == "is not the description of a sweep, as it is not a JSON object");
     file = {};
     file.sweep.levels.assign(32, -10.0);
     CHECK(readSweepJson(sweepJson(file)).ok());

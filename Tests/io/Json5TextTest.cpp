@@ -77,30 +77,30 @@ TEST_CASE("Broken JSON5 is refused with line and column", "[io]")
     CHECK(errorOf("{1: 2}") == "line 1, column 2: should be a name");
     CHECK(errorOf("{a: b}") == "line 1, column 5: is neither a value nor a quoted text");
     CHECK(errorOf("truely") == "line 1, column 5: is neither a value nor a quoted text");
-    CHECK(errorOf("{} x") == "line 1, column 4: has something after its end");
+    CHECK(errorOf("{} x") == "line 1, column 4: has text after its end");
     CHECK(errorOf("{ü: /* never") == "line 1, column 5: opens a comment that does not end");
     CHECK(errorOf("'open\n'") == "line 1, column 6: ends a line inside a text");
     CHECK(errorOf("'open") == "line 1, column 6: ends too early");
     CHECK(errorOf("'\\") == "line 1, column 3: ends too early");
-    CHECK(errorOf("'\\1'") == "line 1, column 3: is not an escape; \\x and two digits give a character");
-    CHECK(errorOf("'\\01'") == "line 1, column 3: is not an escape; \\x and two digits give a character");
-    CHECK(errorOf("'\\x4'") == "line 1, column 3: is not an escape of a character");
-    CHECK(errorOf("'\\uD800'") == "line 1, column 3: is not an escape of a character");
-    CHECK(errorOf("'\\uD800\\u0041'") == "line 1, column 3: is not an escape of a character");
-    CHECK(errorOf("'\\uDC00'") == "line 1, column 3: is not an escape of a character");
+    CHECK(errorOf("'\\1'") == "line 1, column 3: is not a valid escape; write \\x and two digits");
+    CHECK(errorOf("'\\01'") == "line 1, column 3: is not a valid escape; write \\x and two digits");
+    CHECK(errorOf("'\\x4'") == "line 1, column 3: is not a valid escape of a character");
+    CHECK(errorOf("'\\uD800'") == "line 1, column 3: is not a valid escape of a character");
+    CHECK(errorOf("'\\uD800\\u0041'") == "line 1, column 3: is not a valid escape of a character");
+    CHECK(errorOf("'\\uDC00'") == "line 1, column 3: is not a valid escape of a character");
     CHECK(errorOf("{a\\x: 1}") == "line 1, column 4: should be a letter of a name");
     CHECK(errorOf("Infinity") == "line 1, column 1: Infinity is no number that can be used");
     CHECK(errorOf("[-NaN]") == "line 1, column 2: NaN is no number that can be used");
     for (const char* number : {"+", ".", "-.", "1e", "1e+", "1.e", "1x", "N", "--1", "+ 1", "1_0"})
         CHECK(errorOf(number) == "line 1, column 1: is not a number");
-    CHECK(errorOf("01") == "line 1, column 1: starts with a zero; decimal numbers have none in front");
+    CHECK(errorOf("01") == "line 1, column 1: starts with a zero; remove it");
     CHECK(errorOf(std::string(500, '1')) == "line 1, column 1: is not a number");
     for (const char* number : {"0x", "0xG", "0x12345678901234567", "0x1.5"})
         CHECK_FALSE(errorOf(number).empty());
     CHECK(errorOf("{a: '\xC3('}") == "line 1, column 6: is not UTF-8");
     CHECK(errorOf("'\xED\xA0\x80'") == "line 1, column 2: is not UTF-8");
     CHECK(errorOf("'\xC0\x80'") == "line 1, column 2: is not UTF-8");
-    CHECK(errorOf(std::string_view("{}\0", 3)) == "line 1, column 3: has something after its end");
+    CHECK(errorOf(std::string_view("{}\0", 3)) == "line 1, column 3: has text after its end");
 }
 
 TEST_CASE("JSON5 that is too deep or too long is refused before it costs much", "[io]")

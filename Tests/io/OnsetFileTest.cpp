@@ -60,7 +60,7 @@ TEST_CASE("What is no list of times is refused at its place", "[io]")
     CHECK(failureText("[[0.1]]") == "[0]: must be a time in seconds");
     CHECK(failureText("[{}]") == "[0]: must be a time in seconds");
     CHECK(failureText("{\"a\": {\"b\": []}}") == "a: must be a list of times in seconds, such as [0.12, 0.8]");
-    CHECK(failureText("{\"a\": [], \"a\": []}") == "a: is there twice");
+    CHECK(failureText("{\"a\": [], \"a\": []}") == "a: is given twice");
     CHECK(failureText("0.1\n\n-2") == "line 3: \"-2\" is not a time in seconds, 0 or more");
     CHECK(failureText("0.1\nnan") == "line 2: \"nan\" is not a time in seconds, 0 or more");
     CHECK(failureText("knock 0.1") == "line 1: \"knock\" is not a time in seconds, 0 or more");

@@ -187,7 +187,7 @@ TEST_CASE("A folder without the right to write is reported", "[io]")
                       return succeeded;
                   const auto closed = writeFileAtomically(folder / "x", std::string_view("x"));
                   return !closed && closed.error().message ==
-                                        "permission denied; check the rights of the file and its folder"
+                                        "permission denied; check the permissions of the file and its folder"
                              ? failedCleanly
                              : wrongError;
               }) == failedCleanly);

@@ -129,13 +129,13 @@ TEST_CASE("A wrong entry of a profile fails at its place and says what is right"
     CHECK(profileErrorAfter([](Json& j) { j["polyphony"] = 65; }) == "polyphony: must be 0 to 64 voices");
     CHECK(profileErrorAfter([](Json& j) { j["drive"]["impedance"] = false; }) == "drive.impedance: must be a number");
     CHECK(profileErrorAfter([](Json& j) { j["drive"]["maxPower"] = 1; }) ==
-          "drive.maxPower: needs drive.impedance and drive.maxVoltageRms beside it");
+          "drive.maxPower: also needs drive.impedance and drive.maxVoltageRms");
     CHECK(profileErrorAfter([](Json& j) { j["body"]["movingMass"] = -1; }) ==
           "body.movingMass: must be 0.0000001 to 10 kg");
     CHECK(profileErrorAfter([](Json& j) { j["body"] = nullptr; }) == "body: must be an object in braces");
     CHECK(profileErrorAfter([](Json& j) { j["sources"]["drive"] = 1; }) == "sources.drive: must be a text in quotes");
-    CHECK(profileErrorAfter([](Json& j) { j["sources"]["drive"] = ""; }) == "sources.drive: must say something");
-    CHECK(profileErrorAfter([](Json& j) { j["sources"]["a\nb"] = ""; }) == "sources.a?b: must say something");
+    CHECK(profileErrorAfter([](Json& j) { j["sources"]["drive"] = ""; }) == "sources.drive: must not be empty");
+    CHECK(profileErrorAfter([](Json& j) { j["sources"]["a\nb"] = ""; }) == "sources.a?b: must not be empty");
     CHECK(profileErrorAfter([](Json& j) { j["sources"][""] = "x"; }) == "sources: has an entry without a path");
     CHECK(profileErrorAfter(
               [](Json& j)

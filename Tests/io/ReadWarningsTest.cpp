@@ -94,7 +94,7 @@ std::set<std::string> keysInSchema(const nlohmann::json& object)
 }
 } // namespace
 
-TEST_CASE("A key that is not known is named with its place and the nearest known one", "[io][keys]")
+TEST_CASE("A key that is unknown is named with its place and the nearest known one", "[io][keys]")
 {
     CHECK(sceneWarnings(R"("plays": [{"clip": "a"}, {"clip": "b", "gian": -3}])") ==
           Strings{R"(plays[1].gian: is not known; did you mean "gain"?)"});
@@ -102,7 +102,7 @@ TEST_CASE("A key that is not known is named with its place and the nearest known
           Strings{R"(plays[0].speed: is not known; did you mean "stretch"?)",
                   R"(plays[0].pitch: is not known; did you mean "transposition"?)",
                   R"(plays[0].Volume: is not known; did you mean "gain"?)"});
-    CHECK(sceneWarnings(R"("colour": "red")") == Strings{"colour: is not known"});
+    CHECK(sceneWarnings(R"("colour": "red")") == Strings{"colour: is unknown"});
     CHECK(sceneWarnings(R"("plays": [{"clip": "a", "name": "x", "variation": {"amount": 0.1, "sede": 3}}],
                           "changes": [{"time": 0, "play": 0, "parameter": "gain", "value": 1, "ramp": 2}])") ==
           Strings{R"(plays[0].variation.sede: is not known; did you mean "seed"?)",
@@ -131,7 +131,7 @@ TEST_CASE("Keys that are remarks are nobody's mistake", "[io][keys]")
     CHECK(sceneWarnings(R"("$schema": "x", "_comment": "x", "//": "x", "plays": [{"clip": "a", "_gain": 1}])").empty());
 }
 
-TEST_CASE("A strict reader stops at the first key that is not known", "[io][keys]")
+TEST_CASE("A strict reader stops at the first key that is unknown", "[io][keys]")
 {
     ReadWarnings strict(true);
     const auto scene =
@@ -169,7 +169,7 @@ TEST_CASE("Of very many warnings the first are kept and the others counted, quic
     const Strings all = warnings.texts();
     REQUIRE(all.size() == ReadWarnings::maxKept + 1);
     CHECK(all[1] == R"(envelope[1].volumen: is not known; did you mean "amplitude"?)");
-    CHECK(all.back() == "and " + std::to_string(count - 20) + " more of these");
+    CHECK(all.back() == "and " + std::to_string(count - 20) + " more of this kind");
     CHECK(with < 3.0 * without + 0.5);
 }
 

@@ -108,7 +108,7 @@ TEST_CASE("What is wrong with settings is told with its place", "[settings]")
     ReadWarnings warnings;
     REQUIRE(read(R"({"bnads": 8})", &warnings));
     REQUIRE(warnings.texts().size() == 1);
-    CHECK(warnings.texts().front() == "encode.bnads: is not known; did you mean \"bands\"?");
+    CHECK(warnings.texts().front() == "encode.bnads: is unknown; did you mean \"bands\"?");
     ReadWarnings strict(true);
     CHECK(!read(R"({"bnads": 8})", &strict));
 

@@ -144,7 +144,7 @@ TEST_CASE("Escapes of JSON5 give the characters at the ends of their ranges", "[
     {
         const auto json = jsonFromJson5(bad, 1000);
         REQUIRE_FALSE(json.ok());
-        CHECK(json.error().text() == "line 1, column 3: is not an escape of a character");
+        CHECK(json.error().text() == "line 1, column 3: is not a valid escape of a character");
     }
     for (char digit = '1'; digit <= '9'; ++digit)
         CHECK_FALSE(jsonFromJson5(std::string("'\\") + digit + "'", 1000).ok());
@@ -170,8 +170,8 @@ TEST_CASE("Numbers of JSON5 become the same numbers of JSON, up to their longest
     CHECK(json("0x1FFFFFFFFFFFFFFFF") == "line 1, column 1: is not a hexadecimal number of at most 16 digits");
     CHECK(json("0x") == "line 1, column 1: is not a hexadecimal number of at most 16 digits");
     CHECK(json("0x1g") == "line 1, column 1: is not a hexadecimal number of at most 16 digits");
-    CHECK(json("00") == "line 1, column 1: starts with a zero; decimal numbers have none in front");
-    CHECK(json("-012") == "line 1, column 1: starts with a zero; decimal numbers have none in front");
+    CHECK(json("00") == "line 1, column 1: starts with a zero; remove it");
+    CHECK(json("-012") == "line 1, column 1: starts with a zero; remove it");
     CHECK(json(std::string(400, '1')) == std::string(400, '1'));
     CHECK(json(std::string(401, '1')) == "line 1, column 1: is not a number");
     CHECK(json("{a:1,'b':[2,3,],}") == "{\"a\":1,\"b\":[2,3]}");
@@ -188,9 +188,9 @@ TEST_CASE("Numbers of JSON5 become the same numbers of JSON, up to their longest
     CHECK(json("{\\u0061b1: 1}") == "{\"ab1\":1}");
     const std::string deepest = std::string(32, '[') + std::string(32, ']');
     CHECK(json(deepest) == deepest);
-    CHECK(json("[" + deepest + "]") == "line 1, column 33: has more than 32 objects or lists in each other");
+    CHECK(json("[" + deepest + "]") == "line 1, column 33: has more than 32 levels of objects and lists");
     CHECK(jsonFromJson5("[ ]", 3).ok());
-    CHECK(jsonFromJson5("[ ]", 2).error().text() == "is a longer text than is accepted");
+    CHECK(jsonFromJson5("[ ]", 2).error().text() == "is longer than the longest supported text");
 }
 
 TEST_CASE("Typing distances are those of their definition", "[io]")
@@ -245,8 +245,8 @@ TEST_CASE("Nearest keys follow the length of the word, other words and beginning
     CHECK(nearestKey("", known).empty());
     CHECK(nearestKey(std::string("start") + std::string(35, 'x'), known) == "start");
     CHECK(nearestKey(std::string("start") + std::string(36, 'x'), known).empty());
-    CHECK(unknownKeyText("gian", known) == "is not known; did you mean \"gain\"?");
-    CHECK(unknownKeyText("zzz", known) == "is not known");
+    CHECK(unknownKeyText("gian", known) == "is unknown; did you mean \"gain\"?");
+    CHECK(unknownKeyText("zzz", known) == "is unknown");
     for (const char* remark : {"$schema", "_x", "//", "// a", "$"})
         CHECK(isRemark(remark));
     for (const char* key : {"", "a$", "/", "x_", "a//"})
@@ -304,7 +304,7 @@ TEST_CASE("Texts that are no JSON say where and why", "[io][json]")
 {
     CHECK(scannerError("") == "is empty");
     CHECK(scannerError("\xEF\xBB\xBF{}") ==
-          "line 1, column 1: starts with a byte order mark; save it as UTF-8 without");
+          "line 1, column 1: starts with a byte order mark; save it as UTF-8 without one");
     CHECK(scannerError("\xFE\xFF{}") == "line 1, column 1: is UTF-16 text; save it as UTF-8");
     CHECK(scannerError("\xFF\xFE{}") == "line 1, column 1: is UTF-16 text; save it as UTF-8");
     CHECK(scannerError("[1, 1e999]") == "[1]: is beyond the range of numbers");
@@ -318,15 +318,15 @@ TEST_CASE("Texts that are no JSON say where and why", "[io][json]")
     CHECK(scannerError("[\"\x01\"]").find("is not valid JSON: invalid string, ") != std::string::npos);
     CHECK(scannerError("[-x]").find("is not valid JSON: invalid number, ") != std::string::npos);
     CHECK(scannerError("[1 2]").find("last read") == std::string::npos);
-    CHECK(scannerError("[1]  ", 4) == "is a longer text than is accepted");
+    CHECK(scannerError("[1]  ", 4) == "is longer than the longest supported text");
     CHECK(readJsonTree("[1] ", 4).ok());
     const std::string deepest = std::string(32, '[') + std::string(32, ']');
     CHECK(readJsonTree(deepest, 1000).ok());
-    CHECK(scannerError("[" + deepest + "]") == "line 1, column 33: has more than 32 objects or lists in each other");
+    CHECK(scannerError("[" + deepest + "]") == "line 1, column 33: has more than 32 levels of objects and lists");
     std::string objects;
     for (int i = 0; i < 33; ++i)
         objects += "{\"a\":";
-    CHECK(scannerError(objects) == "line 1, column 161: has more than 32 objects or lists in each other");
+    CHECK(scannerError(objects) == "line 1, column 161: has more than 32 levels of objects and lists");
     CHECK(*readJsonTree("{\"a\": [1, [2, {\"b\": null}], -3, 0.5], \"c\": true, \"d\": \"x\"}", 1000) ==
           nlohmann::json{{"a", {1, {2, {{"b", nullptr}}}, -3, 0.5}}, {"c", true}, {"d", "x"}});
 }
@@ -357,7 +357,7 @@ TEST_CASE("What the system refuses is said in plain words", "[io]")
         return fileError(number).text();
     };
     CHECK(text(EISDIR) == "is a folder; give the name of a file");
-    CHECK(text(EACCES) == "permission denied; check the rights of the file and its folder");
+    CHECK(text(EACCES) == "permission denied; check the permissions of the file and its folder");
     CHECK(text(EPERM) == text(EACCES));
     CHECK(text(EROFS) == "the disk is read-only; choose another folder");
     CHECK(text(ENOSPC) == "the disk is full; free some space and try again");
@@ -366,7 +366,7 @@ TEST_CASE("What the system refuses is said in plain words", "[io]")
     CHECK(text(EMFILE) == "too many files are open; close some and try again");
     CHECK(text(ENFILE) == text(EMFILE));
     CHECK(text(EIO) == "the disk reported a read or write error; check the disk");
-    CHECK(text(EPIPE) == "the reader of the pipe has gone away");
+    CHECK(text(EPIPE) == "the reader of the pipe has closed it");
     CHECK(text(EDOM).starts_with("the system refused: "));
     CHECK(fileError(ENOSPC).code == ErrorCode::diskFull);
     CHECK(fileError(EIO).code == ErrorCode::io);

@@ -50,7 +50,7 @@ TEST_CASE("A recording has one to three channels of one length and finite sample
     CHECK(textOf({good, good, good, good}) == "channels: must be one to three: a microphone or the axes");
     CHECK(textOf({good, {}}) == "channels[1]: has no samples");
     CHECK(textOf({good, {1.0f}}) ==
-          "channels[1]: has another length than the first channel; record all channels together");
+          "channels[1]: differs in length from the first channel; record all channels together");
     const std::vector<std::vector<float>> shorter{good, {1.0f}}, longer{good, {1.0f, 1.0f, 1.0f}};
     CHECK(checkRecording(shorter).error().code == ErrorCode::truncated);
     CHECK(checkRecording(longer).error().code == ErrorCode::invalidData);

@@ -67,13 +67,14 @@ TEST_CASE("A channel of noise has less than twice its power, one of the drive is
     CHECK(warningsOf({checkedPower(2.05, 0.0)}).empty());
     const auto noise = warningsOf({checkedPower(50.0, 20.0), checkedPower(1.95, 0.0)});
     REQUIRE(noise.size() == 1);
-    CHECK(noise[0] == MeasurementWarning{MeasurementDefect::noiseChannel, "channels[1]",
-                                         "has noise but no response; it is turned across the movement, or the sensor "
-                                         "is connected to another input"});
+    CHECK(noise[0] ==
+          MeasurementWarning{
+              MeasurementDefect::noiseChannel, "channels[1]",
+              "has noise but no response; turn its axis along the movement, or connect the sensor to this input"});
     const auto looped = warningsOf({checkedPower(1000.0, 0.9), checkedPower(1000.0, 1.2)});
     REQUIRE(looped.size() == 1);
     CHECK(looped[0] == MeasurementWarning{MeasurementDefect::loopback, "channels[0]",
-                                          "is flat within 1 dB: it carries the drive, not a movement"});
+                                          "is flat within 1 dB: it contains the drive, not a movement"});
     CHECK(warningsOf({checkedPower(1000.0, 0.9)}, true).empty());
     CHECK(warningsOf({checkedPower(98.0, 0.0)}).empty());
     CHECK(warningsOf({checkedPower(102.0, 0.0)}).size() == 1);

@@ -275,8 +275,8 @@ TEST_CASE("A response has 8 to 100000 points, in their ranges and order", "[line
     CHECK(where([](Response& r) { r.level[3] = 400.1; }) == "points[3].level: must be -400 to 400 dB");
     CHECK(where([](Response& r) { r.level[3] = -400.1; }) == "points[3].level: must be -400 to 400 dB");
     CHECK(where([](Response& r) { r.frequency[1] = 100.0; }) ==
-          "points[1].frequency: must be above the one before; sort the lines by frequency, each once");
-    CHECK(where([](Response& r) { r.level.pop_back(); }) == "points: has not as many levels as frequencies");
+          "points[1].frequency: must be above the one before; sort the lines by frequency, without duplicates");
+    CHECK(where([](Response& r) { r.level.pop_back(); }) == "points: has a different number of levels and frequencies");
     CHECK(where([](Response& r) { r.level.pop_back(), r.frequency.pop_back(); }) ==
           "points: has fewer than 8 points; measure at more frequencies");
     Response many;

@@ -237,10 +237,10 @@ TEST_CASE("An analysis that cannot be says which number is wrong", "[linearize]"
     MeasurementParams params;
     params.lowFrequency = 1150.0;
     params.highFrequency = 5000.0;
-    CHECK(failure(4000.0, sweep, params) == "measurement.lowFrequency: leaves nothing of the sweep's range");
+    CHECK(failure(4000.0, sweep, params) == "measurement.lowFrequency: leaves no frequency of the sweep's range");
     params.lowFrequency = 1.0;
     params.highFrequency = 20.5;
-    CHECK(failure(4000.0, sweep, params) == "measurement.lowFrequency: leaves nothing of the sweep's range");
+    CHECK(failure(4000.0, sweep, params) == "measurement.lowFrequency: leaves no frequency of the sweep's range");
     params = {};
     params.points = 3;
     CHECK(failure(4000.0, sweep, params) == "measurement.points: must be 8 to 10000");
@@ -248,7 +248,7 @@ TEST_CASE("An analysis that cannot be says which number is wrong", "[linearize]"
     wrong.repeats = 0;
     CHECK(failure(4000.0, wrong, {}) == "sweep.repeats: must be 1 to 100");
     CHECK(failure(4000.0, sweep, {}) ==
-          "channels: hold no sweep that stands out of the noise; check cables, levels and the sweep's settings");
+          "channels: contain no sweep above the noise; check cables, levels and the settings of the sweep");
     // From the first to the end of the last sweep 4.5 s are needed, 1 % less for the clocks.
     recording[0].resize(17820);
     CHECK(failure(4000.0, sweep, {}).substr(0, 22) == "channels: hold no swee");

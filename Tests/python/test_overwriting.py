@@ -56,7 +56,7 @@ class Overwriting(FolderTest):
         clip = pacini.encode(path)
         for overwrite in (None, True):
             self.keeps(
-                path, "is the recording that this clip was made from", clip.save, path, format="wav16",
+                path, "is the recording of this clip", clip.save, path, format="wav16",
                 profile="lra-175", overwrite=overwrite,
             )  # fmt: skip
         os.mkdir(self.folder / "drives")
@@ -74,7 +74,7 @@ class Overwriting(FolderTest):
         pacini.encode(knocks(), RATE).save(path)
         os.symlink(path, self.folder / "link.json")
         for output in (path, self.folder / "link.json"):
-            self.keeps(path, "is input and output", pacini.convert, path, output, format="packed", overwrite=True)
+            self.keeps(path, "is both input and output", pacini.convert, path, output, format="packed", overwrite=True)
 
     def test_files_of_one_kind_are_replaced_and_those_of_another_are_not(self) -> None:
         clip, scene = pacini.encode(knocks(), RATE), pacini.Scene([pacini.Clip(1.0)])
@@ -91,7 +91,7 @@ class Overwriting(FolderTest):
         notes = self.folder / "notes.json"
         notes.write_text('{"by": "hand"}')
         for thing in things.values():
-            self.keeps(notes, "nothing in it says that Pacini made it", thing.save, notes)
+            self.keeps(notes, "was not made by that Pacini made it", thing.save, notes)
         empty = self.folder / "empty.json"
         empty.touch()
         clip.save(empty)
@@ -104,7 +104,7 @@ class Overwriting(FolderTest):
         mine = self.folder / "door-transients.ahap"
         mine.write_text("a person's")
         clip = pacini.encode(knocks(), RATE)
-        self.keeps(mine, "nothing in it says", clip.save, self.folder / "door.ahap", split=True)
+        self.keeps(mine, "was not made by", clip.save, self.folder / "door.ahap", split=True)
         clip.save(self.folder / "door.ahap", split=True, overwrite=True)
         clip.save(self.folder / "door.ahap", split=True)
 

@@ -292,8 +292,8 @@ class Cluster(FolderTest):
             made = (clips / f"{sound.stem}.json").read_bytes()
             self.assertEqual(made, (self.folder / "own" / f"{sound.stem}.json").read_bytes())
         for wrong, word in (
-            (("--manifest", self.folder / "m.json"), "does not go with --ray"),
-            (("--shard", "1/2"), "does not go with --ray"),
+            (("--manifest", self.folder / "m.json"), "cannot be combined with --ray"),
+            (("--shard", "1/2"), "cannot be combined with --ray"),
             ((), "name a folder"),
         ):
             where = ("-o", clips) if wrong else ()

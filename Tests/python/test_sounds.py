@@ -165,7 +165,7 @@ class Arrays(FolderTest):
         self.assertEqual(pacini.encode(mono, RATE, settings=self.folder / "mine.json"), wanted)
         self.assertEqual(len(pacini.encode(mono, RATE, settings=settings, bands=4).bands), 4)
         settings["encode"]["bnads"] = 3
-        with self.assertWarnsRegex(UserWarning, "bnads: is not known; did you mean"):
+        with self.assertWarnsRegex(UserWarning, "bnads: is unknown; did you mean"):
             pacini.encode(mono, RATE, settings=settings)
         settings["encode"] = {"bands": 99}
         self.refuses("encode.bands", "invalidArgument", pacini.encode, mono, RATE, settings=settings)

@@ -187,7 +187,7 @@ TEST_CASE("a motor has one voice, no bands of its own and a burst of 12 ms at le
     CHECK(shownBands(quick) == 0);
     CHECK(quick.anyDirect);
     CHECK(quick.filter.sections.empty());
-    CHECK(reasonFor(quick.plan, "flattening") == "a motor has no resonance that a filter could undo");
+    CHECK(reasonFor(quick.plan, "flattening") == "a motor has no resonance to flatten");
     setup.profile->response = {0.05, 0.02};
     CHECK(designTranslator(setup, 48000.0).motorBurst == 0.05);
     setup.profile->drive.excursion = 1e-3;
@@ -223,12 +223,12 @@ TEST_CASE("what a profile says of its drive is in the design", "[realtime]")
           Approx(-9.0).epsilon(1e-6));
     CHECK(reasonFor(design.plan, "equalizer[0]") == "is flat in the actuator's range");
     CHECK(reasonFor(design.plan, "equalizer[1]").empty());
-    CHECK(reasonFor(design.plan, "flattening") == "the equaliser does it");
+    CHECK(reasonFor(design.plan, "flattening") == "the equaliser flattens the actuator");
     CHECK(reasonFor(design.plan, "dynamicRange").empty());
     setup.profile->range.dynamicRange = 35.0;
     const TranslatorDesign whole = designTranslator(setup, 48000.0);
     CHECK(whole.levels.isIdentity());
-    CHECK(reasonFor(whole.plan, "dynamicRange") == "the actuator shows all that is felt");
+    CHECK(reasonFor(whole.plan, "dynamicRange") == "the actuator covers the whole range of touch");
     // Of an unknown actuator only its drive counts.
     setup.profile->technology = Technology::pcm;
     setup.profile->range.dynamicRange = 20.0;

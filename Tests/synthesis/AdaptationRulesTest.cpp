@@ -306,9 +306,9 @@ TEST_CASE("Each part of the adaptation says what it did, and does only that", "[
         CHECK(adaptClip(clip, profile, onlyAdapting(false, true, false)).changes == changes);
     }
     profile.polyphony = 64;
-    for (const auto& [range, changes] : {std::pair{20.4, Changes{"levels are pressed into 20 dB"}},
-                                         {20.6, {"levels are pressed into 21 dB"}},
-                                         {36.8, {"levels are pressed into 37 dB"}},
+    for (const auto& [range, changes] : {std::pair{20.4, Changes{"levels are compressed into 20 dB"}},
+                                         {20.6, {"levels are compressed into 21 dB"}},
+                                         {36.8, {"levels are compressed into 37 dB"}},
                                          {37.0, {}}})
     {
         CAPTURE(range);

@@ -133,10 +133,8 @@ TEST_CASE("A plan refuses rates that nothing plays at, broken scenes and profile
     Scene endless = plannedScene();
     endless.duration = 86400.0;
     endless.plays[0].loop = 0.005;
-    CHECK(
-        failing(endless, nullptr, 48000.0) ==
-        "plays[0].loop: unrolls to too many breakpoints (20 million are the most of a scene); make the loop longer or "
-        "its passes fewer");
+    CHECK(failing(endless, nullptr, 48000.0) == "plays[0].loop: unrolls to more than 20 million breakpoints in the "
+                                                "scene; make the loop longer, or use fewer passes");
 }
 
 TEST_CASE("A scene without a duration lasts until its last play ends, changes of speed included", "[scene]")
@@ -316,7 +314,7 @@ TEST_CASE("A plan says what was adapted: clips, resonance and voices", "[scene]"
               "clips[0]: 2 of 2 bands are moved towards the resonance\n"
               "clips[1]: 1 of 1 bands are moved towards the resonance\n"
               "profile: its resonance at 150 Hz is flattened down to 115 Hz\n"
-              "plays[1]: has no voice for 500 ms: plays of more priority or strength have them\n");
+              "plays[1]: has no voice for 500 ms: plays with higher priority or level use them\n");
     }
     CompileParams params;
     params.adaptation.strength = 0.0;
@@ -327,7 +325,7 @@ TEST_CASE("A plan says what was adapted: clips, resonance and voices", "[scene]"
         CHECK(adaptationsOf(*plan) ==
               "clips[0]: 1 of 2 bands are moved into the range\n"
               "profile: its resonance at 150 Hz is flattened down to 106 Hz\n"
-              "plays[1]: has no voice for 500 ms: plays of more priority or strength have them\n");
+              "plays[1]: has no voice for 500 ms: plays with higher priority or level use them\n");
         CHECK_FALSE(plan->motor);
         pinPlan("two plays on two voices", *plan);
     }

@@ -133,8 +133,9 @@ TEST_CASE("Plays and bands are left out as long as their errors together stay be
                                      both ? 570.0 : 560.0, -20.0, plan);
             CHECK(error == Approx(1.41 * (both ? 4.0 : 1.0)));
             CHECK(plan.plays.size() == (both ? 1u : 2u));
-            CHECK(leftOutOf(plan) == (both ? "plays[0] is too weak to matter; plays[1] is too weak to matter; "
-                                           : "plays[0] is too weak to matter; "));
+            CHECK(leftOutOf(plan) ==
+                  (both ? "plays[0] is too weak to be perceived; plays[1] is too weak to be perceived; "
+                        : "plays[0] is too weak to be perceived; "));
             CHECK(plan.leftOut[0].error == Approx(10.0 * std::log10(1.0 / (both ? 570.0 : 560.0))));
         }
     }

@@ -181,10 +181,10 @@ TEST_CASE("What cannot be rendered says why", "[render]")
     CHECK(failing(twoPlays(), nullptr, params) == "has nothing from 9 s on to 9.5 s; it lasts 0.300 s");
     params = {};
     params.felt = FeltParams{};
-    CHECK(failing(twoPlays(), nullptr, params) == "profile: is needed to know what is felt");
+    CHECK(failing(twoPlays(), nullptr, params) == "profile: is needed to predict the acceleration of the skin");
     const Profile bodiless;
     CHECK(failing(twoPlays(), &bodiless, params) ==
-          "body: is missing in this profile, so nothing is known of what is felt");
+          "body: is missing in this profile, so the acceleration of the skin cannot be predicted");
     params = {};
     params.adjustment.stretch = 100.0;
     CHECK(failing(sceneOf(tone(100.0, 0.5, 3600.0)), nullptr, params) ==

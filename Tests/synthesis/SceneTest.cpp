@@ -335,9 +335,9 @@ TEST_CASE("A plan names what it leaves out and why", "[scene]")
         return std::string("kept");
     };
     CHECK(reasonOf("plays[0]") == "kept");
-    CHECK(reasonOf("plays[0].bands[1]") == "is too weak to matter");
+    CHECK(reasonOf("plays[0].bands[1]") == "is too weak to be perceived");
     CHECK(reasonOf("plays[1]") == "is silent");
-    CHECK(reasonOf("plays[2]") == "is too weak to matter");
+    CHECK(reasonOf("plays[2]") == "is too weak to be perceived");
     CHECK(reasonOf("plays[3]") == "is muted");
     CHECK(reasonOf("plays[4]") == "starts after the end of the scene");
     REQUIRE(plan->plays.size() == 1);

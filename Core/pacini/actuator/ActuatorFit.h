@@ -1,7 +1,7 @@
 #pragma once
 
-// Fit to an actuator: how far its resonance is flattened and which frequencies are played, by the strength that is
-// wanted.
+// Fit to an actuator: flattening of its resonance and choice of the frequencies to play, by the strength
+// parameter.
 
 #include <pacini/actuator/Equalizer.h>
 #include <pacini/actuator/OutputFilter.h>

@@ -20,7 +20,7 @@ struct BodyBand
     static constexpr double highest = 1000.0; ///< Hz
 };
 
-/// Output of the body model: what is observed.
+/// Output of the body model: the observed quantity.
 enum class BodyPoint
 {
     movingMass, ///< acceleration, m/s^2
@@ -29,7 +29,7 @@ enum class BodyPoint
     excursion   ///< of the moving mass from rest against the device, m
 };
 
-/// Model order: what of the chain is kept.
+/// Model order: the parts of the chain that are kept.
 enum class BodyShape
 {
     elastic, ///< everything

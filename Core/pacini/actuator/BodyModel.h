@@ -89,7 +89,8 @@ private:
     State state;
 };
 
-/// A profile's body and resonance, and what of it is wanted. Numbers are clamped as in makeBodyChain.
+/// Body and resonance of a profile, and the wanted output. Numbers are clamped as in
+/// makeBodyChain.
 struct BodyModelParams
 {
     BodyParams body;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Model reduction of a body: leaves out what makes no difference that is felt, and says how large the error is.
+// Model reduction of a body: drops parts without a perceptible effect and states the error.
 
 #include <pacini/actuator/BodyChain.h>
 #include <pacini/actuator/PoleGroups.h>
@@ -23,7 +23,7 @@ struct BodyOmission
     double predictedError = 0.0; ///< largest relative error of the observed response, 30-1000 Hz
 };
 
-/// The chain that is computed and what it lacks.
+/// The reduced chain and the parts that it omits.
 struct BodyPlan
 {
     BodyChain chain;

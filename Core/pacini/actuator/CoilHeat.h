@@ -1,6 +1,6 @@
 #pragma once
 
-// Thermal limiter: keeps the heat in an actuator's coil below what it bears.
+// Thermal limiter: keeps the temperature of an actuator's coil below its limit.
 
 #include <pacini/actuator/FrameGroup.h>
 #include <pacini/actuator/HeldStep.h>

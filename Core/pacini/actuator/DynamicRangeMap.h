@@ -1,7 +1,7 @@
 #pragma once
 
-// Static compression curve: presses the range of a clip's amplitudes into what an actuator can show above the threshold
-// of feeling.
+// Static compression curve: maps the amplitudes of a clip to the range of an actuator above the touch
+// threshold.
 
 #include <pacini/foundation/Clamp.h>
 #include <pacini/foundation/Units.h>

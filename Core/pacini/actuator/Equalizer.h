@@ -61,7 +61,7 @@ using EqualizerSections = FixedVector<EqualizerSection, 16>;
             return wrong(at + ".order", "must be 1 to 8");
         biquads += section.type == EqualizerType::highpass ? static_cast<std::size_t>(section.order + 1) / 2 : 1;
         if (biquads > maxBiquadSections)
-            return wrong(at, "is too much: high-passes count half their order, all together must stay within 32");
+            return wrong(at, "is too high: high-passes count with half their order, at most 32 together");
     }
     return {};
 }

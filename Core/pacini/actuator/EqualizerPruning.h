@@ -31,7 +31,7 @@ struct PrunedEqualizer
     double predictedError = 0.0; ///< dB, the farthest that the equaliser without them is from the one with them
 };
 
-/// The range in which an equaliser is judged and how far from flat a section may be to be left out.
+/// Parameters of pruning: the range to check, and the largest deviation from flat of a section that is dropped.
 struct PruningParams
 {
     Hertz lowFrequency{20.0};

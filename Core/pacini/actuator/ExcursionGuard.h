@@ -1,6 +1,6 @@
 #pragma once
 
-// Excursion limiter: keeps the moving mass of an actuator within its travel, whatever the drive.
+// Excursion limiter: keeps the moving mass of an actuator within its travel, for any drive.
 
 #include <pacini/actuator/BodyChain.h>
 #include <pacini/actuator/FrameGroup.h>
@@ -25,9 +25,9 @@
 namespace pacini
 {
 
-/// Parameters of the excursion limiter: the moving mass as a second-order resonator, its base held still, and the
-/// travel that it has. Clamped to the ranges of a valid profile. Where it is known what the base is, the mass is
-/// guarded as it is worn, too: the base gives way then, and the mass resonates higher against it.
+/// Parameters of the excursion limiter: the moving mass as a second-order resonator on a fixed base, and its travel.
+/// Clamped to the ranges of a valid profile. If the base is known, the limiter also guards the mass as worn: the base
+/// then moves, and the mass resonates at a higher frequency against it.
 struct ExcursionParams
 {
     Hertz frequency{67.0};           ///< 1 to 20000 Hz

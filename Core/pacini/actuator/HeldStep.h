@@ -1,6 +1,6 @@
 #pragma once
 
-// Resonator under zero-order hold: how far a mass on its spring moves under a drive that is held from sample to sample.
+// Resonator under zero-order hold: motion of a mass on a spring under a drive that is constant between samples.
 
 #include <cmath>
 #include <numbers>

@@ -1,6 +1,6 @@
 #pragma once
 
-// Look-ahead limiter: keeps a drive signal within full scale where no actuator is known.
+// Look-ahead limiter: keeps a drive signal within full scale if no actuator is known.
 
 #include <pacini/actuator/LimiterGain.h>
 #include <pacini/actuator/Protection.h>

@@ -94,7 +94,7 @@ struct GroupStep
     return group;
 }
 
-/// State of the resonator. The state of the mass after every drive so far; see FrameGroup.
+/// State of the resonator after all drives so far; see FrameGroup.
 class MovingMass
 {
 public:

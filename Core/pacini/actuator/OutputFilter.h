@@ -217,7 +217,7 @@ inline double highestGain(const BiquadCoefficients& c, const Flattening& flatten
 }
 } // namespace detail
 
-/// An equalizer and a resonance correction, each where there is one.
+/// An optional equaliser and an optional resonance correction.
 struct OutputFilterParams
 {
     EqualizerSections equalizer;

@@ -17,8 +17,8 @@
 namespace pacini
 {
 
-/// Says of the number at `path`, or of all below it, where it was found: `{"drive", "datasheet of ..."}`. A text that
-/// starts with "assumed" marks numbers that nobody measured.
+/// Source of the number at `path`, or of all numbers below it: `{"drive", "datasheet of ..."}`. A text that starts with
+/// "assumed" marks numbers that nobody measured.
 struct ProfileSource
 {
     std::string path; ///< as in the file, such as `resonance.frequency` or `equalizer[1]`
@@ -42,9 +42,9 @@ inline constexpr std::size_t maxProfileSources = 256;
             return Error{ErrorCode::invalidData, "sources", "has an entry without a path"};
         const std::string where = "sources." + sources[i].path;
         if (sources[i].text.empty())
-            return Error{ErrorCode::invalidData, where, "must say something"};
+            return Error{ErrorCode::invalidData, where, "must not be empty"};
         if (i > 0 && !(sources[i - 1].path < sources[i].path))
-            return Error{ErrorCode::invalidData, where, "is not in order, or is there twice"};
+            return Error{ErrorCode::invalidData, where, "is out of order or given twice"};
     }
     return {};
 }
@@ -91,7 +91,7 @@ struct Resonance
     bool operator==(const Resonance&) const = default;
 };
 
-/// Range of frequencies and levels: what the actuator can show.
+/// Range of frequencies and levels that the actuator can reproduce.
 struct ActuatorRange
 {
     double lowFrequency = 20.0;    ///< Hz
@@ -100,7 +100,7 @@ struct ActuatorRange
     bool operator==(const ActuatorRange&) const = default;
 };
 
-/// Rise and fall times: how fast it follows a burst at its resonance driven at full drive.
+/// Rise and fall times of the response to a burst at the resonance, at full drive.
 struct ActuatorResponse
 {
     double riseTime = 0.0; ///< s from rest to 90 % of the final strength
@@ -149,7 +149,7 @@ struct ActuatorTransient
     bool operator==(const ActuatorTransient&) const = default;
 };
 
-/// Frequency mapping mode: what happens to frequencies that the actuator cannot show.
+/// Frequency mapping mode, for frequencies outside the actuator's range.
 enum class FrequencyMapping
 {
     clamp,   ///< to the nearest end of the range
@@ -157,7 +157,7 @@ enum class FrequencyMapping
     fold     ///< by octaves into the range, as near to the resonance as can be
 };
 
-/// An actuator: what it can do, what it bears, what flattens it.
+/// An actuator profile: response, limits and equaliser.
 struct Profile
 {
     static constexpr int unlimitedPolyphony = 64; ///< more than a clip has bands
@@ -216,12 +216,12 @@ struct Profile
     checkIf("drive.maxVoltageRms", drive.maxVoltageRms, 1e-3, 1e3, "must be 0.001 to 1000 V");
     checkIf("drive.maxPower", drive.maxPower, 1e-6, 1e3, "must be 0.000001 to 1000 W");
     if (drive.maxPower && !(drive.impedance && drive.maxVoltageRms))
-        wrong("drive.maxPower", "needs drive.impedance and drive.maxVoltageRms beside it");
+        wrong("drive.maxPower", "also needs drive.impedance and drive.maxVoltageRms");
     checkIf("drive.thermalTime", drive.thermalTime, 0.01, 1e4, "must be 0.01 to 10000 s");
     checkIf("drive.maxExcursion", drive.maxExcursion, 1e-7, 0.1, "must be 0.0000001 to 0.1 m");
     checkIf("drive.excursion", drive.excursion, 1e-9, 1.0, "must be 0.000000001 to 1 m");
     if (drive.maxExcursion && !drive.excursion)
-        wrong("drive.maxExcursion", "needs drive.excursion beside it");
+        wrong("drive.maxExcursion", "also needs drive.excursion");
     check("drive.overdrive", drive.overdrive, 1.0, 10.0, "must be 1 to 10");
     if (auto valid = validate(profile.equalizer, "equalizer"); !valid && !error)
         error = valid.error();

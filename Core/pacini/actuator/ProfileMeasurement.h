@@ -1,6 +1,6 @@
 #pragma once
 
-// Measurement record of a profile: what was measured of an actuator, and how flat its equalizer makes it.
+// Measurement record of a profile: the measured response of an actuator, and its flatness with the equaliser.
 
 #include <pacini/foundation/Result.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// Protection limiter, the last stage before the converter: no drive leaves it that the actuator does not bear.
+// Protection limiter, the last stage before the converter: keeps the drive within the limits of the actuator.
 
 #include <pacini/actuator/CoilHeat.h>
 #include <pacini/actuator/ExcursionGuard.h>
@@ -27,7 +27,7 @@
 namespace pacini
 {
 
-/// What the protection did in its last call. The reasons are those for which the gain is reduced now or was in the
+/// Report of the last call: gain reduction, and the reasons that applied during the
 /// call.
 struct ProtectionMeter
 {

@@ -1,6 +1,6 @@
 #pragma once
 
-// Modal decomposition of the travel of a moving mass as it is worn.
+// Modal decomposition of the travel of a moving mass, for an actuator as worn.
 
 #include <pacini/actuator/BodyChain.h>
 #include <pacini/actuator/HeldStep.h>

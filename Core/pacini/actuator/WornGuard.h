@@ -1,6 +1,6 @@
 #pragma once
 
-// Excursion limiter for an actuator as it is worn: keeps the moving mass within its travel, whatever the drive.
+// Excursion limiter for an actuator as worn: keeps the moving mass within its travel, for any drive.
 
 #include <pacini/actuator/FrameGroup.h>
 #include <pacini/actuator/HeldStep.h>

@@ -16,8 +16,8 @@
 namespace pacini
 {
 
-/// Use: start, push any number of times, finish; channels() is what the last of these made. Keeps its filters between
-/// sounds of one rate. One thread at a time; allocates.
+/// Call start, push any number of times, then finish; channels() returns the output of the last call. Keeps its filters
+/// between sounds of one rate. One thread at a time; allocates.
 class AnalysisInput
 {
 public:

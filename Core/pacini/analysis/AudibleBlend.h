@@ -1,6 +1,6 @@
 #pragma once
 
-// The way of what is heard above the range of touch into the bands of the skin.
+// Blend of sound above the range of touch into the bands that are felt.
 
 #include <pacini/analysis/BandAnalysis.h>
 #include <pacini/analysis/EvenTrains.h>
@@ -17,7 +17,7 @@
 namespace pacini
 {
 
-/// What has to be known of a whole sound before parts of it can be encoded.
+/// Properties of a whole sound that the encoder needs before it encodes parts of it.
 struct SoundScale
 {
     double peak = 0.0;      ///< largest magnitude that is felt, BandAnalysisResult::peak or more
@@ -113,7 +113,7 @@ private:
     std::vector<float> shares;
 };
 
-/// Finds the SoundScale of what is heard, section by section, as AudibleBlend goes through it.
+/// Computes the SoundScale of the audible part, section by section in step with AudibleBlend.
 class HeardSurvey
 {
 public:
@@ -161,12 +161,12 @@ private:
     SoundScale scale;
 };
 
-/// Lets what is heard above the range of touch be felt. Where most of a sound as it is heard (A-weighted power, over
-/// some seconds) lies above 900 Hz, the level follows the course of the loudness: the bands keep at most a quarter of
-/// their own amplitude, and a tone of 150 to 290 Hz, the brighter the higher, brings what they lack, as if the sound
-/// had it. Where little does, nothing changes. `audible` 0 to 1 is how far that goes, and
-/// BandAnalysisResult::heardShare tells where it went. The limits of the blend, what the bands keep and the range of
-/// the tone are choices by trial, not derived. One sound, piece by piece.
+/// Makes sound above the range of touch perceptible to the skin. Where most of the sound as heard (A-weighted power,
+/// over some seconds) lies above 900 Hz, the level follows the course of the loudness: the bands keep at most a quarter
+/// of their own amplitude, and a tone of 150 to 290 Hz, the brighter the higher, brings what they lack, as if the sound
+/// had it. Elsewhere nothing changes. `audible` (0 to 1) sets the amount, and BandAnalysisResult::heardShare records it
+/// over time. The limits of the blend, what the bands keep and the range of the tone are choices by trial, not derived.
+/// One sound, piece by piece.
 class AudibleBlend
 {
 public:

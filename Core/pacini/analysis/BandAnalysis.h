@@ -90,7 +90,7 @@ struct BandAnalysisParams
     bool operator==(const BandAnalysisParams&) const = default;
 };
 
-/// What the analysis found, dense in time: frame i of an array stands at i * its step.
+/// Result of the analysis, densely sampled: frame i of an array is at time i * its step.
 struct BandAnalysisResult
 {
     static constexpr double envelopeStep = 0.005; ///< s

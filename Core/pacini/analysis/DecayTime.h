@@ -12,7 +12,7 @@
 namespace pacini
 {
 
-/// What a time constant means.
+/// Meaning of a time constant.
 enum class DecayDefinition
 {
     percent99, ///< after this time 99 % of a step is done

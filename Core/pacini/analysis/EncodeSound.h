@@ -16,7 +16,7 @@
 namespace pacini
 {
 
-/// What is known of a sound before its samples are read; see Encoder::start().
+/// Properties of a sound that are known before its samples are read; see Encoder::start().
 struct SoundFormat
 {
     int sampleRate = 0; ///< Hz
@@ -34,7 +34,7 @@ using SoundPart = Result<std::span<const float>>;
     return channels * std::max<std::size_t>(1, 65536 / channels);
 }
 
-/// A sound in memory, part by part as it is read from a file.
+/// A sound in memory, delivered in parts like a sound from a file.
 class SoundParts
 {
 public:
@@ -85,7 +85,7 @@ template <typename Next>
     return encoder.finish();
 }
 
-/// The same on the grids of `quantise` bits, as clip files hold it.
+/// The same clip, rounded to the grids of `quantise` bits as in clip files.
 template <typename Next>
 [[nodiscard]] Result<Clip> encodeSound(Encoder& encoder, const SoundFormat& format, Next&& next)
 {

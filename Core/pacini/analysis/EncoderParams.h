@@ -43,7 +43,7 @@ inline constexpr std::array encoderParameters{
                                       .group = "Analysis",
                                       .alwaysRecorded = true}),
     described<&EncoderParams::breakpoints>({.name = "breakpoints",
-                                            .text = "Most breakpoints; simple sounds take fewer",
+                                            .text = "Maximum number of breakpoints; simple sounds need fewer",
                                             .unit = "per second and band",
                                             .range = {0.5, 1000},
                                             .group = "Analysis",
@@ -67,20 +67,19 @@ inline constexpr std::array encoderParameters{
                                               .range = {2, 1800},
                                               .group = "Analysis"}),
     described<&EncoderParams::spacing>({.name = "spacing",
-                                        .text = "How bands are spaced: log or linear",
+                                        .text = "Spacing of the bands: log or linear",
                                         .choices = spacingNames,
                                         .memberChoices = spacingMembers,
                                         .group = "Analysis"}),
     described<&EncoderParams::onsets, &OnsetParams::sensitivity>(
         {.name = "sensitivity",
-         .text = "Above 1 more and weaker events become transients, below 1 fewer",
+         .text = "Sensitivity to events; above 1 weaker events also become transients, below 1 only stronger ones",
          .range = {0.25, 4},
          .group = "Analysis"}),
     described<&EncoderParams::audible>(
         {.name = "audible",
-         .text =
-             "How far loudness drives what lives above the range of touch (rain, ticks, birds); 0 keeps the beat of "
-             "music",
+         .text = "Influence of the loudness of sound above the range of touch (rain, ticks, birds); 0 keeps the beat "
+                 "of music",
          .range = {0, 1},
          .group = "Analysis",
          .alwaysRecorded = true}), // clips without it are from before there was such a thing
@@ -91,36 +90,36 @@ inline constexpr std::array encoderParameters{
                                           .negated = true}),
     described<&EncoderParams::onsets, &OnsetParams::minimumGap>(
         {.name = "minimumGap",
-         .text = "Least time between two events; of two closer ones the first stays",
+         .text = "Minimum time between two events; an event that follows sooner is dropped",
          .unit = "s",
          .range = {0, 1},
          .group = "Events"}),
     described<&EncoderParams::onsets, &OnsetParams::maskMargin>(
         {.name = "maskMargin",
-         .text = "An event less than this below its louder neighbours counts like one alone",
+         .text = "Level difference to louder neighbours up to which an event is not masked",
          .unit = "dB",
          .range = {0, 120},
          .group = "Events"}),
     described<&EncoderParams::onsets, &OnsetParams::maskSlope>(
         {.name = "maskSlope",
-         .text = "How much clearer an event must be for each dB below that margin, as a fraction of the threshold",
+         .text = "Rise of the detection threshold for each dB beyond that margin, as a fraction of the threshold",
          .unit = "per dB",
          .range = {0, 1},
          .group = "Events"}),
     described<&EncoderParams::onsets, &OnsetParams::maskRecovery>(
         {.name = "maskRecovery",
-         .text = "How fast the masking by a louder event falls with the distance in time",
+         .text = "Decay of masking with the time between two events",
          .unit = "dB/s",
          .range = {20, 1000}, // below 20, masking would reach beyond SoundSection::secondsAhead
          .group = "Events"}),
     described<&EncoderParams::onsets, &OnsetParams::maskLimit>(
         {.name = "maskLimit",
-         .text = "An event further than this below its louder neighbours is dropped however clear it is",
+         .text = "Level difference to louder neighbours above which an event is always dropped",
          .unit = "dB",
          .range = {0, 120},
          .group = "Events"}),
     described<&EncoderParams::onsets, &OnsetParams::silence>({.name = "silence",
-                                                              .text = "Events below this level are dropped",
+                                                              .text = "Level below which events are dropped",
                                                               .unit = "dB",
                                                               .range = {-120, 0},
                                                               .group = "Events"}),

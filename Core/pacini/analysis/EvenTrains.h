@@ -1,6 +1,6 @@
 #pragma once
 
-// Trains of like events: what is felt as one rough sound, or as single hits, and not as a level.
+// Trains of similar events: felt as one rough vibration or as single hits, not as a level.
 
 #include <pacini/analysis/OnsetMeasure.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// Harmonic-percussive separation: a sound as steady tones, short events, and what is neither.
+// Harmonic-percussive separation: splits a sound into steady tones, short events and a residual.
 
 #include <pacini/analysis/PowerSpectra.h>
 #include <pacini/analysis/SortedWindow.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-// How loud a sound is heard over time, and how much of that lies above the range of touch.
+// Loudness of a sound over time, and the share of it above the range of touch.
 
 #include <pacini/analysis/BandAnalysis.h>
 #include <pacini/analysis/OnsetFrame.h>
@@ -18,7 +18,7 @@
 namespace pacini
 {
 
-/// Loudness around one moment, in a unit of its own: only ratios mean anything.
+/// Loudness around one moment, in an arbitrary unit: only ratios are meaningful.
 struct HeardFrame
 {
     float loudness = 0.0f;  ///< of all that is heard

@@ -1,6 +1,6 @@
 #pragma once
 
-// Decimation for onset detection: brings one channel of any sample rate down to the rates that OnsetBands measures at.
+// Decimation for onset detection: reduces one channel of any sample rate to the rates at which OnsetBands measures.
 
 #include <pacini/analysis/OnsetFrame.h>
 #include <pacini/analysis/OnsetSums.h>

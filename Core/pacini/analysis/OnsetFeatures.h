@@ -17,9 +17,9 @@
 namespace pacini
 {
 
-/// Measures the short-time powers that onsets are found in, piece by piece, in bounded memory.
-/// push() samples, read frames(), drop() what was read; finish() once at the end. The frames do not depend on how the
-/// input is cut into calls. Not real-time: allocates.
+/// Measures the short-time powers for onset detection, piece by piece, in bounded memory. push() samples, read
+/// frames(), drop() what was read; finish() once at the end. The frames do not depend on how the input is cut into
+/// calls. Not real-time: allocates.
 class OnsetFeatures
 {
 public:

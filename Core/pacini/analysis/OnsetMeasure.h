@@ -1,6 +1,6 @@
 #pragma once
 
-// Attributes of an onset: when its attack starts, how strong and how sharp it is.
+// Attributes of an onset: start of its attack, level and sharpness.
 
 #include <pacini/analysis/OnsetFrame.h>
 

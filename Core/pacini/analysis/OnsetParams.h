@@ -7,8 +7,8 @@
 namespace pacini
 {
 
-/// Parameters of onset detection. What counts as an event. The defaults were set on mixtures of single drum hits with
-/// known times.
+/// Parameters of onset detection. The defaults were set on mixtures of single drum hits with known
+/// times.
 struct OnsetParams
 {
     /// Above 1 more and weaker onsets are found (and more false ones), below 1 fewer; clamped to 0.25-4.

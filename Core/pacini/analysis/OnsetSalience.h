@@ -1,6 +1,6 @@
 #pragma once
 
-// Onset detection function: how much every moment looks like the start of something.
+// Onset detection function: salience of every moment as the start of an event.
 
 #include <pacini/analysis/OnsetFrame.h>
 #include <pacini/analysis/SlidingBuffer.h>

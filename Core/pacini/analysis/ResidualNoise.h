@@ -1,6 +1,6 @@
 #pragma once
 
-// Residual noise analysis: what the sinusoids of a clip leave out of a sound, as the level of noise in a few bands.
+// Residual noise analysis: the part of a sound without the sinusoids of its clip, as noise levels in a few bands.
 
 #include <pacini/analysis/PowerSpectra.h>
 #include <pacini/clip/Clip.h>

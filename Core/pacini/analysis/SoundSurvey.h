@@ -1,6 +1,6 @@
 #pragma once
 
-// First pass over a sound: what has to be known of all of it before its curves can be fitted piece by piece.
+// First pass over a sound: properties of the whole sound that fitting its curves piece by piece requires.
 
 #include <pacini/analysis/AnalysisInput.h>
 #include <pacini/analysis/AudibleBlend.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-// Band priorities: which bands matter most when not all can be played.
+// Band priorities, for choosing bands if not all can be played.
 
 #include <pacini/clip/Curve.h>
 

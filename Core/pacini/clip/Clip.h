@@ -1,6 +1,6 @@
 #pragma once
 
-// A haptic clip: what a sound feels like, as a few named curves and events. A plain value; validate() states the rules.
+// A haptic clip: a vibration as a few named curves and events. A plain value; validate() states the rules.
 
 #include <pacini/clip/Curve.h>
 #include <pacini/foundation/Result.h>
@@ -30,8 +30,8 @@ struct Band
     bool operator==(const Band&) const = default;
 };
 
-/// A short event: when it happens, the level that it reaches (linear, 1 = full drive), and how sharp it feels (0 dull,
-/// 1 crisp).
+/// A short event: its time, peak level (linear, 1 = full drive) and sharpness (0 dull, 1
+/// crisp).
 struct Transient
 {
     double time = 0.0;
@@ -40,7 +40,7 @@ struct Transient
     bool operator==(const Transient&) const = default;
 };
 
-/// A band of residual noise: what the sinusoids of the bands leave out.
+/// A band of residual noise, beside the sinusoids of the bands.
 struct NoiseBand
 {
     double lowFrequency = 0.0;
@@ -57,7 +57,7 @@ struct Marker
     bool operator==(const Marker&) const = default;
 };
 
-/// The sound that a clip was made from.
+/// The source sound of a clip.
 struct ClipSource
 {
     std::string file;        ///< file name without folders

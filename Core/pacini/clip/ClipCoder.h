@@ -35,8 +35,8 @@ static_assert(FLT_EVAL_METHOD != 1 && FLT_EVAL_METHOD != 2,
 namespace detail
 {
 
-/// Codes a whole clip both ways: with a RangeWriter it writes the clip that it is given, and takes its curves away as
-/// it goes, since a clip of hours is large; with a RangeReader it fills one.
+/// Codes a whole clip both ways: with a RangeWriter it writes the given clip and frees its curves on the way, since
+/// long clips are large; with a RangeReader it fills a clip.
 template <typename Coder>
 class ClipCoder
 {

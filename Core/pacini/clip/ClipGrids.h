@@ -1,6 +1,6 @@
 #pragma once
 
-// The grids of a packed clip: what its times, levels, frequencies and sharpnesses are rounded to.
+// The quantisation grids of a packed clip for times, levels, frequencies and sharpness.
 
 #include <pacini/clip/Clip.h>
 #include <pacini/clip/Curve.h>

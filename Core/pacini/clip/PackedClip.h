@@ -127,14 +127,14 @@ inline void setQuantise(Clip& clip, int bits)
                          std::to_string(static_cast<int>(packedVersion))};
     const auto payload = bytes.subspan(packedHeaderBytes);
     if (crc16(payload) != ((static_cast<std::uint16_t>(bytes[5]) << 8) | static_cast<std::uint16_t>(bytes[6])))
-        return Error{ErrorCode::invalidData, "checksum", "does not match: the file is damaged or cut short"};
+        return Error{ErrorCode::invalidData, "checksum", "does not match: the file is damaged or truncated"};
     RangeReader reader(payload);
     PackParams params;
     codePackParams(reader, params);
     Clip clip;
     ClipCoder<RangeReader> coder(reader, params, payload.size());
     if (!coder.code(clip))
-        return Error{ErrorCode::invalidData, "contents", "make no sense: the file is damaged"};
+        return Error{ErrorCode::invalidData, "contents", "are invalid: the file is damaged"};
     if (auto valid = validate(clip); !valid)
         return valid.error();
     return clip;

@@ -14,7 +14,7 @@
 namespace pacini
 {
 
-/// Coding context of a curve: what is already known when a curve is coded and hints at it; either may be missing.
+/// Coding context of a curve: curves already coded that help to predict it; either may be missing.
 struct CurveHints
 {
     const GridCurve* neighbour = nullptr; ///< the same kind of curve of the band below

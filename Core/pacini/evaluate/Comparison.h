@@ -28,7 +28,7 @@
 namespace pacini
 {
 
-/// What all measures say of a candidate.
+/// Results of all measures for a candidate.
 struct Comparison
 {
     double duration = 0.0;          ///< s of the reference

@@ -1,6 +1,6 @@
 #pragma once
 
-// F-measure of event detection: how well detected events agree with annotated ones.
+// F-measure of event detection: agreement of detected with annotated events.
 
 #include <algorithm>
 #include <cmath>

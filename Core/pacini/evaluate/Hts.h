@@ -1,7 +1,7 @@
 #pragma once
 
-// The haptic translation similarity (HTS): one number for how well a haptic signal keeps what is felt and heard of a
-// sound.
+// Haptic translation similarity (HTS): one score for how well a haptic signal reproduces a sound as heard and
+// felt.
 
 #include <pacini/evaluate/EventMatching.h>
 #include <pacini/evaluate/HtsAnalyzer.h>
@@ -32,7 +32,7 @@ struct HtsScore
 };
 
 /// HTS compares the audible envelope and events of the source with the felt candidate, which rewards translation of
-/// what lies above the range of touch; HTS-F compares only what is felt on both sides.
+/// sound above the range of touch; HTS-F compares only the parts that are felt in both.
 enum class HtsMode
 {
     translation,

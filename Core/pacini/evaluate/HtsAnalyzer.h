@@ -28,7 +28,7 @@ enum class HtsRole
     candidate,
 };
 
-/// Computes HtsFeatures; transforms are planned anew only when the length of the signals changes.
+/// Computes HtsFeatures; plans new transforms only if the length of the signals changes.
 class HtsAnalyzer
 {
 public:

@@ -1,6 +1,6 @@
 #pragma once
 
-// Features for the haptic translation similarity: what it needs to know of one signal.
+// Features of one signal for the haptic translation similarity.
 
 #include <array>
 #include <cstddef>

@@ -1,6 +1,6 @@
 #pragma once
 
-// Neutral signal measures ("the judge"): how much of a sound a haptic signal keeps.
+// Neutral signal measures ("the judge") of the similarity of a haptic signal and a sound.
 
 #include <pacini/evaluate/EventMatching.h>
 #include <pacini/evaluate/SignalAnalyzer.h>

@@ -16,8 +16,8 @@ namespace pacini
 
 inline constexpr std::size_t maxBands = 32;
 
-/// Band layout mode: what stands at the two ends of the range. The thesis (Weber 2020, section 4.3.1) can be read in
-/// all three ways.
+/// Band layout mode: position of the outer bands at the two ends of the range. The thesis (Weber 2020, section 4.3.1)
+/// can be read in all three ways.
 enum class BandLayoutKind
 {
     centresAtEnds, ///< the first and last centre; crossovers in the middle between centres

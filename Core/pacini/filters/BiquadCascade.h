@@ -17,7 +17,7 @@ namespace pacini
 
 inline constexpr std::size_t maxBiquadSections = 32;
 
-/// Sections in series; none of them passes everything unchanged.
+/// Sections in series; an empty cascade passes everything unchanged.
 struct BiquadCascadeCoefficients
 {
     FixedVector<StateVariableCoefficients, maxBiquadSections> sections;
@@ -33,9 +33,9 @@ struct BiquadCascadeCoefficients
     }
 };
 
-/// A streaming filter whose sections the pure function `Design`(params, fs) -> BiquadCascadeCoefficients makes: one
-/// state machine for every filter that is a series of sections. Parameters may change between calls; sections that
-/// remain keep their state, new ones start from silence. Sections run in state-variable form (see StateVariable.h).
+/// A streaming filter of sections in series, designed by the pure function `Design`(params, fs) ->
+/// BiquadCascadeCoefficients. Parameters may change between calls; sections that remain keep their state, new ones
+/// start from silence. Sections run in state-variable form (see StateVariable.h).
 template <typename P, auto Design>
 class DesignedCascade : public DesignedBlock<DesignedCascade<P, Design>, P>
 {

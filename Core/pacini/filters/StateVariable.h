@@ -1,6 +1,6 @@
 #pragma once
 
-// Second-order sections as every streaming filter runs them: exact at any rate, and safe when parameters move.
+// Second-order sections in state-variable form, for all streaming filters: exact at any rate, stable under modulation.
 
 #include <pacini/filters/Biquad.h>
 #include <pacini/filters/DesignLimits.h>

@@ -2,7 +2,7 @@
 
 // Descriptions of parameters: name, unit, range, choices and a sentence of each field that users set.
 //
-// A table of descriptions stands beside a struct of parameters. The command, Python, the web package, settings files,
+// Each struct of parameters has a table of descriptions. The command, Python, the web package, settings files,
 // projects, the editor, records in clips, the JSON schema and the tables of the documentation are made from it; ranges,
 // defaults and sentences are written nowhere else.
 
@@ -248,7 +248,7 @@ template <typename Table>
     return table[i];
 }
 
-/// The descriptions of a table, for what does not need its struct. The table must outlive them.
+/// The descriptions of a table, without the type of its struct. The table must outlive them.
 template <typename Table>
 [[nodiscard]] std::vector<const ParameterInfo*> infosOf(const Table& table)
 {

@@ -1,6 +1,6 @@
 #pragma once
 
-// Dot product: what FIR filters and correlations are made of.
+// Dot product, for FIR filters and correlations.
 
 #include <cstddef>
 

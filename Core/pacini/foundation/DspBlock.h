@@ -28,7 +28,7 @@ inline constexpr float sample = 1e12f;          ///< magnitude of sound: 1 is fu
     return fs >= limits::lowestRate && fs <= limits::highestRate;
 }
 
-/// Sample rate and block size: what a block is prepared for. Rates outside 2-768 kHz and empty blocks are the caller's
+/// Sample rate and block size for prepare(). Rates outside 2-768 kHz and empty blocks are the caller's
 /// error.
 struct ProcessSpec
 {
@@ -166,7 +166,7 @@ void forEachSample(std::span<const float> in, std::span<float> out, Tick&& tick,
     }
 }
 
-/// What blocks without latency share whose design needs the sample rate only: `Block` derives from this and adds
+/// Base of blocks without latency whose design needs only the sample rate: `Block` derives from this and adds
 /// setParams(), which keeps its argument in `current` and designs for `fs`, reset() and process().
 template <typename Block, typename P>
 class DesignedBlock

@@ -1,6 +1,6 @@
 #pragma once
 
-// Fourier transforms of complex numbers that stand side by side (std::complex), on SplitFft.
+// Fourier transforms of interleaved complex numbers (std::complex), on SplitFft.
 
 #include <pacini/foundation/SplitRealFft.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// Vector of fixed capacity: a list with room for its elements inside itself, for code that must not allocate.
+// Vector of fixed capacity with inline storage, for code that must not allocate.
 
 #include <algorithm>
 #include <array>

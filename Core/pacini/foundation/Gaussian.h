@@ -19,7 +19,7 @@ inline double normalNumber(Random& random) noexcept
     return radius * std::cos(2.0 * std::numbers::pi * random.uniform());
 }
 
-/// Such numbers by a seed of their own.
+/// Gaussian random numbers from a seed.
 class Gaussian
 {
 public:

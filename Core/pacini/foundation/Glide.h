@@ -1,6 +1,6 @@
 #pragma once
 
-// Glide: a value on its straight way to where it was sent.
+// Glide: a value that moves linearly to its target.
 
 #include <pacini/foundation/Units.h>
 
@@ -16,7 +16,7 @@ namespace pacini
     return glide.value > 0.0 ? static_cast<std::size_t>(std::min(glide.value, 3600.0) * fs + 0.5) : 0;
 }
 
-/// A control value that moves in a straight line, one step a frame, so that blocks do not matter; it lands exactly.
+/// A control value that moves linearly, one step per frame, independent of block sizes; it reaches the target exactly.
 class Glide
 {
 public:

@@ -1,6 +1,6 @@
 #pragma once
 
-// Two doubles that are computed side by side.
+// Two doubles for parallel computation.
 
 #include <cmath>
 #include <cstdint>

@@ -65,8 +65,8 @@ inline std::optional<double> parseByStrtod(std::string_view text)
 
 } // namespace detail
 
-/// The number that the whole text is: digits with an optional minus sign, point and exponent, or "inf" or "nan";
-/// nothing for anything else, and for numbers that a double cannot hold.
+/// Parses the whole text as a number: digits with an optional minus sign, point and exponent, or "inf" or "nan";
+/// returns nothing for other text and for numbers beyond the range of a double.
 template <typename Number = double>
 [[nodiscard]] std::optional<Number> parseNumber(std::string_view text)
 {

@@ -1,6 +1,6 @@
 #pragma once
 
-// Result<T>: expected failures travel as values, either a T or an Error that says where and what.
+// Result<T>: a value or an Error with place and message, for expected failures.
 
 #include <cassert>
 #include <string>
@@ -10,7 +10,7 @@
 namespace pacini
 {
 
-/// What kind of failure an Error is; callers branch on this, people read the message.
+/// Kind of an Error. Callers branch on the code; the message is for people.
 enum class ErrorCode
 {
     invalidArgument,    ///< a parameter is outside its documented range
@@ -41,7 +41,7 @@ struct Error
     return {ErrorCode::cancelled, "", "was cancelled"};
 }
 
-/// Either a value or an Error. Asking for the one that is not there is a programming error (asserted).
+/// Either a value or an Error. Accessing the absent one is a programming error (asserted).
 template <typename T>
 class [[nodiscard]] Result
 {

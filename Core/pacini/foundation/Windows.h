@@ -1,6 +1,6 @@
 #pragma once
 
-// Window functions, and the windowed sinc that rate changers are designed with.
+// Window functions, and the windowed sinc for sample-rate converters.
 
 #include <cmath>
 #include <cstddef>

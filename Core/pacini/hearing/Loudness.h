@@ -1,6 +1,6 @@
 #pragma once
 
-// How loud and how sharp a sound is over time (ISO 532-1 for time-varying sounds, DIN 45692).
+// Loudness and sharpness of a sound over time (ISO 532-1 for time-varying sounds, DIN 45692).
 
 #include <pacini/hearing/LoudnessDecay.h>
 #include <pacini/hearing/SpecificLoudness.h>
@@ -15,9 +15,9 @@
 namespace pacini
 {
 
-/// What is heard of a sound, after Zwicker (ISO 532-1:2017, clause 6, free field), piece by piece. Silence has loudness
-/// 0; the tables end at 120 dB. Not real-time safe. The standard finds levels each .5 ms; what longer steps cost in
-/// error and gain in time is measured by `pacini bench match`.
+/// Measures loudness and sharpness after Zwicker (ISO 532-1:2017, clause 6, free field), piece by piece. Silence has
+/// loudness 0; the tables end at 120 dB. Not real-time safe. The standard finds levels each .5 ms; `pacini bench match`
+/// measures the error and the run time of longer steps.
 class LoudnessMeter
 {
 public:

@@ -1,6 +1,6 @@
 #pragma once
 
-// How loudness fades: forward masking, and the slow rise of the loudness of short sounds (ISO 532-1, 6.4 and 6.5).
+// Loudness over time: forward masking, and the slow rise of the loudness of short sounds (ISO 532-1, 6.4 and 6.5).
 
 #include <pacini/hearing/SpecificLoudness.h>
 

@@ -17,7 +17,7 @@ namespace pacini
 /// for the edge at 24 Bark.
 using CoreLoudness = std::array<double, 21>;
 
-/// Where the sound is on the scale of the ear: what is heard of one moment.
+/// Specific loudness pattern of one moment on the scale of the ear.
 struct LoudnessPattern
 {
     double total = 0.0;              ///< sone
@@ -63,7 +63,7 @@ inline constexpr std::array<CriticalBand, 20> criticalBands{{
     {-1.5, 3.0, 0.8, 20.6},  {2.0, 3.0, 0.5, 21.8},  {5.0, 3.0, 0.0, 22.7},  {12.0, 3.0, -0.5, 23.6},
 }};
 
-/// How steep the loudness falls towards higher bands, by its height and the band below: table A.9.
+/// Slope of the loudness towards higher bands, by its height and the band below: table A.9.
 struct UpperSlope
 {
     double above;                ///< sone per Bark: holds for heights above it

@@ -1,6 +1,6 @@
 #pragma once
 
-// Levels of 28 third-octave bands over time, as the ear's model of ISO 532-1 takes them in.
+// Levels of 28 third-octave bands over time, the input of the loudness model of ISO 532-1.
 
 #include <pacini/foundation/DspBlock.h>
 #include <pacini/foundation/Units.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-// Deconvolution: from what was played and what was recorded to the impulse response.
+// Deconvolution: computes the impulse response from the played and the recorded signal.
 
 #include <pacini/foundation/Fft.h>
 #include <pacini/foundation/SplitRealFft.h>

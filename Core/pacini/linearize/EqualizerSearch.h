@@ -1,6 +1,6 @@
 #pragma once
 
-// Model selection for an equalizer: finds how many sections it needs, and which.
+// Model selection for an equaliser: finds the number and the types of its sections.
 
 #include <pacini/linearize/EqualizerFitProblem.h>
 #include <pacini/linearize/EqualizerRefinement.h>

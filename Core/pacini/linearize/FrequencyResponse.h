@@ -35,7 +35,7 @@ struct FrequencyResponse
         return Error{code, "points[" + std::to_string(i) + "]." + part, message};
     };
     if (response.frequency.size() != response.level.size())
-        return Error{ErrorCode::invalidArgument, "points", "has not as many levels as frequencies"};
+        return Error{ErrorCode::invalidArgument, "points", "has a different number of levels and frequencies"};
     if (response.size() < FrequencyResponse::fewestPoints)
         return Error{ErrorCode::invalidData, "points", "has fewer than 8 points; measure at more frequencies"};
     if (response.size() > FrequencyResponse::maxPoints)
@@ -49,7 +49,7 @@ struct FrequencyResponse
             return wrong(i, "frequency", ErrorCode::invalidData, "must be 0.1 to 200000 Hz");
         if (i > 0 && f <= response.frequency[i - 1])
             return wrong(i, "frequency", ErrorCode::invalidData,
-                         "must be above the one before; sort the lines by frequency, each once");
+                         "must be above the one before; sort the lines by frequency, without duplicates");
         if (!std::isfinite(response.level[i]))
             return wrong(i, "level", ErrorCode::notFinite, "must be a finite number");
         if (std::abs(response.level[i]) > 400.0)

@@ -139,7 +139,7 @@ private:
     return {-before, -0.5 * before, 0.7 * reverberation, reverberation};
 }
 
-/// Power over frequency, with what of it is expected to be noise; two columns of equal length.
+/// Power over frequency, and its expected noise; two columns of equal length.
 struct NoisyPower
 {
     std::vector<double> frequency; ///< Hz

@@ -1,6 +1,6 @@
 #pragma once
 
-// Summary of a measurement: what all recordings of an actuator together say of it.
+// Summary of a measurement: results from all recordings of an actuator together.
 
 #include <pacini/linearize/ResponseFeatures.h>
 

@@ -46,7 +46,7 @@ namespace pacini
             return Error{ErrorCode::truncated, channelPath(c), "has no samples"};
         if (channels[c].size() != channels.front().size())
             return Error{channels[c].size() < channels.front().size() ? ErrorCode::truncated : ErrorCode::invalidData,
-                         channelPath(c), "has another length than the first channel; record all channels together"};
+                         channelPath(c), "differs in length from the first channel; record all channels together"};
         const auto bad =
             std::find_if(channels[c].begin(), channels[c].end(), [](float v) { return !std::isfinite(v); });
         if (bad != channels[c].end())

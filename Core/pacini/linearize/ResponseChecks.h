@@ -1,6 +1,6 @@
 #pragma once
 
-// Plausibility checks of responses: what shows in them that something is wrong with their recording.
+// Plausibility checks of responses: detect faults of their recordings.
 
 #include <pacini/linearize/LevelAnalysis.h>
 #include <pacini/linearize/RecordingChecks.h>
@@ -56,12 +56,12 @@ inline void warnOfResponses(std::span<const NoisyPower> channels, const SweepPar
         }
         std::nth_element(ratio.begin(), ratio.begin() + 30, ratio.end());
         if (ratio[30] < 2.0)
-            warnings.push_back({MeasurementDefect::noiseChannel, channelPath(c),
-                                "has noise but no response; it is turned across the movement, or the sensor is "
-                                "connected to another input"});
+            warnings.push_back(
+                {MeasurementDefect::noiseChannel, channelPath(c),
+                 "has noise but no response; turn its axis along the movement, or connect the sensor to this input"});
         else if (!equalized && ratio[30] > 100.0 && most < std::pow(10.0, 0.1) * least)
             warnings.push_back({MeasurementDefect::loopback, channelPath(c),
-                                "is flat within 1 dB: it carries the drive, not a movement"});
+                                "is flat within 1 dB: it contains the drive, not a movement"});
     }
 }
 

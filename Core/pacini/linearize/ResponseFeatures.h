@@ -124,7 +124,7 @@ struct ResponseFeatures
             response.samples[i] * std::polar(1.0, -w * (static_cast<double>(i) - static_cast<double>(response.origin)));
     const double final = std::abs(running);
     if (!(final > 0.0))
-        return Error{ErrorCode::truncated, "samples", "hold no response"};
+        return Error{ErrorCode::truncated, "samples", "contain no response"};
     const auto seconds = [&](double index)
     {
         return std::max(0.0, (index - static_cast<double>(response.origin)) / response.sampleRate);

@@ -112,7 +112,8 @@ namespace pacini
     const double low = std::max(measurement.lowFrequency, params.lowFrequency);
     const double high = std::min(measurement.highFrequency, params.highFrequency);
     if (!(high > 1.05 * low))
-        return Error{ErrorCode::invalidArgument, "measurement.lowFrequency", "leaves nothing of the sweep's range"};
+        return Error{ErrorCode::invalidArgument, "measurement.lowFrequency",
+                     "leaves no frequency of the sweep's range"};
     const double recordedSeconds = static_cast<double>(channels.front().size()) / recordingRate;
     const SweepSchedule schedule = makeSweepSchedule(params);
     const double needed = static_cast<double>(schedule.sweeps.back().startFrame - schedule.sweeps.front().startFrame) /
@@ -140,7 +141,7 @@ namespace pacini
                          "is " + std::to_string(rate) + " Hz, but the recording was made at " +
                              std::to_string(std::lround(*likelier)) + " Hz"};
     const Error nothing{ErrorCode::invalidData, "channels",
-                        "hold no sweep that stands out of the noise; check cables, levels and the sweep's settings"};
+                        "contain no sweep above the noise; check cables, levels and the settings of the sweep"};
     if (position.contrast < leastContrast)
         return nothing;
 
@@ -153,7 +154,7 @@ namespace pacini
         constexpr double slack = 0.01; // s, what the position of the strongest moment leaves open
         if (timing.arrival(start) < -slack || timing.arrival(start + params.duration) > recordedSeconds + slack)
             return Error{ErrorCode::truncated, "sweeps[" + std::to_string(k) + "]",
-                         "is not in the recording as a whole: it lasts from " + secondsText(timing.arrival(start)) +
+                         "is not completely in the recording: it lasts from " + secondsText(timing.arrival(start)) +
                              " to " + secondsText(timing.arrival(start + params.duration)) + ", the recording " +
                              secondsText(recordedSeconds)};
     }
@@ -164,7 +165,8 @@ namespace pacini
         const std::string text = std::to_string(std::lround(*result.driftPpm)) + " ppm";
         if (ppm > measurement.driftLimit)
             return Error{ErrorCode::invalidData, "clock",
-                         "player and recorder differ by " + text + "; use one device for both, or set its rate right"};
+                         "player and recorder differ by " + text +
+                             "; use one device for both, or correct its sample rate"};
         if (ppm > measurement.driftWarning)
             result.warnings.push_back({MeasurementDefect::clockDrift, "clock",
                                        "player and recorder differ by " + text + "; the result is corrected for it"});

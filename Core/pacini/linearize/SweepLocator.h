@@ -19,7 +19,7 @@
 namespace pacini
 {
 
-/// Where the responses to all sweeps stand out, on a grid of 1 ms.
+/// Positions of the responses to all sweeps, on a grid of 1 ms.
 struct SweepPosition
 {
     double start = 0.0;    ///< s of the recording at which playback began, to about 10 ms

@@ -1,6 +1,6 @@
 #pragma once
 
-// Result of a sweep measurement: what a recording of sweeps tells of an actuator.
+// Result of a sweep measurement: response, noise and distortion of an actuator.
 
 #include <pacini/foundation/Result.h>
 #include <pacini/linearize/FrequencyResponse.h>
@@ -15,7 +15,7 @@
 namespace pacini
 {
 
-/// What may be wrong with a recording whose result stands nevertheless.
+/// Possible defect of a recording whose result is still usable.
 enum class MeasurementDefect
 {
     clipping,      ///< samples at the limit of what can be recorded
@@ -27,7 +27,7 @@ enum class MeasurementDefect
     lowSnr,        ///< noise near the signal or above it
 };
 
-/// A defect, where it is, and how it reads.
+/// A defect, its place and its text.
 struct MeasurementWarning
 {
     MeasurementDefect code = MeasurementDefect::lowSnr;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Band level meter: how strong each band of a sound is, cheaply.
+// Band level meter: levels of the bands of a sound, at low cost.
 
 #include <pacini/filters/BandLayout.h>
 #include <pacini/filters/DesignLimits.h>

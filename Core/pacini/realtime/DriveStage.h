@@ -1,6 +1,6 @@
 #pragma once
 
-// Output stage of the translator: from what is to be felt to the drive of the actuator, at the inner rate.
+// Output stage of the translator: computes the drive of the actuator from the wanted vibration, at the inner rate.
 
 #include <pacini/actuator/LimiterGain.h>
 #include <pacini/actuator/MotorDrive.h>

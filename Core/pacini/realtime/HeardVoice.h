@@ -1,6 +1,6 @@
 #pragma once
 
-// Heard voice: what is heard above the range of touch, felt as strongly as it is loud.
+// Heard voice: sound above the range of touch, felt in proportion to its loudness.
 
 #include <pacini/filters/DesignLimits.h>
 #include <pacini/filters/StateVariable.h>

@@ -126,8 +126,8 @@ inline void adoptFilter(TranslatorDesign& design, const Profile& profile, const 
         design.plan.push_back({"equalizer[" + std::to_string(section.index) + "]", "is flat in the actuator's range"});
     if (!fit.flattening)
         design.plan.push_back({"flattening", profile.technology == Technology::erm
-                                                 ? "a motor has no resonance that a filter could undo"
-                                                 : "the equaliser does it"});
+                                                 ? "a motor has no resonance to flatten"
+                                                 : "the equaliser flattens the actuator"});
 }
 
 /// The limits that have to be guarded behind the drive stage.
@@ -151,7 +151,7 @@ inline void planSavings(TranslatorDesign& design, const std::optional<Profile>& 
         design.plan.push_back(
             {"protection", profile ? protectionText(*profile, design.motor.has_value()) : "no actuator is known"});
     if (known && design.levels.isIdentity())
-        design.plan.push_back({"dynamicRange", "the actuator shows all that is felt"});
+        design.plan.push_back({"dynamicRange", "the actuator covers the whole range of touch"});
 }
 
 /// Limits the range to what the inner rate can carry; few voices play where they are felt.

@@ -1,6 +1,6 @@
 #pragma once
 
-// Translator engine at the inner rate: what is heard, and what is to be felt.
+// Translator engine at the inner rate: analysis of the sound and synthesis of the vibration.
 
 #include <pacini/realtime/CarrierSection.h>
 #include <pacini/realtime/DriveStage.h>
@@ -64,8 +64,8 @@ private:
     double gain = 0.0;
 };
 
-/// Pulse voices. Pulses that begin at once; one more than there is room for takes the place of the oldest, which is
-/// then almost over.
+/// Pulse voices. Pulses start at once; when all voices are busy, a new pulse replaces the oldest, which has almost
+/// ended.
 class EventPulses
 {
 public:
@@ -214,8 +214,8 @@ public:
 
 private:
     static constexpr double baseThreshold = 1.0;
-    // An event shall be felt as strong as its peak below 3 kHz, within these parts of its full-band peak: a bright
-    // click holds little there, but shall be felt.
+    // The felt level of an event is its peak below 3 kHz, clamped to these shares of its full-band peak. Bright clicks
+    // have little energy below 3 kHz but must be felt.
     static constexpr double leastShare = 0.06;
     static constexpr double brightShare = 0.25;
 

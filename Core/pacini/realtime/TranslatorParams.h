@@ -11,7 +11,7 @@
 namespace pacini
 {
 
-/// Live parameters of one role (rumble, texture, transients). One part of what is felt.
+/// Live parameters of one role: rumble, texture or transients.
 struct RoleParams
 {
     double level = 0.0; ///< dB
@@ -53,32 +53,38 @@ inline constexpr std::array translatorParameters{
         {.name = "intensity", .text = "Gain of the drive", .unit = "dB", .range = {-60, 24}}),
     described<&TranslatorParams::brightness>(
         {.name = "brightness",
-         .text = "Level of sound above the range of touch, played as a tone of 200 Hz; the lowest is off",
+         .text =
+             "Level of sound above the range of touch, played as a tone of 200 Hz; the lowest value switches it off",
          .unit = "dB",
          .range = {lowestBrightness, 12}}),
     described<&TranslatorParams::audible>(
         {.name = "audible",
-         .text = "How far loudness drives what is heard above the range of touch; music keeps its beat at 0",
+         .text = "Influence of the loudness of sound above the range of touch; 0 keeps the beat of music",
          .range = {0, 1}}),
     described<&TranslatorParams::transposition>(
         {.name = "transposition", .text = "Shift in pitch", .unit = "semitones", .range = {-48, 48}}),
     described<&TranslatorParams::direct>(
         {.name = "direct",
-         .text = "Share of a band's own signal where the actuator can show it, against its carrier",
+         .text = "Share of the band's own signal against its carrier, where the actuator can reproduce it",
          .range = {0, 1}}),
     described<&TranslatorParams::attack>(
         {.name = "attack", .text = "Attack of the carriers' envelopes", .unit = "ms", .range = {0, 200}}),
     described<&TranslatorParams::release>(
         {.name = "release", .text = "Release of the carriers' envelopes", .unit = "ms", .range = {0, 1000}}),
     described<&TranslatorParams::transientSensitivity>(
-        {.name = "transientSensitivity", .text = "Higher values give weaker events a pulse", .range = {0, 1}}),
-    described<&TranslatorParams::transientSharpness>({.name = "transientSharpness",
-                                                      .text = "Makes pulses duller (-1, 100 Hz) or crisper (1, 280 Hz)",
-                                                      .range = {-1, 1}}),
+        {.name = "transientSensitivity",
+         .text = "Sensitivity to events; higher values also turn weaker events into pulses",
+         .range = {0, 1}}),
+    described<&TranslatorParams::transientSharpness>(
+        {.name = "transientSharpness",
+         .text = "Shift in the sharpness of pulses, from duller (-1, 100 Hz) to crisper (1, 280 Hz)",
+         .range = {-1, 1}}),
     described<&TranslatorParams::gateThreshold>(
-        {.name = "gateThreshold", .text = "Nothing is played below this level", .unit = "dB", .range = {-120, 0}}),
-    described<&TranslatorParams::gateRelease>(
-        {.name = "gateRelease", .text = "How long the gate stays open", .unit = "ms", .range = {1, 2000}}),
+        {.name = "gateThreshold", .text = "Level below which the gate closes", .unit = "dB", .range = {-120, 0}}),
+    described<&TranslatorParams::gateRelease>({.name = "gateRelease",
+                                               .text = "Time that the gate stays open below the threshold",
+                                               .unit = "ms",
+                                               .range = {1, 2000}}),
     described<&TranslatorParams::rumble, &RoleParams::level>(
         {.name = "rumble", .text = "Level of bands below 100 Hz", .unit = "dB", .range = {-60, 24}}),
     described<&TranslatorParams::rumble, &RoleParams::muted>({.name = "rumbleMuted", .text = "Mute these"}),
@@ -89,7 +95,7 @@ inline constexpr std::array translatorParameters{
         {.name = "transients", .text = "Level of the pulses of events", .unit = "dB", .range = {-60, 24}}),
     described<&TranslatorParams::transients, &RoleParams::muted>({.name = "transientsMuted", .text = "Mute these"}),
     described<&TranslatorParams::bypass>(
-        {.name = "bypass", .text = "Pass the input on, as late as the drive would be"}),
+        {.name = "bypass", .text = "Pass the input through, delayed by the latency of the translator"}),
 };
 
 /// `p` within its ranges. Where a value is not finite, that of `before`, which has valid ones, stays.

@@ -22,12 +22,12 @@ struct TranslatorPreset
 [[nodiscard]] inline const std::array<TranslatorPreset, 7>& translatorPresets() noexcept
 {
     static constexpr std::array<TranslatorPreset, 7> presets{{
-        {"Neutral", "the sound's own range of touch, events topped up", {}},
+        {"Neutral", "the sound's own range of touch, with stronger events", {}},
         {"Music",
          "a firm bass under a lighter body; only clear events",
          {.intensity = 3.0, .rumble = {2.0}, .texture = {-3.0}, .transients = {-3.0}, .transientSensitivity = 0.4}},
         {"Games and effects",
-         "strong impacts, full body, quick to speak",
+         "strong impacts, full body, fast attack",
          {.intensity = 6.0,
           .rumble = {3.0},
           .transients = {4.0},
@@ -43,12 +43,14 @@ struct TranslatorPreset
           .transientSensitivity = 0.4,
           .gateThreshold = -50.0,
           .gateRelease = 150.0}},
-        {"Rumble only", "what lies below 100 Hz", {.rumble = {0.0}, .texture = {0.0, true}, .transients = {0.0, true}}},
+        {"Rumble only",
+         "only sound below 100 Hz",
+         {.rumble = {0.0}, .texture = {0.0, true}, .transients = {0.0, true}}},
         {"Events only",
-         "a pulse for each event, nothing between",
+         "a pulse for each event, nothing between events",
          {.rumble = {0.0, true}, .texture = {0.0, true}, .transients = {12.0}}},
         {"Subtle",
-         "in the background, for long wearing",
+         "subtle, for long sessions",
          {.intensity = -9.0, .texture = {-3.0}, .transients = {-6.0}, .brightness = -12.0, .gateThreshold = -55.0}},
     }};
     return presets;

@@ -13,7 +13,7 @@
 namespace pacini
 {
 
-/// Configuration: what is decided once for a set-up of the translator.
+/// Configuration of the translator, fixed when it is set up.
 struct TranslatorSetup
 {
     std::optional<Profile> profile;     ///< valid; none: the drive signal as it is

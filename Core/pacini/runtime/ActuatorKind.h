@@ -1,6 +1,6 @@
 #pragma once
 
-// The actuators of an engine that have one profile: how clips are fitted to them, and what plays on them.
+// Actuators of an engine with the same profile: adaptation of clips to them, and their plays.
 
 #include <pacini/actuator/ActuatorFit.h>
 #include <pacini/runtime/EngineParams.h>

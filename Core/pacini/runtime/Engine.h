@@ -29,7 +29,7 @@
 namespace pacini
 {
 
-/// A play of an engine: a slot and how often it has been used. A play that has ended is not found any more.
+/// Identifier of a play: a slot and its use count. Identifiers of ended plays are invalid.
 struct PlayId
 {
     std::uint32_t slot = 0;
@@ -60,7 +60,7 @@ struct InTime
     std::size_t ahead = 0;
 };
 
-/// What an engine did, for reports.
+/// Statistics of an engine, for reports.
 struct EngineMeters
 {
     std::size_t playing = 0;     ///< plays that sound
@@ -270,7 +270,7 @@ public:
         if (!(wanted.nanosecondsPerFrame >= 0.0 && wanted.nanosecondsPerFrame <= 1e9))
             return Error{ErrorCode::invalidArgument, "budget", "must be 0 to 1e9 ns for a frame"};
         if (kinds.front().asRendered && (wanted.nanosecondsPerFrame > 0.0 || wanted.voices > 0))
-            return Error{ErrorCode::invalidArgument, "budget", "must be none where plays are as rendered"};
+            return Error{ErrorCode::invalidArgument, "budget", "must be unset for plays as rendered"};
         LiveCommand command;
         command.kind = LiveCommand::Kind::setBudget;
         command.value = wanted.nanosecondsPerFrame;
@@ -433,7 +433,7 @@ private:
     [[nodiscard]] Result<void> checkRoom(std::size_t wanted = 1) const
     {
         if (commands.room() < wanted)
-            return Error{ErrorCode::tooLarge, "commands", "too many wait: is the engine rendered?"};
+            return Error{ErrorCode::tooLarge, "commands", "too many commands are waiting; render the engine"};
         return {};
     }
 
@@ -517,7 +517,7 @@ private:
     {
         collect();
         if (free.empty())
-            return Error{ErrorCode::tooLarge, "plays", "as many play as the engine was made for"};
+            return Error{ErrorCode::tooLarge, "plays", "all voices of the engine are playing"};
         if (auto room = checkRoom(); !room)
             return room.error();
         for (const auto& [control, value] : values(settings.controls))

@@ -27,7 +27,7 @@ struct EngineActuator
     bool operator==(const EngineActuator&) const = default;
 };
 
-/// How much may play at a time. What does not fit is left out, least important first.
+/// Budget of simultaneous playback. The least important parts beyond it are skipped.
 struct EngineBudget
 {
     double nanosecondsPerFrame = 0.0; ///< by the predicted cost of plays; 0 = no limit
@@ -83,7 +83,7 @@ struct EngineParams
     if (!within(params.budget.nanosecondsPerFrame, 0.0, 1e9))
         return wrong("budget.nanosecondsPerFrame", "must be 0 to 1e9");
     if (params.asRendered && (params.budget.nanosecondsPerFrame > 0.0 || params.budget.voices > 0))
-        return wrong("budget", "must be none where plays are as rendered");
+        return wrong("budget", "must be unset for plays as rendered");
     for (std::size_t i = 0; i < params.actuators.size(); ++i)
     {
         const EngineActuator& actuator = params.actuators[i];

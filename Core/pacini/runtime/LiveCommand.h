@@ -13,7 +13,7 @@
 namespace pacini
 {
 
-/// What of a play, or of all plays of a group, can be changed while it plays.
+/// Live control of a play, or of all plays in a group.
 enum class LiveControl
 {
     gain,          ///< linear, 0 to 1000

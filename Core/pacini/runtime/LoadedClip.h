@@ -1,6 +1,6 @@
 #pragma once
 
-// A clip that is ready to be played: kept packed, unpacked when it plays, or as it is.
+// A clip ready for playback: stored packed and unpacked when it plays, or stored unpacked.
 
 #include <pacini/clip/Clip.h>
 #include <pacini/clip/PackedClip.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-// One play of an engine while it sounds: what was made for it beforehand, and what the audio thread does with it.
+// One active play of an engine: its prepared objects, and its processing on the audio thread.
 
 #include <pacini/foundation/Clamp.h>
 #include <pacini/foundation/DspBlock.h>
@@ -320,7 +320,7 @@ private:
     bool leaving = false;
 };
 
-/// One play, with what it plays and what of it was replaced and fades out.
+/// One play, with its current content and the replaced content that fades out.
 struct LivePlay
 {
     std::uint32_t slot = 0, generation = 0;

@@ -40,8 +40,8 @@ namespace limits
 inline constexpr std::size_t groups = 32;
 }
 
-/// Makes what plays. What it fitted to the actuators it remembers for the next play of the clip, up to some number of
-/// points. [message]
+/// Makes plays. Caches adapted clips for their next play, up to a maximum number of points.
+/// [message]
 class PlayMaker
 {
 public:
@@ -227,7 +227,7 @@ private:
             const auto perPass = static_cast<double>(breakpointCount(fitted) + fitted.transients.size() + 2);
             if (passes * perPass > mostPoints)
                 return Error{ErrorCode::tooLarge, "passes",
-                             "unroll to too many breakpoints (2 million are the most); make them fewer or endless"};
+                             "unroll to more than 2 million breakpoints; use fewer loops or an endless one"};
             clip = unrollLoop(fitted, settings.loop, static_cast<std::size_t>(passes), settings.variation);
             if (settings.passes == 0)
             {

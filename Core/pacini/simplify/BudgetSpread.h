@@ -18,8 +18,8 @@
 namespace pacini
 {
 
-/// Result of budget allocation. Who keeps what, and the price per point that decided it: a good first guess for a
-/// similar task.
+/// Result of budget allocation: the share of each curve, and the price per point, a good first guess for a similar
+/// task.
 struct BudgetShares
 {
     std::vector<KeptPoints> kept; ///< per curve
@@ -60,7 +60,7 @@ public:
         }
         if (budget < least)
             return Error{ErrorCode::invalidArgument, "budget",
-                         "is below the " + std::to_string(least) + " points that the curves keep at least"};
+                         "is below the " + std::to_string(least) + " points that the curves need at least"};
         Bracket found{leastAllocation(curves), {}, false, false};
         Allocation& best = found.few;
         if (budget >= most)

@@ -1,6 +1,6 @@
 #pragma once
 
-// Error measures of simplification: how far a simplified curve is from the dense one.
+// Error measures of simplification: deviation of a simplified curve from the dense one.
 
 #include <pacini/clip/Curve.h>
 #include <pacini/simplify/HatBasis.h>
@@ -21,7 +21,7 @@ struct CurveError
     double rms = 0.0;
 };
 
-/// What the mean of the RMS is taken over.
+/// Domain of the mean in the RMS error.
 enum class ErrorMean
 {
     points, ///< the dense curve's points, each counts the same

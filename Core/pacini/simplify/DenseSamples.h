@@ -1,6 +1,6 @@
 #pragma once
 
-// A dense curve as contiguous columns, and its squared vertical errors: what the squared-error simplifiers work on.
+// A dense curve as contiguous columns, and its squared vertical errors, for the squared-error simplifiers.
 
 #include <pacini/clip/Curve.h>
 

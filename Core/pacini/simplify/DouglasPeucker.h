@@ -1,6 +1,6 @@
 #pragma once
 
-// Ramer, Douglas and Peucker's line simplification: the point that matters most is kept first.
+// Line simplification by Ramer, Douglas and Peucker: keeps the most important point first.
 
 #include <pacini/simplify/ComputableCurve.h>
 #include <pacini/simplify/Deviation.h>

@@ -1,7 +1,7 @@
 #pragma once
 
-// Hat functions (linear interpolation basis): where points in time lie between the vertices of a curve, with the two
-// sides of a step told apart.
+// Hat functions (linear interpolation basis): places of points between the vertices of a curve, with separate sides of
+// a step.
 
 #include <pacini/clip/Curve.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// Exact simplification: the yardstick of the other methods, and the method of choice for short curves.
+// Optimal simplification: the reference for the other methods, and the best choice for short curves.
 
 #include <pacini/simplify/ComputableCurve.h>
 #include <pacini/simplify/DenseSamples.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-// Curve simplification, one door to all methods: turns a dense curve into few breakpoints.
+// Curve simplification by any method: reduces a dense curve to few breakpoints.
 
 #include <pacini/clip/Curve.h>
 #include <pacini/foundation/Result.h>
@@ -28,7 +28,7 @@
 namespace pacini
 {
 
-/// What Visvalingam's elimination leaves of a dense curve; each point stands for the samples halfway to its neighbours.
+/// A dense curve after Visvalingam's elimination; each point represents the samples halfway to its neighbours.
 class ThinnedSamples
 {
 public:

@@ -1,6 +1,6 @@
 #pragma once
 
-// Simplification of the lanes of a clip: fewer points, and what that costs.
+// Simplification of the lanes of a clip, with its error.
 
 #include <pacini/clip/edits/Lane.h>
 #include <pacini/simplify/CurveError.h>
@@ -15,7 +15,7 @@
 namespace pacini
 {
 
-/// What simplification did to one lane. Errors in the lane's unit, over time.
+/// Result of simplifying one lane. Errors are in the lane's unit, over time.
 struct SimplifiedLane
 {
     Lane lane;

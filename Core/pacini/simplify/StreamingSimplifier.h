@@ -14,7 +14,7 @@
 namespace pacini
 {
 
-/// What a streaming simplifier holds to.
+/// Criterion of a streaming simplifier.
 enum class StreamingRule
 {
     tolerance, ///< a bound of the vertical error: swing filter

@@ -1,6 +1,6 @@
 #pragma once
 
-// Visvalingam and Whyatt's line simplification: the point that matters least goes first.
+// Line simplification by Visvalingam and Whyatt: removes the least important point first.
 
 #include <pacini/simplify/ComputableCurve.h>
 #include <pacini/simplify/Deviation.h>

@@ -1,7 +1,7 @@
 #pragma once
 
-// The output chain of one actuator: equaliser or motor drive, headroom, protection. It stands between the sum of all
-// plays and the drive signal.
+// The output chain of one actuator: equaliser or motor drive, headroom, protection. It computes the drive signal from
+// the sum of all plays.
 
 #include <pacini/actuator/LevelLimiter.h>
 #include <pacini/actuator/MotorDrive.h>
@@ -18,8 +18,8 @@
 namespace pacini
 {
 
-/// Output chain of one actuator. Made for the profile of a plan. Where there is none full drive is the one limit that
-/// is known.
+/// Output chain of one actuator, for the profile of a plan. Without a profile, full drive is the only
+/// limit.
 class ActuatorOutput
 {
 public:

@@ -11,7 +11,7 @@
 namespace pacini
 {
 
-/// Parameters of the adaptation: what is left to the adaptation to do; by default all of it.
+/// Parameters of the adaptation: the steps to do; by default all.
 struct AdaptationParams
 {
     bool frequencies = true;  ///< move what is outside the actuator's range into it

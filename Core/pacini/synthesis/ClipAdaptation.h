@@ -1,6 +1,6 @@
 #pragma once
 
-// Adaptation of a clip to an actuator: what it can show of it.
+// Adaptation of a clip to the abilities of an actuator.
 
 #include <pacini/actuator/ActuatorFit.h>
 #include <pacini/actuator/DynamicRangeMap.h>
@@ -183,7 +183,7 @@ inline Curve curveThrough(const std::vector<double>& samples, double step, doubl
         if (!map.isIdentity())
         {
             detail::mapLevels(adapted, map);
-            result.changes.push_back("levels are pressed into " +
+            result.changes.push_back("levels are compressed into " +
                                      std::to_string(static_cast<int>(std::lround(range.actuatorRange.value))) + " dB");
         }
     }

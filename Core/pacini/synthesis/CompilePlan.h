@@ -76,7 +76,7 @@ inline void limitVoices(RenderPlan& plan, const Scene& scene, const Profile& pro
             lost += loss.to - loss.from;
         plan.adaptations.push_back(
             {indexed("plays", planned.play), "has no voice for " + std::to_string(std::lround(1000.0 * lost)) +
-                                                 " ms: plays of more priority or strength have them"});
+                                                 " ms: plays with higher priority or level use them"});
     }
 }
 
@@ -208,9 +208,9 @@ inline Result<Clip> bakedClip(const Clip& clip, const ScenePlay& play, const Pla
         const double passes = passesOf(play, timeline, duration);
         const double perPass = static_cast<double>(breakpointCount(clip) + clip.transients.size()) + 2.0;
         if (passes * perPass + static_cast<double>(points) > static_cast<double>(maxUnrolledPoints))
-            return Error{ErrorCode::tooLarge, where + ".loop",
-                         "unrolls to too many breakpoints (20 million are the most of a scene); make the loop "
-                         "longer or its passes fewer"};
+            return Error{
+                ErrorCode::tooLarge, where + ".loop",
+                "unrolls to more than 20 million breakpoints in the scene; make the loop longer, or use fewer passes"};
         played = unrollLoop(clip, play.loop, static_cast<std::size_t>(std::max(1.0, passes)), play.variation);
     }
     else

@@ -59,7 +59,7 @@ inline double errorInDecibels(double energy, double whole)
                                        : -std::numeric_limits<double>::infinity();
 }
 
-/// Candidate for culling: a whole play or one band of it, and what leaving it out costs at most.
+/// Candidate for culling: a whole play or one of its bands, and the largest error of skipping it.
 struct Dispensable
 {
     double energy;
@@ -137,7 +137,7 @@ inline double leaveOutWeak(RenderPlan& plan, const Scene& scene, std::span<const
         }
         else
             playOut[candidate.planned] = true;
-        plan.leftOut.push_back({where, candidate.energy > 0.0 ? "is too weak to matter" : "is silent",
+        plan.leftOut.push_back({where, candidate.energy > 0.0 ? "is too weak to be perceived" : "is silent",
                                 errorInDecibels(candidate.energy, whole)});
     }
     removeMarked(plan, playOut, bandOut);

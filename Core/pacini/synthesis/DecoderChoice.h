@@ -10,7 +10,7 @@
 namespace pacini
 {
 
-/// Overrides of decoder parameters: what a user fixes; the rest follows from the method that made the clip.
+/// Overrides of decoder parameters by the user; unset ones follow from the method that made the clip.
 struct DecoderChoice
 {
     std::optional<CarrierMode> carriers;

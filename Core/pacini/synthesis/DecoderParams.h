@@ -15,7 +15,7 @@
 namespace pacini
 {
 
-/// Carrier frequency mode: where a band's sinusoid stands.
+/// Carrier frequency mode: frequency of a band's sinusoid.
 enum class CarrierMode
 {
     fixed,    ///< at the band's centre frequency
@@ -83,7 +83,7 @@ struct DecoderChange
     return highest;
 }
 
-/// What a decoder plays, and what it leaves out because it would not be heard.
+/// Content of a decoder, with its skipped, imperceptible parts.
 struct DecoderReport
 {
     double innerRate = 0.0; ///< Hz at which the sinusoids are summed

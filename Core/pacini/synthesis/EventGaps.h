@@ -1,6 +1,6 @@
 #pragma once
 
-// Gaps before events: what lets an event stand out of what sounds around it.
+// Gaps before events, which make an event stand out of its surroundings.
 
 #include <pacini/clip/Clip.h>
 #include <pacini/foundation/Units.h>
@@ -15,9 +15,9 @@
 namespace pacini
 {
 
-/// Parameters of the gaps. A touch is told from what it follows by how far the level rises within some 10 ms: skin and
-/// actuator remember that long (gap detection: G. Gescheider, "Auditory and cutaneous temporal resolution of successive
-/// brief stimuli", 1967). The values were found by trial on the annotated recordings of the corpus.
+/// Parameters of the gaps. Skin detects a new event by the rise of the level within some 10 ms, the memory of skin and
+/// actuator (gap detection: G. Gescheider, "Auditory and cutaneous temporal resolution of successive brief stimuli",
+/// 1967). The values were found by trial on the annotated recordings of the corpus.
 struct EventGapParams
 {
     double rise = 22.0;   ///< dB by which the level is to rise from the gap to the event; softer events get it as far

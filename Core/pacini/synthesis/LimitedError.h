@@ -1,6 +1,6 @@
 #pragma once
 
-// Error bound behind a limiter: what leaving something out costs there.
+// Error bound behind a limiter, for parts that are skipped before it.
 
 #include <pacini/actuator/LimiterGain.h>
 #include <pacini/actuator/Profile.h>
@@ -93,8 +93,8 @@ struct CellTrack
     }
 };
 
-/// What a play sends to an actuator over time, read off its curves: squares of amplitudes, which add up over bands. The
-/// mean square is half of that.
+/// Power that a play sends to an actuator over time, computed from its curves: squared amplitudes, summed over bands.
+/// The mean square is half of that.
 class PlaySquares
 {
 public:

@@ -17,7 +17,7 @@
 namespace pacini
 {
 
-/// A row of actuators of which some are played here.
+/// A row of actuators, some of which are rendered here.
 struct ActuatorRow
 {
     std::vector<std::size_t> places; ///< of each channel, in the whole row
@@ -34,7 +34,7 @@ struct ActuatorRow
     return row;
 }
 
-/// What one actuator gets along a chord, by frames since it began.
+/// Send level of one actuator along a chord, by frames since the start.
 struct SendPiece
 {
     double level = 0.0, levelStep = 0.0;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Playback position: how far a clip has got, while its speed and pitch change.
+// Playback position in a clip whose speed and pitch change.
 
 #include <algorithm>
 #include <cassert>

@@ -1,6 +1,6 @@
 #pragma once
 
-// Energy estimates: how much of a scene's energy its parts carry, read off their curves without rendering.
+// Energy estimates of the parts of a scene, computed from their curves without rendering.
 
 #include <pacini/clip/Clip.h>
 #include <pacini/filters/BiquadCascade.h>

@@ -105,7 +105,7 @@ enum class RoleFader
 };
 inline constexpr std::size_t roleFaderCount = 2;
 
-/// What the decoder of a voice is made for.
+/// Set-up of the decoder of a voice.
 struct VoiceParams
 {
     const BiquadCascadeCoefficients* filter = nullptr; ///< behind the decoder; null = none

@@ -1,6 +1,6 @@
 #pragma once
 
-// Pulse level: how strong the pulse of an event is beside the bands.
+// Pulse level: level of an event's pulse beside the bands.
 
 #include <pacini/clip/Clip.h>
 

@@ -20,7 +20,7 @@
 namespace pacini
 {
 
-/// Who feels a rendering, and in which unit.
+/// Parameters of rendering the acceleration of the skin: wearer and unit.
 struct FeltParams
 {
     unsigned wearer = 0;      ///< see bodyOn
@@ -55,21 +55,22 @@ inline constexpr std::array renderParameters{
                                                                    .range = {limits::lowestRate, limits::highestRate}}),
     described<&RenderParams::adjustment, &SceneAdjustment::gain>(
         {.name = "gain",
-         .text = "Gain; what would then exceed full drive (1), or a limit of the profile, is turned down while it does",
+         .text = "Gain; the limiter keeps the result within full drive (1) and the limits of the profile",
          .unit = "dB",
          .range = {-120, 60}}), // a scene is silent below
-    described<&RenderParams::adjustment, &SceneAdjustment::transposition>({.name = "transpose",
-                                                                           .member = "transposition",
-                                                                           .text = "Transposition; time stays",
-                                                                           .unit = "semitones",
-                                                                           .range = {-96, 96}}),
+    described<&RenderParams::adjustment, &SceneAdjustment::transposition>(
+        {.name = "transpose",
+         .member = "transposition",
+         .text = "Transposition, without a change of length",
+         .unit = "semitones",
+         .range = {-96, 96}}),
     described<&RenderParams::adjustment, &SceneAdjustment::stretch>(
-        {.name = "stretch", .text = "Length factor; pitch stays", .range = {0.01, 100}}),
+        {.name = "stretch", .text = "Length factor, without a change of pitch", .range = {0.01, 100}}),
     described<&RenderParams::adjustment, &SceneAdjustment::delay>(
         {.name = "delay", .text = "Silence before the start", .unit = "s", .range = {0, 3600}}), // of a decoder
     described<&RenderParams::from>({.name = "start",
                                     .option = "from",
-                                    .text = "Start of the part to render; what came before is played unheard",
+                                    .text = "Start of the part to render; earlier parts still shape its beginning",
                                     .unit = "s",
                                     .range = {0, limits::duration}}),
     described<&RenderParams::to>({.name = "end",
@@ -80,22 +81,22 @@ inline constexpr std::array renderParameters{
                                   .usualText = "the end"}),
     described<&RenderParams::adjustment, &SceneAdjustment::variation, &VariationParams::amount>(
         {.name = "variation",
-         .text = "Random variation of the bands; in a scene, of the plays that have none",
+         .text = "Random variation of the bands; in a scene, for plays without a variation of their own",
          .range = {0, 1}}),
     described<&RenderParams::adjustment, &SceneAdjustment::variation, &VariationParams::scope>(
         {.name = "variationPer",
-         .text = "One random factor per breakpoint or per band",
+         .text = "Scope of the variation: one random factor per breakpoint or per band",
          .choices = variationScopeNames}),
     described<&RenderParams::compile, &CompileParams::decoder, &DecoderChoice::carriers>(
         {.name = "carriers",
-         .text = "Sinusoids at fixed centres, on the pitch curves, or moving with the centroid",
+         .text = "Frequencies of the sinusoids: fixed centres, pitch curves, or moving with the centroid",
          .choices = carrierModeNames,
          .usualText = "as the clip was made",
          .unsetWord = "auto"}),
     described<&RenderParams::compile, &CompileParams::decoder, &DecoderChoice::followEnvelope>(
         {.name = "followEnvelope",
          .option = "envelope",
-         .text = "Level the sum of the bands to the total envelope",
+         .text = "Match the sum of the bands to the total envelope",
          .usualText = "as the clip was made",
          .unsetWord = "auto"}),
     described<&RenderParams::compile, &CompileParams::decoder, &DecoderChoice::pulseShape>(
@@ -114,24 +115,25 @@ inline constexpr std::array renderParameters{
         {.name = "pulseCycles", .text = "Periods of square and sine pulses", .range = {0.1, 100}}),
     described<&RenderParams::compile, &CompileParams::tolerance>(
         {.name = "tolerance",
-         .text = "Largest error that everything left out may cause together, relative to the whole",
+         .text = "Largest total error from skipping inaudible and imperceptible parts, relative to the whole",
          .unit = "dB",
          .range = {-300, 0}}),
     described<&RenderParams::compile, &CompileParams::adaptation, &AdaptationParams::mapping>(
         {.name = "mapping",
-         .text = "Frequencies outside the actuator's range: to the nearest end, spread over it, or by octaves into it",
+         .text = "Mapping of frequencies outside the actuator's range: clamped to its ends, rescaled to fit, or folded "
+                 "by octaves",
          .choices = frequencyMappingNames,
          .usualText = "as the profile says",
          .unsetWord = "profile"}),
     described<&RenderParams::compile, &CompileParams::adaptation, &AdaptationParams::maxBoost>(
         {.name = "maxBoost",
-         .text = "How far the drive may be raised to flatten the actuator's resonance; 0 leaves the resonance",
+         .text = "Largest boost for flattening the actuator's resonance; 0 leaves the resonance as it is",
          .unit = "dB",
          .range = {0, 40}}),
     described<&RenderParams::compile, &CompileParams::adaptation, &AdaptationParams::strength>(
         {.name = "strength",
-         .text = "Trade of likeness for strength on resonant actuators: 0 plays as flat as can be, 1 all of it on the "
-                 "resonance",
+         .text = "Balance of fidelity and felt level on resonant actuators: 0 plays as flat as possible, 1 plays "
+                 "everything on the resonance",
          .range = {0, 1}}),
 };
 
@@ -139,16 +141,17 @@ inline constexpr std::array renderParameters{
 inline constexpr std::array feltParameters{
     described<&FeltParams::fullScale>({.name = "fullScale",
                                        .option = "feltFullScale",
-                                       .text = "Acceleration that is felt at a sample of 1",
+                                       .text = "Acceleration that a sample of 1 stands for",
                                        .unit = "m/s^2",
                                        .range = {1e-3, 1e6}}),
-    described<&FeltParams::wearer>({.name = "wearer",
-                                    .text = "Whose skin feels it: 0 as in the profile, 1 to 14 simulated people "
-                                            "whose skin has half to twice its mass, stiffness and damping (assumed)",
-                                    .range = {0, simulatedWearers}}),
+    described<&FeltParams::wearer>(
+        {.name = "wearer",
+         .text = "Wearer: 0 has the skin of the profile, 1 to 14 are simulated people with half to "
+                 "twice its mass, stiffness and damping (assumed)",
+         .range = {0, simulatedWearers}}),
 };
 
-/// What a rendering was made of.
+/// Report of a rendering.
 struct RenderReport
 {
     std::size_t actuators = 1;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Render plan: what a scene needs, and what it can do without.
+// Render plan: the needed and the skipped parts of a scene.
 
 #include <pacini/actuator/OutputFilter.h>
 #include <pacini/actuator/Profile.h>
@@ -39,7 +39,7 @@ struct LeftOut
     bool operator==(const LeftOut&) const = default;
 };
 
-/// Report of the adaptation: what was changed to fit the actuator.
+/// Report of the adaptation: changes made for the actuator.
 struct Adaptation
 {
     std::string where; ///< such as `clips[2]`
@@ -47,7 +47,7 @@ struct Adaptation
     bool operator==(const Adaptation&) const = default;
 };
 
-/// Report of a play: what its decoder was made to play.
+/// Report of a play: content of its decoder.
 struct DecodedPlay
 {
     std::size_t play = 0;  ///< index into the scene's plays

@@ -210,11 +210,11 @@ inline Result<RenderPart> renderPart(const RenderParams& params, std::uint64_t t
     if (params.felt)
     {
         if (profile == nullptr)
-            return Error{ErrorCode::invalidArgument, "profile", "is needed to know what is felt"};
+            return Error{ErrorCode::invalidArgument, "profile", "is needed to predict the acceleration of the skin"};
         felt = feltSettingsOf(*profile, params.felt->wearer, params.felt->fullScale);
         if (!felt)
             return Error{ErrorCode::invalidData, "body",
-                         "is missing in this profile, so nothing is known of what is felt"};
+                         "is missing in this profile, so the acceleration of the skin cannot be predicted"};
     }
     const std::size_t plays = scene.plays.size();
     std::vector<std::string> names;

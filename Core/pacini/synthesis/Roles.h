@@ -1,6 +1,6 @@
 #pragma once
 
-// Roles: what a clip is made of, and the levels at which a play mixes them.
+// Roles: the parts of a clip, and their levels in the mix of a play.
 
 #include <pacini/clip/Clip.h>
 

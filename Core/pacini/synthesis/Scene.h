@@ -1,6 +1,6 @@
 #pragma once
 
-// A scene: clips that play together, and what happens to them. A plain value; validate() states the rules.
+// A scene: clips that play together, with changes over time. A plain value; validate() states the rules.
 
 #include <pacini/clip/Clip.h>
 #include <pacini/foundation/Result.h>
@@ -21,7 +21,7 @@
 namespace pacini
 {
 
-/// Pan law: how a play is placed between actuators, which stand in a row from pan 0 to pan 1.
+/// Pan law: placement of a play between actuators, which form a row from pan 0 to pan 1.
 enum class PanLaw
 {
     constantPower, ///< by level between the two nearest actuators; the power stays
@@ -100,7 +100,7 @@ struct SceneChange
     bool operator==(const SceneChange&) const = default;
 };
 
-/// Clips, their plays and what changes over time.
+/// Clips, their plays and changes over time.
 struct Scene
 {
     std::string name;
@@ -140,7 +140,7 @@ inline constexpr double playDelay = 1.0;     ///< s
     return dB <= limits::silentGain ? 0.0 : Decibels(dB).gain();
 }
 
-/// Range of a parameter, and how it is told.
+/// Range of a parameter, and its text.
 struct ParameterRange
 {
     const char* name;

@@ -12,7 +12,7 @@
 namespace pacini
 {
 
-/// What is done to a whole scene.
+/// Adjustments of a whole scene.
 struct SceneAdjustment
 {
     double gain = 0.0;          ///< dB

@@ -13,7 +13,7 @@
 namespace pacini
 {
 
-/// What formats with a single sinusoid hold. The curves start at 0 and end at the duration.
+/// Content of formats with a single sinusoid. The curves start at 0 and end at the duration.
 struct SingleVoice
 {
     double duration = 0.0; ///< s

@@ -1,6 +1,6 @@
 #pragma once
 
-// Transient pulse: the short waveform that stands for an event.
+// Transient pulse: the short waveform of an event.
 
 #include <pacini/actuator/TransientShape.h>
 

@@ -11,7 +11,7 @@
 namespace pacini
 {
 
-/// What is varied together.
+/// Scope of the variation.
 enum class VariationScope
 {
     breakpoint, ///< every breakpoint of a band's amplitude gets its own factor

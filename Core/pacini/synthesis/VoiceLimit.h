@@ -12,7 +12,7 @@
 namespace pacini
 {
 
-/// Request for voices: what a play wants of an actuator.
+/// Request of a play for voices of an actuator.
 struct VoiceClaim
 {
     double from = 0.0, to = 0.0; ///< s

@@ -1,6 +1,6 @@
 #pragma once
 
-// The benchmarks of `pacini bench`: what each measures on a sound, and the columns of its table.
+// The benchmarks of `pacini bench`: measurement of a sound, and columns of the table.
 
 #include "cli/BenchOptions.h"
 #include "cli/bench/BenchSound.h"

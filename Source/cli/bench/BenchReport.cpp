@@ -117,7 +117,7 @@ Result<std::vector<std::filesystem::path>> writeReport(const BenchReport& report
     if (replaceable != Replaceable::any && !isReport(folder / (name + ".json"), name))
         for (const std::string& file : names)
             if (isOccupied(folder / file))
-                return notReplaced(folder / file, "exists, beside no report of this bench");
+                return notReplaced(folder / file, "exists without a report of this bench; name another folder");
     std::vector<std::filesystem::path> written;
     const auto write = [&](const std::string& file, const std::string& text) -> Result<void>
     {

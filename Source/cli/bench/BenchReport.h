@@ -1,6 +1,6 @@
 #pragma once
 
-// Report of a benchmark: its tables, and the files that keep them (CSV, JSON, figures).
+// Report of a benchmark: its tables and their files (CSV, JSON, figures).
 
 #include "cli/Overwrite.h"
 #include "cli/bench/Bench.h"

@@ -153,7 +153,7 @@ Exit runBenches(const BenchOptions& options, Console& console)
         if (options.overwriting.keepsAll() && isOccupied(fs::path(options.output) / (report.bench.name + ".json")))
         {
             console.note(
-                fmt::format("{}.json in {} exists and was left", report.bench.name, printable(options.output)));
+                fmt::format("{}.json in {} exists and was kept", report.bench.name, printable(options.output)));
             continue;
         }
         auto files = writeReport(report, options.output, options.format, options.overwriting.of(false));

@@ -23,7 +23,7 @@ Result<std::optional<std::vector<double>>> listedTimes(const std::filesystem::pa
     const auto wrong = [&file](const std::string& where)
     {
         return Error{ErrorCode::invalidData, file.filename().string() + where,
-                     "is not an object of lists of times in seconds, one list for a file name"};
+                     "must be an object with a list of times in seconds for each file name"};
     };
     if (!lists.is_object())
         return wrong("");
@@ -56,7 +56,7 @@ Result<BenchSound> readBenchSound(const std::filesystem::path& path)
     const auto channels = static_cast<std::size_t>(sound.channels);
     sound.mono.resize(sound.interleaved.size() / channels);
     if (sound.mono.empty())
-        return Error{ErrorCode::invalidData, "", "holds no sound"};
+        return Error{ErrorCode::invalidData, "", "contains no sound"};
     for (std::size_t i = 0; i < sound.mono.size(); ++i)
     {
         double sum = 0.0;

@@ -31,7 +31,7 @@ constexpr int points = 256;
 
 using Gain = std::function<std::complex<double>(double)>; ///< at f Hz
 
-/// A response as measured and as it is.
+/// A response, with and without measurement noise.
 struct Measured
 {
     FrequencyResponse response;

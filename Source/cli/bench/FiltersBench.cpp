@@ -113,7 +113,7 @@ struct UsualStateVariable
     }
 };
 
-/// Pacini's section as it is.
+/// Pacini's section, unchanged.
 struct Section
 {
     Section(const BiquadParams& params, double fs) : coefficients(designStateVariable(params, fs)) {}

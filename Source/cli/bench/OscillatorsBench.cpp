@@ -260,7 +260,7 @@ constexpr std::array oscillatorForms = {
     OscillatorForm{"rotation, float", play<Rotation<float>>},
 };
 
-/// What a window is beside a sin(2 pi (phi + error)) + noise.
+/// Fit of a window by a sin(2 pi (phi + error)) + noise.
 struct WindowError
 {
     double phase, amplitude, noise, whole;

@@ -26,7 +26,7 @@ using Curves = std::vector<Curve>;
 
 constexpr double simplifyExcerpt = 4.0; // s of each sound: the exact method takes minutes for more
 
-/// What the points of a simplification are chosen for.
+/// Criterion by which a simplification chooses its points.
 enum class GoalKind
 {
     count, ///< so many points per second and curve

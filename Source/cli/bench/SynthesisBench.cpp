@@ -80,7 +80,7 @@ Signal sines(const std::vector<Carrier>& carriers, std::size_t frames)
     return signal;
 }
 
-/// A complex number that is turned once per frame; by how much is looked up every 64 frames only.
+/// A complex number that rotates once per frame, by an angle that is updated every 64 frames.
 template <typename Real>
 Signal rotations(const std::vector<Carrier>& carriers, std::size_t frames)
 {

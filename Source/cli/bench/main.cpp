@@ -1,4 +1,4 @@
-// The program pacini-bench, which measures what `pacini bench` is asked for.
+// The program pacini-bench, which runs the measurements of `pacini bench`.
 
 #include "cli/Command.h"
 #include "cli/Process.h"

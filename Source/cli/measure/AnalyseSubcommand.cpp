@@ -131,7 +131,7 @@ std::string text(const AnalysedRecordings& analysed, const MeasurementFindings& 
     return lines;
 }
 
-/// `pacini measure analyse`: what recordings of a sweep tell of an actuator.
+/// `pacini measure analyse`: computes the response of an actuator from recordings of a sweep.
 class AnalyseSubcommand : public Command
 {
 public:
@@ -152,14 +152,14 @@ private:
 
 CLI::App* AnalyseSubcommand::declare(CLI::App& app)
 {
-    auto* command = app.add_subcommand("analyse", "Find the response of an actuator from recordings of a sweep");
+    auto* command = app.add_subcommand("analyse", "Compute the response of an actuator from recordings of a sweep");
     options.declare(*command);
     addOption(*command, "-o,--output", output, "Profile (.json) or table (.csv) to write", "OUT");
-    addOption(*command, "--profile", base, "Profile for what was not measured, such as drive limits", "PROFILE");
+    addOption(*command, "--profile", base, "Profile with the unmeasured values, such as drive limits", "PROFILE");
     addOption(*command, "--name", name, "Name of the profile to write", "NAME");
     addOption(*command, "--plot", picture, "Picture of all responses and the distortion (.png, .svg or .pdf)",
               "PICTURE");
-    addPreset(*command, "--distortion-limit", distortionLimit, "Distortion for which the drive level is reported, %",
+    addPreset(*command, "--distortion-limit", distortionLimit, "Distortion whose drive level is reported, %",
               numberFrom(0.01, 100.0), "%");
     command->footer(
         "Examples:\n  pacini measure analyse rec.wav --sweep sweep.json --full-scale 5g -o mine.json\n"
@@ -171,12 +171,11 @@ Exit AnalyseSubcommand::run(Console& console)
 {
     const std::string extension = lowerExtension(output);
     if (!output.empty() && extension != ".json" && extension != ".csv")
-        return console.fail(output, {ErrorCode::invalidArgument, "", "has neither the extension .json nor .csv"},
+        return console.fail(output, {ErrorCode::invalidArgument, "", "must have the extension .json or .csv"},
                             Exit::usage);
     if (!picture.empty() && !plot::pictureFormatOf(picture))
-        return console.fail(picture,
-                            {ErrorCode::invalidArgument, "--plot", "has none of the extensions .png, .svg and .pdf"},
-                            Exit::usage);
+        return console.fail(
+            picture, {ErrorCode::invalidArgument, "--plot", "must have the extension .png, .svg or .pdf"}, Exit::usage);
     for (const std::string& result : {output, picture})
         if (!result.empty() && sameFileKey(result) == sameFileKey(options.sweep))
             return console.fail(
@@ -199,8 +198,8 @@ Exit AnalyseSubcommand::run(Console& console)
     if (!analysed)
         return Exit::failed;
     if (!analysed->sweep.equalizedFor.empty())
-        console.warning(options.sweep, fmt::format("went through the equaliser of '{}': this is its response with the "
-                                                   "equaliser; 'pacini measure verify' judges it",
+        console.warning(options.sweep, fmt::format("was played through the equaliser of '{}', so this response "
+                                                   "includes the equaliser; check it with 'pacini measure verify'",
                                                    analysed->sweep.equalizedFor));
     const auto findings = findingsOf(*analysed, options.smoothingOctaves(), distortionLimit);
     if (!findings)

@@ -34,7 +34,7 @@ namespace
 {
 using Json = nlohmann::ordered_json;
 
-/// What there is to be flattened, and the profile that the equaliser goes into.
+/// The response to flatten, and the profile that receives the equaliser.
 struct Fitted
 {
     FrequencyResponse response;
@@ -52,7 +52,7 @@ Result<Fitted> openInput(Console& console, const std::string& input)
         console.warnings(input, warnings.texts());
         if (!(*profile)->measurement || (*profile)->measurement->points.empty())
             return Error{ErrorCode::invalidData, "measurement",
-                         "is missing in this profile; 'pacini measure analyse' makes one from recordings"};
+                         "is missing in this profile; 'pacini measure analyse' measures it from recordings"};
         FrequencyResponse response = measuredResponse(*(*profile)->measurement);
         return Fitted{std::move(response), std::move(**profile), true};
     }
@@ -148,14 +148,16 @@ private:
 
 CLI::App* FitSubcommand::declare(CLI::App& app)
 {
-    auto* command = app.add_subcommand("fit", "Find the equaliser that makes a measured response flat");
-    addOption(*command, "response", input, "CSV of frequency (Hz) and level (dB), or a profile with a measurement",
-              "RESPONSE")
+    auto* command = app.add_subcommand("fit", "Fit the equaliser that flattens a measured response");
+    addOption(*command, "response", input,
+              "CSV file with frequency (Hz) and level (dB), or a profile with a measurement", "RESPONSE")
         ->required();
-    addOption(*command, "-o,--output", output, "Profile to write with the equaliser in it", "PROFILE.json");
-    addOption(*command, "--profile", base, "Profile that -o starts from when RESPONSE is a CSV", "PROFILE");
+    addOption(*command, "-o,--output", output, "Profile to write, with the equaliser", "PROFILE.json");
+    addOption(*command, "--profile", base, "Profile that receives the equaliser when RESPONSE is a CSV file",
+              "PROFILE");
     addOption(*command, "--plot", picture, "Picture of the response before and after (.png, .svg or .pdf)", "PICTURE");
-    addPreset(*command, "--sections", sections, "Number of sections, 1 to 16, or auto: as few as will do",
+    addPreset(*command, "--sections", sections,
+              "Number of sections, 1 to 16, or auto for the smallest sufficient number",
               CLI::Validator(
                   [](const std::string& text)
                   {
@@ -166,22 +168,20 @@ CLI::App* FitSubcommand::declare(CLI::App& app)
                   },
                   "", "sections"),
               "K|auto");
-    addPreset(*command, "--rate", rate, "Sample rate at which the equaliser will run, Hz", numberFrom(1000.0, 1e7),
-              "HZ");
-    addPreset(*command, "--max-boost", maxBoost, "Most that any frequency may be raised, dB", numberFrom(0.0, 40.0),
-              "DB");
+    addPreset(*command, "--rate", rate, "Sample rate of the equaliser, Hz", numberFrom(1000.0, 1e7), "HZ");
+    addPreset(*command, "--max-boost", maxBoost, "Maximum boost at any frequency, dB", numberFrom(0.0, 40.0), "DB");
     addPreset(*command, "--goal", goal,
-              "Largest deviation that an automatic number of sections must reach, dB; RMS a quarter of it",
+              "Maximum deviation for an automatic number of sections, dB; the RMS limit is a quarter of it",
               numberFrom(0.01, 100.0), "DB");
-    addOption(*command, "--low", low, "Start of the range to flatten, Hz [of the profile; else the first point]",
+    addOption(*command, "--low", low, "Start of the range to flatten, Hz [that of the profile, else the first point]",
               numberFrom(0.1, 200000.0), "HZ");
-    addOption(*command, "--high", high, "End of the range to flatten, Hz [of the profile; else the last point]",
+    addOption(*command, "--high", high, "End of the range to flatten, Hz [that of the profile, else the last point]",
               numberFrom(0.1, 200000.0), "HZ");
     addOption(*command, "--highpass", highpass, "Protect the actuator by a high-pass of order 5 at this frequency, Hz",
               numberFrom(1.0, 20000.0), "HZ");
     command->add_flag("--boost-outside", boostOutside,
-                      "Allow boost outside of the range; below it that costs much power and excursion");
-    command->add_flag("--peaks-only", peaksOnly, "Use no shelves");
+                      "Allow boost outside the range; below the range this takes much power and travel");
+    command->add_flag("--peaks-only", peaksOnly, "Use no shelving filters");
     command->footer("Examples:\n  pacini measure fit response.csv --sections 5 --json\n"
                     "  pacini measure fit mine.json -o mine.json --plot mine.png");
     return command;
@@ -218,19 +218,19 @@ Exit FitSubcommand::run(Console& console)
         return console.fail(input, opened.error());
     auto& [response, profile, measured] = *opened;
     if (measured && !base.empty())
-        return console.fail(input, {ErrorCode::invalidArgument, "--profile", "is for responses from a CSV"},
+        return console.fail(input,
+                            {ErrorCode::invalidArgument, "--profile", "is for responses from a CSV file; leave it out"},
                             Exit::usage);
     if (!base.empty() && !(profile = openProfile(console, base)))
         return Exit::failed;
     if (!output.empty() && !profile)
         return console.fail(output,
                             {ErrorCode::invalidArgument, "--profile",
-                             "must name the profile that the equaliser goes into, since RESPONSE is none"},
+                             "must name the profile for the equaliser, as RESPONSE is not a profile"},
                             Exit::usage);
     if (!picture.empty() && !plot::pictureFormatOf(picture))
-        return console.fail(picture,
-                            {ErrorCode::invalidArgument, "--plot", "has none of the extensions .png, .svg and .pdf"},
-                            Exit::usage);
+        return console.fail(
+            picture, {ErrorCode::invalidArgument, "--plot", "must have the extension .png, .svg or .pdf"}, Exit::usage);
 
     const EqualizerFitParams params = paramsFor(profile);
     const auto fit = fitEqualizer(response, params);

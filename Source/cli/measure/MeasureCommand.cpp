@@ -19,7 +19,7 @@ public:
 
 CLI::App* MeasureCommand::declare(CLI::App& app)
 {
-    auto* command = app.add_subcommand("measure", "Measure an actuator and make it flat");
+    auto* command = app.add_subcommand("measure", "Measure and flatten an actuator");
     command->require_subcommand(1);
     for (const auto make : {sweepSubcommand, analyseSubcommand, fitSubcommand, verifySubcommand, simulateSubcommand})
         addStep(*command, make());
@@ -30,8 +30,8 @@ CLI::App* MeasureCommand::declare(CLI::App& app)
         "  pacini measure fit mine.json -o mine.json      adds the equaliser that flattens it\n"
         "  pacini measure sweep -o flat.wav --profile mine.json\n"
         "  pacini measure verify flat-recorded.wav --sweep flat.json --full-scale 5g --profile mine.json\n"
-        "Record the same actuator several times, attached anew or on other people, and name all recordings:\n"
-        "their average leaves out the odd ones. 'pacini measure simulate' records without hardware.");
+        "Record the same actuator several times, attached again or on other people, and name all recordings:\nthe "
+        "average leaves out outliers. 'pacini measure simulate' records without hardware.");
     return command;
 }
 

@@ -68,10 +68,10 @@ Result<Channels> readChannels(const std::string& file, const std::vector<int>& w
         for (int c = 1; c <= audio->channels; ++c)
             chosen.push_back(c);
     if (chosen.size() > 3)
-        return Error{ErrorCode::invalidArgument, "--channels",
-                     fmt::format("must name one to three of the {} channels: those of the accelerometer's axes or the "
-                                 "microphone",
-                                 audio->channels)};
+        return Error{
+            ErrorCode::invalidArgument, "--channels",
+            fmt::format("must name one to three of the {} channels: the axes of the accelerometer, or the microphone",
+                        audio->channels)};
     Channels channels{audio->sampleRate, {}};
     const auto width = static_cast<std::size_t>(audio->channels);
     for (const int c : chosen)
@@ -164,22 +164,23 @@ void RecordingOptions::declare(CLI::App& command)
                               "", "value");
     };
     addOption(command, "recordings", recordings,
-              "Recordings of the sweep: of one actuator, attached anew or on other people", "RECORDING")
+              "Recordings of the sweep: of one actuator, attached again or on other people", "RECORDING")
         ->required();
     addOption(command, "--sweep", sweep,
-              "Description of the sweep: the .json that 'pacini measure sweep' wrote, or the sound beside it", "SWEEP")
+              "Description of the sweep: the .json written by 'pacini measure sweep', or the sound beside it", "SWEEP")
         ->required();
     addOption(command, "--channels", channels, "Channels of the recording to use, one to three, counted from 1 [all]",
               "N,...")
         ->delimiter(',');
     addOption(command, "--full-scale", fullScale,
-              "Acceleration of a full-scale sample, m/s^2 or with a g behind, such as 5g; one for all channels "
-              "or one for each. Without it levels are relative",
+              "Acceleration at full scale, in m/s^2 or in g such as 5g; one value for all channels or one for each. "
+              "Without it levels are relative",
               check(acceleration, "is not an acceleration such as 49.03 or 5g"), "A,...")
         ->delimiter(',');
-    addPreset(command, "--smoothing", smoothing, "Octaves over which power is averaged",
+    addPreset(command, "--smoothing", smoothing, "Bandwidth of the power average, octaves",
               check(fraction, "is not a number of octaves such as 1/12"), "OCT");
-    addPreset(command, "--points", points, "Points of the response, evenly in octaves", wholeNumberFrom(8, 4096), "N");
+    addPreset(command, "--points", points, "Number of points of the response, evenly spaced in octaves",
+              wholeNumberFrom(8, 4096), "N");
 }
 
 double RecordingOptions::smoothingOctaves() const
@@ -242,7 +243,7 @@ std::optional<AnalysedRecordings> analyseRecordings(Console& console, const Reco
     result.average = std::move(*average);
     for (const PlacementOutlier& outlier : result.average.outliers)
         console.warning(options.recordings[outlier.index],
-                        fmt::format("is unlike the others and left out of the average: {} dB, shape {:.1f} dB off",
+                        fmt::format("is an outlier and left out of the average: {} dB, shape {:.1f} dB off",
                                     signedText(outlier.offset, 1), outlier.shape));
     return result;
 }

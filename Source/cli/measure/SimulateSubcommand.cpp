@@ -42,7 +42,7 @@ bool clips(const std::vector<float>& channel)
     return std::any_of(channel.begin(), channel.end(), [](float v) { return std::abs(v) >= 1.0f; });
 }
 
-/// `pacini measure simulate`: what an accelerometer on a worn actuator would record, to learn and to test by.
+/// `pacini measure simulate`: simulates the recording of an accelerometer on a worn actuator, for learning and tests.
 class SimulateSubcommand : public Command
 {
 public:
@@ -72,32 +72,34 @@ CLI::App* SimulateSubcommand::declare(CLI::App& app)
 {
     auto* command = app.add_subcommand("simulate", "Record a sweep without hardware, on a simulated wearer");
     addOption(*command, "sweep", input, "Sound of the sweep", "SWEEP.wav")->required();
-    addOption(*command, "-o,--output", output, "Recording to write: a channel for each axis of the accelerometer",
-              "OUT.wav")
+    addOption(*command, "-o,--output", output,
+              "Recording to write, with one channel for each axis of the accelerometer", "OUT.wav")
         ->required();
-    addPreset(*command, "--profile", profile, "Actuator, a profile with a body; its equaliser is not applied",
+    addPreset(*command, "--profile", profile, "Actuator: a profile with a body model; its equaliser is not applied",
               "PROFILE");
-    auto* one =
-        addOption(*command, "--wearer", wearer, "Wearer 1 to 14, each with a skin of its own; 0 is the profile's",
-                  wholeNumberFrom(0u, simulatedWearers), "N");
+    auto* one = addOption(*command, "--wearer", wearer,
+                          "Wearer 1 to 14, each with different skin; 0 has the skin of the profile",
+                          wholeNumberFrom(0u, simulatedWearers), "N");
     addOption(*command, "--wearers", wearers,
-              "Record wearers 1 to N into files of their own: OUT-01.wav, OUT-02.wav and so on",
+              "Record wearers 1 to N into separate files: OUT-01.wav, OUT-02.wav and so on",
               wholeNumberFrom(1u, simulatedWearers), "N")
         ->excludes(one);
     addOption(*command, "--contact", contact, "Level of a loose or a tight fit, dB", numberFrom(-60.0, 20.0), "DB");
-    addPreset(*command, "--latency", latency, "Latency of player and recorder, ms", numberFrom(0.0, 1000.0), "MS");
-    addPreset(*command, "--drift", drift, "How much faster the recorder's clock is, ppm", numberFrom(-5000.0, 5000.0),
-              "PPM");
+    addPreset(*command, "--latency", latency, "Latency of player and recorder together, ms", numberFrom(0.0, 1000.0),
+              "MS");
+    addPreset(*command, "--drift", drift,
+              "Deviation of the recorder's clock from the player's, ppm; positive is faster",
+              numberFrom(-5000.0, 5000.0), "PPM");
     addPreset(*command, "--noise", noise, "Noise of the sensor, \u00b5g per root of Hz (ADXL325: 250)",
               numberFrom(0.0, 1e6), "D");
     addPreset(*command, "--range", range, "Acceleration at which the sensor clips, gravity included, g (ADXL325: 5)",
               numberFrom(0.1, 10000.0), "G");
     addPreset(*command, "--axes", axes,
-              "Axes of the sensor: 3, turned at random on every wearer, or 1, along the movement", oneOf({"1", "3"}),
-              "N");
+              "Axes of the sensor: 3, with a random orientation on every wearer, or 1, along the movement",
+              oneOf({"1", "3"}), "N");
     addPreset(*command, "--bits", bits, "Resolution of the converter", wholeNumberFrom(4, 24), "N");
-    addOption(*command, "--distortion", distortion, "Third-order distortion of the actuator: part of the drive's cube",
-              numberFrom(-1.0, 1.0), "A");
+    addOption(*command, "--distortion", distortion,
+              "Third-order distortion of the actuator: factor of the cube of the drive", numberFrom(-1.0, 1.0), "A");
     addPreset(*command, "--seed", seed, "Seed of the noise and of the sensor's orientation", countingNumber(), "N");
     overwriting.declare(*command);
     command->footer("Examples:\n  pacini measure simulate sweep.wav -o rec.wav\n"
@@ -111,9 +113,9 @@ Exit SimulateSubcommand::run(Console& console)
     if (!actuator)
         return Exit::failed;
     if (!actuator->body || actuator->technology == Technology::erm)
-        return console.fail(profile,
-                            {ErrorCode::invalidData, actuator->body ? "technology" : "body",
-                             actuator->body ? "is a motor, which plays no sweep" : "is missing, so nothing can move"});
+        return console.fail(profile, {ErrorCode::invalidData, actuator->body ? "technology" : "body",
+                                      actuator->body ? "is a motor, which cannot play a sweep"
+                                                     : "is missing; choose a profile with a body model"});
     AudioReadOptions options;
     options.lowestSampleRate = limits::lowestWrittenRate;
     const auto sound = readAudio(input, options);

@@ -27,7 +27,7 @@ namespace pacini::cli
 
 namespace
 {
-/// `pacini measure sweep`: the sound to play on an actuator, and beside it what it was.
+/// `pacini measure sweep`: writes the sweep to play on an actuator, and its description.
 class SweepSubcommand : public Command
 {
 public:
@@ -58,28 +58,28 @@ private:
 
 CLI::App* SweepSubcommand::declare(CLI::App& app)
 {
-    auto* command = app.add_subcommand("sweep", "Make the sound that an actuator is measured with");
-    outputOption =
-        addPreset(*command, "-o,--output", output,
-                  "Sound to play (.wav or .flac); its description goes beside it, as .json of the same name", "OUT");
+    auto* command = app.add_subcommand("sweep", "Make the sweep for measuring an actuator");
+    outputOption = addPreset(
+        *command, "-o,--output", output,
+        "Sound to write (.wav or .flac); its description is written beside it, as .json of the same name", "OUT");
     addOption(*command, "--low", low,
-              "Frequency at which sweeps start, Hz [10; through an equaliser a little below the profile's range]",
-              "HZ");
-    addPreset(*command, "--high", high, "Frequency at which sweeps end, Hz", "HZ");
+              "Start frequency of the sweeps, Hz [10; through an equaliser a little below the profile's range]", "HZ");
+    addPreset(*command, "--high", high, "End frequency of the sweeps, Hz", "HZ");
     addPreset(*command, "--duration", duration,
-              "Length of a sweep, s; twice as long gives 3 dB more distance from noise", "S");
-    addPreset(*command, "--pause", pause, "Silence between sweeps, s; longer than the actuator rings", "S");
-    addPreset(*command, "--repeats", repeats, "How often each level is played", wholeNumberFrom(1, 100), "N");
+              "Length of a sweep, s; doubling it improves the signal-to-noise ratio by 3 dB", "S");
+    addPreset(*command, "--pause", pause, "Silence between sweeps, s; must be longer than the decay of the actuator",
+              "S");
+    addPreset(*command, "--repeats", repeats, "Number of sweeps at each level", wholeNumberFrom(1, 100), "N");
     addPreset(*command, "--levels", levels,
-              "Peaks of the sweeps, dB re full scale, such as -24,-12,-6: several show where "
-              "distortion begins; a sweep that an equaliser raises beyond full scale is lowered",
+              "Peak levels of the sweeps, dB re full scale, such as -24,-12,-6. Several levels show the onset of "
+              "distortion. A sweep that an equaliser raises beyond full scale is lowered",
               "DB,...")
         ->delimiter(',');
     addPreset(*command, "--rate", rate, "Sample rate, Hz", wholeNumberFrom(2000, 384000), "HZ");
-    addOption(*command, "--profile", profile, "Play through the equaliser of this profile, to verify it", "PROFILE");
+    addOption(*command, "--profile", profile, "Apply the equaliser of this profile, to verify it", "PROFILE");
     overwriting.declare(*command);
     command->footer("Examples:\n  pacini measure sweep -o sweep.wav\n"
-                    "  pacini measure sweep -o sweep.wav --levels -24,-12,-6      shows where distortion begins\n"
+                    "  pacini measure sweep -o sweep.wav --levels -24,-12,-6      shows the onset of distortion\n"
                     "  pacini measure sweep -o flat.wav --profile mine.json       for 'pacini measure verify'");
     return command;
 }
@@ -106,7 +106,7 @@ bool SweepSubcommand::readEqualizer(Console& console, SweepFile& file, Equalizer
     if (actuator->equalizer.empty())
     {
         console.error(profile, {ErrorCode::invalidData, "equalizer",
-                                "is empty, so there is nothing to verify; 'pacini measure fit' finds one"});
+                                "is empty, so there is nothing to verify; fit one with 'pacini measure fit'"});
         return false;
     }
     sections = actuator->equalizer;
@@ -134,7 +134,7 @@ void SweepSubcommand::tell(Console& console, const SweepFile& file, const Equali
     if (!file.equalizedFor.empty())
         through = fmt::format(" through the equaliser of '{}'", printable(file.equalizedFor));
     if (played.lowered > 0.0)
-        through += fmt::format(", {:g} dB lower ({:g} dB) so that what the equaliser raises fits", played.lowered,
+        through += fmt::format(", {:g} dB lower ({:g} dB) to leave headroom for the equaliser", played.lowered,
                                fmt::join(file.sweep.levels, ", "));
     if (played.gain > 0.0)
         through += fmt::format(", {:.1f} dB louder than that alone leaves it", played.gain);
@@ -157,10 +157,11 @@ Exit SweepSubcommand::run(Console& console)
     }
     const std::string description = sweepFileBeside(output).string();
     if (sameFileKey(description) == sameFileKey(output))
-        return console.fail(output, {ErrorCode::invalidArgument, "", "must be .wav or .flac"}, Exit::usage);
+        return console.fail(output, {ErrorCode::invalidArgument, "", "must have the extension .wav or .flac"},
+                            Exit::usage);
     if (overwriting.keepsAll() && (isOccupied(output) || isOccupied(description)))
     {
-        console.note(fmt::format("{} or {} exists and was left", printable(output), printable(description)));
+        console.note(fmt::format("{} or {} exists and was kept", printable(output), printable(description)));
         return Exit::ok;
     }
     const FileOrigin origin = originOf(description, output, Fingerprint().text());
@@ -169,7 +170,8 @@ Exit SweepSubcommand::run(Console& console)
     if (!existing)
         return console.fail("", existing.error());
     if (isOccupied(description) && !overwriting.replacesAll() && !readSweepFile(description))
-        return console.fail("", notReplaced(description, "exists and does not describe a sweep"));
+        return console.fail(
+            "", notReplaced(description, "exists and is not the description of a sweep; name another output"));
     EqualizerSections sections;
     if (!profile.empty() && !readEqualizer(console, file, sections))
         return Exit::failed;

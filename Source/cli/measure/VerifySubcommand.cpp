@@ -82,20 +82,19 @@ private:
 
 CLI::App* VerifySubcommand::declare(CLI::App& app)
 {
-    auto* command = app.add_subcommand("verify", "Prove that an actuator is flat through its equaliser");
+    auto* command = app.add_subcommand("verify", "Verify that an actuator is flat with its equaliser");
     options.declare(*command);
-    addOption(*command, "--profile", profile,
-              "Profile with the equaliser through which the sweep was played; the proof is written into it",
+    addOption(*command, "--profile", profile, "Profile with the equaliser of the sweep; the result is written into it",
               "PROFILE.json")
         ->required();
     addOption(*command, "-o,--output", output, "Profile to write instead", "PROFILE.json");
     addOption(*command, "--plot", picture, "Picture of the response before and after (.png, .svg or .pdf)", "PICTURE");
-    addPreset(*command, "--tolerance", tolerance, "Deviation from the mean that passes, dB to both sides",
+    addPreset(*command, "--tolerance", tolerance, "Allowed deviation from the mean, dB to both sides",
               numberFrom(0.0, 100.0), "DB");
-    addOption(*command, "--low", low, "Start of the range to judge, Hz [of the profile]", numberFrom(0.1, 200000.0),
-              "HZ");
-    addOption(*command, "--high", high, "End of the range to judge, Hz [of the profile]", numberFrom(0.1, 200000.0),
-              "HZ");
+    addOption(*command, "--low", low, "Start of the range to verify, Hz [that of the profile]",
+              numberFrom(0.1, 200000.0), "HZ");
+    addOption(*command, "--high", high, "End of the range to verify, Hz [that of the profile]",
+              numberFrom(0.1, 200000.0), "HZ");
     command->footer("Exits with 1 when the actuator is not flat.\nExamples:\n"
                     "  pacini measure verify after.wav --sweep flat.json --full-scale 5g --profile mine.json");
     return command;
@@ -104,9 +103,8 @@ CLI::App* VerifySubcommand::declare(CLI::App& app)
 Exit VerifySubcommand::run(Console& console)
 {
     if (!picture.empty() && !plot::pictureFormatOf(picture))
-        return console.fail(picture,
-                            {ErrorCode::invalidArgument, "--plot", "has none of the extensions .png, .svg and .pdf"},
-                            Exit::usage);
+        return console.fail(
+            picture, {ErrorCode::invalidArgument, "--plot", "must have the extension .png, .svg or .pdf"}, Exit::usage);
     ReadWarnings warnings(console.isStrict());
     auto actuator = readProfile(profile, &warnings);
     if (!actuator)
@@ -114,17 +112,17 @@ Exit VerifySubcommand::run(Console& console)
     console.warnings(profile, warnings.texts());
     if (actuator->equalizer.empty())
         return console.fail(profile, {ErrorCode::invalidData, "equalizer",
-                                      "is empty, so there is nothing to verify; 'pacini measure fit' finds one"});
+                                      "is empty, so there is nothing to verify; fit one with 'pacini measure fit'"});
     const auto analysed = analyseRecordings(console, options);
     if (!analysed)
         return Exit::failed;
     if (analysed->sweep.equalizedFor.empty())
-        return console.fail(options.sweep,
-                            {ErrorCode::invalidData, "equalizedFor",
-                             "is missing: this sweep did not go through an equaliser; make one with 'pacini "
-                             "measure sweep --profile'"});
+        return console.fail(
+            options.sweep,
+            {ErrorCode::invalidData, "equalizedFor",
+             "is missing: this sweep was made without an equaliser; make one with 'pacini measure sweep --profile'"});
     if (analysed->sweep.equalizedFor != actuator->name)
-        console.warning(options.sweep, fmt::format("went through the equaliser of '{}', not of '{}'",
+        console.warning(options.sweep, fmt::format("was played through the equaliser of '{}', not of '{}'",
                                                    analysed->sweep.equalizedFor, actuator->name));
 
     const FrequencyResponse& after = analysed->average.response;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Canvas: the interface by which figures are drawn and saved in any picture format.
+// Canvas: interface for drawing figures and saving them in any picture format.
 
 #include "cli/plot/Colour.h"
 #include "cli/plot/Path.h"

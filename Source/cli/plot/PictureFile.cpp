@@ -43,7 +43,7 @@ Result<std::size_t> writePicture(const std::filesystem::path& path, PictureSize 
 {
     const auto format = pictureFormatOf(path);
     if (!format)
-        return Error{ErrorCode::invalidArgument, "", "has none of the extensions .png, .svg and .pdf"};
+        return Error{ErrorCode::invalidArgument, "", "must have the extension .png, .svg or .pdf"};
     const auto canvas = makeCanvas(*format, size, title);
     draw(*canvas);
     const auto bytes = canvas->finish();

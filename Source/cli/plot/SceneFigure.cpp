@@ -28,7 +28,7 @@ constexpr double barHeight = 0.86;      // of the distance between lanes
 constexpr std::size_t maxLanes = 32;    // more are too low to be read
 constexpr std::size_t maxGainLines = 7; // as many colours there are
 
-/// A play as it is drawn: its level in every column of the picture, from all actuators and from each.
+/// A play in the figure: its level in every column, from all actuators and from each.
 struct ShownPlay
 {
     const TimedPlay* timed = nullptr;

@@ -1,7 +1,7 @@
 #pragma once
 
-// A canvas for SVG. Written by hand and not by cairo, which would turn every letter into an outline: texts stay texts
-// that can be searched, edited and read aloud, and what a curve is stands in its group's title.
+// A canvas for SVG. Written by hand and not by cairo, which would turn every letter into an outline: texts can be
+// searched, edited and read aloud, and the title of its group names each curve.
 
 #include "cli/plot/FontMetrics.h"
 

@@ -20,8 +20,8 @@ struct TimeRange
     bool operator==(const TimeRange&) const = default;
 };
 
-/// Takes samples block by block and keeps what shows in `columns` columns of pixels across `range`. Memory is bounded
-/// by the columns, not by the sound.
+/// Takes samples block by block and keeps the extremes for `columns` columns of pixels across `range`. Memory is
+/// bounded by the columns, not by the sound.
 class Waveform
 {
 public:

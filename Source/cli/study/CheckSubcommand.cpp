@@ -13,19 +13,19 @@ namespace pacini::cli
 
 namespace
 {
-/// `study check`: what would spoil it.
+/// `study check`: finds problems of a study.
 class CheckSubcommand : public Command
 {
 public:
     CLI::App* declare(CLI::App& app) override
     {
-        auto* command = app.add_subcommand("check", "Find what would spoil a study before anybody is invited");
+        auto* command = app.add_subcommand("check", "Check a study for problems before inviting participants");
         addOption(*command, "study", named, "Folder or file of the study", "STUDY")->required();
-        addOption(*command, "--profile", profile,
-                  "Actuator: a profile file, or the name of one that comes with Pacini [that of the study]", "PROFILE");
+        addOption(*command, "--profile", profile, "Actuator profile: a file or a shipped profile [that of the study]",
+                  "PROFILE");
         command->footer(
-            "Missing files and texts, uneven groups, sessions that are too long, exposure beyond the limit\n"
-            "(ISO 5349-1), stimuli that can hardly be told apart. The exit code is 1 where it cannot be run so.");
+            "Finds missing files and texts, uneven groups, sessions that are too long, exposure beyond the limit\n(ISO "
+            "5349-1), and stimuli that can hardly be distinguished. Exits with 1 if the study cannot be run.");
         return command;
     }
 
@@ -68,7 +68,7 @@ public:
                 fmt::format("{}: {} trials, some {:.0f} minutes, A(8) = {:.2f} m/s2{} of {:.1f} allowed", load.group,
                             load.trials, load.minutes, load.exposure,
                             check.exposureIsAssumed
-                                ? fmt::format(" (assuming {:.0f} m/s2 at full drive: the profile does not tell)",
+                                ? fmt::format(" (assuming {:.0f} m/s2 at full drive, which the profile does not state)",
                                               study::assumedAcceleration)
                                 : "",
                             opened->study.limits.daily));
@@ -77,7 +77,7 @@ public:
                              {"groups", std::move(groups)},
                              {"exposureIsAssumed", check.exposureIsAssumed}});
         if (check.findings.empty())
-            console.note("nothing that would spoil it");
+            console.note("no problems found");
         return spoils ? Exit::failed : Exit::ok;
     }
 

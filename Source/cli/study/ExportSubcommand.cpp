@@ -24,14 +24,14 @@ class ExportSubcommand : public Command
 public:
     CLI::App* declare(CLI::App& app) override
     {
-        auto* command =
-            app.add_subcommand("export", "Write all answers as tables for other programs (CSV, and folders like BIDS)");
+        auto* command = app.add_subcommand(
+            "export", "Write all answers as tables for other programs (CSV, and folders in the layout of BIDS)");
         addOption(*command, "study", named, "Folder or file of the study", "STUDY")->required();
         addOption(*command, "-o,--output", output, "New folder for the tables", "DIR")->required();
         command->footer(
-            "answers.csv has a line for each answer; ratings.csv is what 'study report' reads. Below bids every\n"
-            "participant has a folder with sub-P001_task-NAME_beh.tsv, as the Brain Imaging Data Structure has\n"
-            "behaviour.\n\nExample:\n  pacini study export coherence -o tables");
+            "answers.csv has a line for each answer; 'study report' reads ratings.csv. Below bids every "
+            "participant\nhas a folder with sub-P001_task-NAME_beh.tsv, as the Brain Imaging Data Structure specifies "
+            "for\nbehavioural data.\n\nExample:\n  pacini study export coherence -o tables");
         return command;
     }
 

@@ -24,13 +24,13 @@ class ForgetSubcommand : public Command
 public:
     CLI::App* declare(CLI::App& app) override
     {
-        auto* command = app.add_subcommand("forget", "Delete all that a participant has answered");
+        auto* command = app.add_subcommand("forget", "Delete all answers of a participant");
         addOption(*command, "study", named, "Folder or file of the study", "STUDY")->required();
         addOption(*command, "participant", participant, "Pseudonym, such as P007", "NAME")->required();
-        command->add_flag("--yes", sure, "Delete without being asked; without it only what would be deleted is said");
+        command->add_flag("--yes", sure, "Delete the answers; without this option the command only lists them");
         command->footer(
-            "The place becomes free: the next session takes it, with its group and orders. Reports and tables that\n"
-            "were written before still hold the answers.\n\nExample:\n  pacini study forget coherence P007 --yes");
+            "The place becomes free: the next session takes it, with its group and orders. Earlier reports and\ntables "
+            "still contain the answers.\n\nExample:\n  pacini study forget coherence P007 --yes");
         return command;
     }
 
@@ -43,7 +43,7 @@ public:
                 continue;
             if (!sure)
             {
-                console.print(fmt::format("{} would be deleted; --yes does it", printable(log.string())));
+                console.print(fmt::format("{} would be deleted; confirm with --yes", printable(log.string())));
                 return Exit::ok;
             }
             std::error_code failed;

@@ -49,29 +49,31 @@ private:
 
 CLI::App* LatencySubcommand::declare(CLI::App& app)
 {
-    auto* command = app.add_subcommand("latency", "Measure how much later than the sound the touch comes");
+    auto* command = app.add_subcommand("latency", "Measure the delay of the haptic output against the sound");
     addOption(*command, "study", named, "Folder or file of the study", "STUDY")->required();
     auto* heard =
-        addOption(*command, "recording", recording, "What came back of the probe; its result is kept", "RECORDING");
-    addOption(*command, "--probe", probeFile, "Write the sound to play on the ears' and the actuator's output", "OUT")
+        addOption(*command, "recording", recording, "Recording of the probe; the result is stored", "RECORDING");
+    addOption(*command, "--probe", probeFile,
+              "Write the probe, a sound to play on the sound output and the haptic output", "OUT")
         ->excludes(heard);
-    addPreset(*command, "--duration", probe.duration, "Length of the probe, s: a burst each second", "S");
-    addPreset(*command, "--frequency", probe.frequency, "Of the bursts, Hz; the same for probe and recording", "HZ");
-    addPreset(*command, "--level", probe.level, "Of the bursts, dB re full scale", "DB");
+    addPreset(*command, "--duration", probe.duration, "Length of the probe, s, with one burst each second", "S");
+    addPreset(*command, "--frequency", probe.frequency,
+              "Frequency of the bursts, Hz; must be the same for probe and recording", "HZ");
+    addPreset(*command, "--level", probe.level, "Level of the bursts, dB re full scale", "DB");
     addPreset(*command, "--rate", probe.sampleRate, "Sample rate of the probe, Hz", wholeNumberFrom(8000, 384000),
               "HZ");
     addOption(*command, "--profile", profile,
-              "Actuator whose limits the probe keeps: a profile file, or the name of one that comes with Pacini [that "
-              "of the study]",
+              "Actuator profile with the limits for the probe: a file or a shipped profile [that of the study]",
               "PROFILE");
-    addPreset(*command, "--sound", sound, "Channel of the recording that has the sound", wholeNumberFrom(1, 64), "N");
-    addPreset(*command, "--touch", touch, "Channel that has the touch: a cable or an accelerometer",
-              wholeNumberFrom(1, 64), "N");
-    command->add_flag("--dry-run", dry, "Measure without keeping the result");
+    addPreset(*command, "--sound", sound, "Channel of the recording with the sound", wholeNumberFrom(1, 64), "N");
+    addPreset(*command, "--touch", touch,
+              "Channel of the recording with the haptic signal: a cable or an accelerometer", wholeNumberFrom(1, 64),
+              "N");
+    command->add_flag("--dry-run", dry, "Measure without storing the result");
     overwriting.declare(*command);
-    command->footer("Play the probe on both outputs and record both at once, from cables or from a sensor on the\n"
-                    "actuator. The result goes to latency.json beside the study, and sessions make up for it. The\n"
-                    "editor does all of it by itself: Tools, Run a study..., Measure the delay.\n\nExample:\n"
+    command->footer("Play the probe on both outputs and record both at once, from cables or from a sensor on "
+                    "the\nactuator. The result is stored in latency.json beside the study, and sessions compensate for "
+                    "it. The\neditor does the same: Tools, Run a study..., Measure the delay.\n\nExample:\n"
                     "  pacini study latency lab --probe probe.wav\n"
                     "  pacini study latency lab recorded.wav --sound 1 --touch 2");
     return command;
@@ -86,10 +88,9 @@ Exit LatencySubcommand::run(Console& console)
         return console.fail("", error, Exit::usage);
     }
     if (recording.empty() && probeFile.empty())
-        return console.fail("",
-                            {ErrorCode::invalidArgument, "RECORDING",
-                             "is missing; --probe OUT writes the sound that is to be recorded"},
-                            Exit::usage);
+        return console.fail(
+            "", {ErrorCode::invalidArgument, "RECORDING", "is missing; record the sound that --probe OUT writes"},
+            Exit::usage);
     const auto opened = openStudy(console, named);
     if (!opened)
         return Exit::failed;
@@ -100,7 +101,7 @@ Exit LatencySubcommand::writeProbe(Console& console, const OpenedStudy& opened)
 {
     if (overwriting.keepsAll() && isOccupied(probeFile))
     {
-        console.note(fmt::format("{} exists and was left", printable(probeFile)));
+        console.note(fmt::format("{} exists and was kept", printable(probeFile)));
         return Exit::ok;
     }
     std::vector<float> burst = study::latencyBurst(probe);
@@ -134,8 +135,8 @@ Exit LatencySubcommand::writeProbe(Console& console, const OpenedStudy& opened)
     if (const auto finished = writer->finish(); !finished)
         return console.fail(probeFile, finished.error());
     console.addToReport({{"output", probeFile}});
-    console.wrote(probeFile, fmt::format("{} bursts of {} Hz on two channels, for the ears' output and the "
-                                         "actuator's; nobody wears it meanwhile",
+    console.wrote(probeFile, fmt::format("{} bursts of {} Hz on two channels, for the sound output and the haptic "
+                                         "output; do not wear the actuator meanwhile",
                                          seconds, decimalText(probe.frequency, 0)));
     return Exit::ok;
 }
@@ -176,15 +177,15 @@ Result<study::Latency> LatencySubcommand::listen(Console& console, AudioReader& 
 
 void LatencySubcommand::tell(Console& console, const study::Latency& latency) const
 {
-    console.print(fmt::format("the touch comes {} ms {} the sound: {} bursts, SD {} ms, largest difference {} ms",
-                              decimalText(1000.0 * std::abs(latency.delay), 3),
-                              latency.delay < 0.0 ? "before" : "after", latency.bursts,
-                              decimalText(1000.0 * latency.deviation, 3), decimalText(1000.0 * latency.largest, 3)));
+    console.print(fmt::format(
+        "the haptic output comes {} ms {} the sound: {} bursts, SD {} ms, largest difference {} ms",
+        decimalText(1000.0 * std::abs(latency.delay), 3), latency.delay < 0.0 ? "before" : "after", latency.bursts,
+        decimalText(1000.0 * latency.deviation, 3), decimalText(1000.0 * latency.largest, 3)));
     console.print(fmt::format("drift {} ms in an hour; levels {} and {} dB re full scale",
                               decimalText(1000.0 * latency.drift, 3), decimalText(latency.soundLevel, 1),
                               decimalText(latency.touchLevel, 1)));
     if (latency.missed > 0)
-        console.warning(recording, fmt::format("{} bursts came back on one channel alone", latency.missed));
+        console.warning(recording, fmt::format("{} bursts were recorded on one channel only", latency.missed));
     console.addToReport({{"delay", latency.delay},
                          {"deviation", latency.deviation},
                          {"largest", latency.largest},
@@ -210,8 +211,8 @@ Exit LatencySubcommand::measure(Console& console, const OpenedStudy& opened)
                                                      : fmt::format("are only {} channels", reader->channels()))},
                 Exit::usage);
     if (sound == touch)
-        return console.fail(recording, {ErrorCode::invalidArgument, "--touch", "must be another channel than --sound"},
-                            Exit::usage);
+        return console.fail(
+            recording, {ErrorCode::invalidArgument, "--touch", "must differ from the channel of --sound"}, Exit::usage);
     probe.sampleRate = reader->sampleRate();
     const auto latency = listen(console, *reader);
     if (!latency)
@@ -227,7 +228,7 @@ Exit LatencySubcommand::measure(Console& console, const OpenedStudy& opened)
     const std::string kept = (opened.folder / study::latencyFileName).string();
     if (const auto added = study::keepLatency(opened.folder, measured); !added)
         return console.fail(kept, added.error());
-    console.wrote(kept, "sessions make up for this delay from now on");
+    console.wrote(kept, "sessions compensate for this delay from now on");
     return Exit::ok;
 }
 

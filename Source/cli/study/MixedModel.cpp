@@ -149,7 +149,8 @@ Result<std::string> runPython(const char* source, std::string_view input)
 #else
 Result<std::string> runPython(const char*, std::string_view)
 {
-    return Error{ErrorCode::io, "python3", "is not started on Windows; export the ratings and fit them by yourself"};
+    return Error{ErrorCode::io, "python3",
+                 "is not available on Windows; export the ratings and fit them with another program"};
 }
 #endif
 
@@ -183,10 +184,11 @@ Result<MixedModel> fitMixedModel(const std::vector<study::Rating>& ratings)
         return printed.error();
     const Json found = Json::parse(*printed, nullptr, false);
     if (!found.is_object())
-        return Error{ErrorCode::io, "python3", "did not say what it found"};
+        return Error{ErrorCode::io, "python3", "returned no result"};
     if (const std::string missing = textOf(found, "missing"); !missing.empty())
-        return Error{ErrorCode::io, "python3",
-                     fmt::format("has no statsmodels ({}); python3 -m pip install statsmodels brings it", missing)};
+        return Error{
+            ErrorCode::io, "python3",
+            fmt::format("has no statsmodels ({}); install it with python3 -m pip install statsmodels", missing)};
     if (const std::string failed = textOf(found, "failed"); !failed.empty())
         return Error{ErrorCode::invalidData, "statsmodels", fmt::format("cannot fit these ratings: {}", failed)};
     MixedModel model;

@@ -53,21 +53,20 @@ public:
             names.emplace_back(one.name);
             list += fmt::format("  {:<12}{}\n", one.name, one.purpose);
         }
-        auto* command = app.add_subcommand("new", "Write a study to begin with");
-        addOption(*command, "output", output, "Folder for study.json and what is answered; or the name of a .json file",
+        auto* command = app.add_subcommand("new", "Create a study from a template");
+        addOption(*command, "output", output, "Folder for study.json and the answers, or the name of a .json file",
                   "STUDY")
             ->required();
-        addOption(*command, "sounds", sounds, "Sounds to be heard and felt, or folders of them", "SOUND");
-        addOption(*command, "-t,--template", kind, "What is asked", oneOf(names), "NAME")->required();
+        addOption(*command, "sounds", sounds, "Sounds to present, or folders of sounds", "SOUND");
+        addOption(*command, "-t,--template", kind, "Template: the kind of question", oneOf(names), "NAME")->required();
         addOption(*command, "-g,--group", groups,
-                  "Name and number of participants of a group; several times for several", "NAME:SIZE")
+                  "Name and number of participants of a group; repeat for several groups", "NAME:SIZE")
             ->allow_extra_args(false);
         addOption(*command, "--seed", seed, "Seed of all random orders", countingNumber(), "N")->capture_default_str();
-        addOption(*command, "--profile", profile, "Actuator: a profile file, or the name of one that comes with Pacini",
-                  "PROFILE");
+        addOption(*command, "--profile", profile, "Actuator profile: a file or a shipped profile", "PROFILE");
         overwriting.declare(*command);
         command->footer("Templates:\n" + list +
-                        "\nThe file is JSON, made to be changed: see Resources/docs/study.md.\n\nExample:\n"
+                        "\nEdit the JSON file to change the study: see Resources/docs/study.md.\n\nExample:\n"
                         "  pacini study new coherence --template coherence sounds/");
         return command;
     }
@@ -81,7 +80,7 @@ public:
         std::error_code unknown;
         if (overwriting.keepsAll() && isOccupied(file))
         {
-            console.note(fmt::format("{} exists and was left", printable(file.string())));
+            console.note(fmt::format("{} exists and was kept", printable(file.string())));
             return Exit::ok;
         }
         if (isOccupied(file) && !overwriting.replacesAll())

@@ -28,7 +28,7 @@ struct PageTable
     std::vector<std::vector<std::string>> rows;
 };
 
-/// A picture of which the page has the SVG and, beside it, a file.
+/// A picture, embedded in the page as SVG and stored as a file.
 struct PagePicture
 {
     std::string file; ///< its name, beside the page

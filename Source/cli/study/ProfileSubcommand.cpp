@@ -19,19 +19,17 @@ class ProfileSubcommand : public Command
 public:
     CLI::App* declare(CLI::App& app) override
     {
-        auto* command = app.add_subcommand("profile", "Write an actuator profile that knows what a participant feels");
+        auto* command = app.add_subcommand("profile", "Write an actuator profile with the thresholds of a participant");
         addOption(*command, "study", named, "Folder or file of a study with thresholds", "STUDY")->required();
         addOption(*command, "participant", participant, "Pseudonym, such as P007", "NAME")->required();
-        addOption(
-            *command, "--profile", profile,
-            "The actuator that was felt: a profile file, or the name of one that comes with Pacini [that of the study]",
-            "PROFILE");
+        addOption(*command, "--profile", profile,
+                  "Actuator profile of the study: a file or a shipped profile [that of the study]", "PROFILE");
         addOption(*command, "-o,--output", output, "Profile to write", "OUT")->required();
         overwriting.declare(*command);
         command->footer(
-            "The dynamic range of the profile becomes that of the person: from full drive down to the mean of the\n"
-            "thresholds. Weak parts of clips are then raised to what this person feels, by render, plugin and editor.\n"
-            "The study is that of 'study new --template threshold', run with the same profile.\n\nExample:\n"
+            "The dynamic range of the profile becomes that of the person: from full drive down to the mean of "
+            "the\nthresholds. Render, plugin and editor then raise weak parts of clips to the level that this person "
+            "feels.\nUse a study made by 'study new --template threshold' and run with the same profile.\n\nExample:\n"
             "  pacini study profile thresholds P007 --profile l5-wristband -o mine.json");
         return command;
     }
@@ -43,9 +41,10 @@ public:
             return console.fail(named, results.error());
         const std::string actuator = actuatorOf(results->study, study::studyFileOf(named).parent_path(), profile);
         if (actuator.empty())
-            return console.fail(
-                "", {ErrorCode::invalidArgument, "--profile", "is missing, and the study names no actuator"},
-                Exit::usage);
+            return console.fail("",
+                                {ErrorCode::invalidArgument, "--profile",
+                                 "is missing, and the study names no actuator; choose one with --profile"},
+                                Exit::usage);
         const auto base = openProfile(console, actuator);
         if (!base)
             return Exit::failed;
@@ -54,7 +53,7 @@ public:
             return console.fail(named, personal.error());
         if (overwriting.keepsAll() && isOccupied(output))
         {
-            console.note(fmt::format("{} exists and was left", printable(output)));
+            console.note(fmt::format("{} exists and was kept", printable(output)));
             return Exit::ok;
         }
         const auto written = writeProfile(output, *personal);

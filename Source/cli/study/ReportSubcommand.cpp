@@ -25,22 +25,23 @@ public:
     CLI::App* declare(CLI::App& app) override
     {
         auto* command =
-            app.add_subcommand("report", "Write what a study found: tables, tests and pictures (HTML and Markdown)");
+            app.add_subcommand("report", "Write the report of a study: tables, tests and pictures (HTML and Markdown)");
         addOption(*command, "study", named, "Folder or file of the study, or a table of ratings (CSV)", "STUDY")
             ->required();
         addOption(*command, "-o,--output", output, "Folder for the report [report, beside the study]", "DIR");
         addOption(*command, "--combine", combined,
-                  "Also compare these groups as one with the others; several times for several", "A+B")
+                  "Also compare these groups, combined to one, with the others; repeat for several combinations", "A+B")
             ->allow_extra_args(false);
         addOption(*command, "--categories", categories,
-                  "Table of categories of words (lines of category,word; word* for all that begin so)", "CSV");
-        command->add_flag("--mixed", mixed, "Also fit mixed models of ratings, by Python's statsmodels");
+                  "Table of word categories (lines of category,word; word* matches all words with this beginning)",
+                  "CSV");
+        command->add_flag("--mixed", mixed, "Also fit mixed models of the ratings, with Python's statsmodels");
         overwriting.declare(*command);
         command->footer(
             "Means, SDs and intervals; box plots; t-tests (pooled, Welch, paired), Mann-Whitney, effect sizes, Holm\n"
             "and Bonferroni; ICC, Kendall's W, Friedman; thresholds; choices; words; maps of similarity; mixed "
             "models.\n"
-            "A table of ratings has the columns stimulus and rating, and where there are any group, participant and\n"
+            "A table of ratings has the columns stimulus and rating, and optionally group, participant and "
             "block.\n\nExamples:\n  pacini study report coherence\n"
             "  pacini study report ratings.csv --combine A+B");
         return command;
@@ -120,9 +121,9 @@ private:
                 continue;
             const auto there = readWholeFile(file, 100'000'000);
             if (overwriting.keepsAll() || !there || !isAsWritten(*there))
-                return console.fail(
-                    "",
-                    notReplaced(file, overwriting.keepsAll() ? "exists" : "exists, and pacini did not write it so"));
+                return console.fail("", notReplaced(file, overwriting.keepsAll()
+                                                              ? "exists"
+                                                              : "exists and is not an unchanged report of pacini"));
         }
         for (const auto& [file, text] : files)
         {

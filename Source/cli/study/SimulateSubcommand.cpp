@@ -26,25 +26,26 @@ class SimulateStudySubcommand : public Command
 public:
     CLI::App* declare(CLI::App& app) override
     {
-        auto* command = app.add_subcommand("simulate", "Run a study with simulated people, to know what it would find");
+        auto* command = app.add_subcommand("simulate", "Run a study with simulated participants and compute its power");
         addOption(*command, "study", named, "Folder or file of the study", "STUDY")->required();
         addOption(*command, "-o,--output", output,
                   "New folder for the study with all simulated sessions, for 'study report'", "DIR");
-        addPreset(*command, "--effect", observers.effect, "Difference of the last group from the others, points of ten",
-                  numberFrom(-10.0, 10.0), "POINTS");
+        addPreset(*command, "--effect", observers.effect,
+                  "Difference of the last group from the others, points on a scale of ten", numberFrom(-10.0, 10.0),
+                  "POINTS");
         addPreset(*command, "--noise", observers.noiseSd, "SD of one rating, points", numberFrom(0.0, 10.0), "POINTS");
         addPreset(*command, "--bias", observers.biasSd, "SD between participants, points", numberFrom(0.0, 10.0),
                   "POINTS");
         addPreset(*command, "--threshold", observers.threshold,
                   "Mean threshold at the best frequency, dB re full drive", numberFrom(-200.0, 0.0), "DB");
-        addPreset(*command, "--runs", runs, "Simulated studies for the power",
+        addPreset(*command, "--runs", runs, "Number of simulated studies for the power",
                   wholeNumberFrom(std::size_t(1), std::size_t(1'000'000)), "N");
-        addPreset(*command, "--seed", observers.seed, "Seed of the simulated people", countingNumber(), "N");
-        command->footer(
-            "Raters lean to one side and are noisy; thresholds follow a Weibull function. The SDs are about those of\n"
-            "Weber (2020). Power: the share of such studies that find the effect at p <= .05, with a mean for each\n"
-            "participant (pooled t-test, two-sided).\n\nExample:\n  pacini study simulate coherence --effect 1 -o "
-            "simulated");
+        addPreset(*command, "--seed", observers.seed, "Seed of the simulated participants", countingNumber(), "N");
+        command->footer("Raters have a bias and noise; thresholds follow a Weibull function. The SDs are about those "
+                        "of Weber\n(2020). Power is the share of such studies that find the effect at p <= .05, with a "
+                        "mean for each\nparticipant (pooled t-test, two-sided).\n\nExample:\n  pacini study simulate "
+                        "coherence --effect 1 -o "
+                        "simulated");
         return command;
     }
 
@@ -69,7 +70,7 @@ public:
                              {"runs", one.runs}});
         }
         if (power.empty() && output.empty())
-            console.print("There are no ratings of two groups to compare; -o writes the simulated sessions");
+            console.print("The study has no ratings of two groups to compare; -o writes the simulated sessions");
         console.addToReport({{"power", std::move(power)}});
         return output.empty() ? Exit::ok : writeSessions(console, *opened);
     }
@@ -80,9 +81,9 @@ private:
         const fs::path folder(output);
         std::error_code failed;
         if (fs::exists(folder, failed) && !fs::is_empty(folder, failed))
-            return console.fail(output, {ErrorCode::io, "",
-                                         "exists and is not empty; name a new folder, so that simulated answers are "
-                                         "never mixed with real ones"});
+            return console.fail(
+                output, {ErrorCode::io, "",
+                         "exists and is not empty; name a new folder, to keep simulated and real answers apart"});
         fs::create_directories(folder, failed);
         if (failed)
             return console.fail(output, fileError(failed.value()));

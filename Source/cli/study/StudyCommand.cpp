@@ -15,18 +15,17 @@ class StudyCommand : public CommandGroup
 public:
     CLI::App* declare(CLI::App& app) override
     {
-        auto* command =
-            app.add_subcommand("study", "Find out what people feel: plan, check, simulate and evaluate studies");
+        auto* command = app.add_subcommand("study", "Plan, check, simulate and evaluate studies with participants");
         command->require_subcommand(1);
         for (const auto make :
              {newStudySubcommand, checkStudySubcommand, simulateStudySubcommand, latencyStudySubcommand,
               reportStudySubcommand, profileStudySubcommand, exportStudySubcommand, forgetStudySubcommand})
             addStep(*command, make());
-        command->footer("From a question to its answer:\n"
+        command->footer("Example:\n"
                         "  pacini study new coherence --template coherence sounds/\n"
                         "  pacini study check coherence --profile l5-wristband\n"
                         "  pacini study simulate coherence --effect 1\n"
-                        "Participants go through it in the editor: Tools, Run a study... Then\n"
+                        "Run the sessions in the editor: Tools, Run a study... Then\n"
                         "  pacini study report coherence\n"
                         "A study is a folder with study.json and, below sessions, one file for each participant.");
         return command;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Pictures of what a study found.
+// Figures of the results of a study.
 
 #include "cli/plot/Figure.h"
 #include "study/RatingAnalysis.h"

@@ -21,7 +21,7 @@ struct StudyReportParams
     bool mixed = false; ///< also fit mixed models, by Python
 };
 
-/// What was found in ratings alone, as they come from other programs.
+/// Results from ratings alone, as exported by other programs.
 struct StudyReport
 {
     Page page;

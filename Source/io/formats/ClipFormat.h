@@ -1,6 +1,6 @@
 #pragma once
 
-// Table of the clip file formats, Pacini's own and those of other programs: what each reads, writes and loses.
+// Table of the clip file formats of Pacini and other programs, with their readers, writers and losses.
 
 #include <pacini/actuator/Profile.h>
 #include <pacini/actuator/Strength.h>
@@ -19,7 +19,7 @@
 namespace pacini
 {
 
-/// Kinds of what a format loses or changes of a clip in one place.
+/// Kinds of losses or changes that a format makes to a clip in one place.
 enum class LossKind
 {
     bands,     ///< bands became fewer
@@ -68,7 +68,7 @@ struct ExportedClip
     std::vector<FormatLoss> losses; ///< by time
 };
 
-/// How the events of a clip of several bands are written where the format has transients of its own.
+/// Ways to write the events of a clip with several bands, in formats with transients.
 enum class EventExport
 {
     transients, ///< every event is one, with the voice ducked around it: nothing is played twice
@@ -78,7 +78,7 @@ enum class EventExport
 /// What formats with such a choice do unless something else is asked for; HJIF has an own (hjifEvents).
 inline constexpr EventExport usualEvents = EventExport::transients;
 
-/// What a device plays of an envelope of control points; usual are values that every device of Android plays.
+/// Limits of a device for envelopes of control points; the defaults suit every Android device.
 struct EnvelopeLimits
 {
     std::size_t points = 0;      ///< at most, 2 or more; 0: any number
@@ -102,7 +102,7 @@ struct ExportParams
     bool operator==(const ExportParams&) const = default;
 };
 
-/// Which of ExportParams change what a format writes, beside `events`: others would be without effect.
+/// The fields of ExportParams with an effect in a format, beside `events`.
 struct ExportChoices
 {
     bool amplitudePoints = false;
@@ -161,7 +161,7 @@ struct ClipFormat
 /// All formats in the order in which they are listed, Pacini's own first.
 [[nodiscard]] std::span<const ClipFormat> clipFormats();
 
-/// What is told of a format, without its reader and writer.
+/// Description of a format, without its reader and writer.
 struct FormatDescription
 {
     std::string_view name, title, extension, keeps; ///< as in ClipFormat

@@ -32,9 +32,9 @@ Result<void> checkUse(std::string_view name, const ClipFormat& format, IsIn isIn
     const std::string others = formatsWith(isIn);
     const std::string advice = others.empty() ? "leave it out" : "leave it out, or write one of " + others;
     return Error{ErrorCode::invalidArgument, std::string(name),
-                 format.isOwn() ? fmt::format("is for formats of other programs, but {} holds all of a clip; {}",
+                 format.isOwn() ? fmt::format("is for formats of other programs, but {} keeps the whole clip; {}",
                                               format.name, advice)
-                                : fmt::format("changes nothing in {}; {}", format.name, advice)};
+                                : fmt::format("has no effect in {}; {}", format.name, advice)};
 }
 bool hasProfile(const ClipFormat& format)
 {

@@ -1,6 +1,6 @@
 #pragma once
 
-// What users can set of exports, and the formats in which each changes anything.
+// Parameters of exports, and the formats in which each has an effect.
 
 #include "io/GivenParameters.h"
 #include "io/formats/ClipFormat.h"
@@ -34,50 +34,51 @@ inline constexpr std::array<std::string_view, 2> eventExportNames{"transients", 
 
 /// What users can set of ExportParams, beside the profile.
 inline constexpr std::array exportParameters{
-    ExportParameter{described<&ExportParams::amplitudePoints>(
-                        {.name = "points",
-                         .text = "Most points of amplitude; without it a clip of one voice keeps its points",
-                         .unit = "per second",
-                         .range = {0.5, 10000},
-                         .usualText = "as usual for the format",
-                         .group = "Other formats"}),
-                    &ExportChoices::amplitudePoints},
+    ExportParameter{
+        described<&ExportParams::amplitudePoints>(
+            {.name = "points",
+             .text = "Maximum number of amplitude points; by default a clip with one voice keeps its points",
+             .unit = "per second",
+             .range = {0.5, 10000},
+             .usualText = "the format's own",
+             .group = "Other formats"}),
+        &ExportChoices::amplitudePoints},
     ExportParameter{described<&ExportParams::frequencyPoints>({.name = "frequencyPoints",
-                                                               .text = "Most points of frequency",
+                                                               .text = "Maximum number of frequency points",
                                                                .unit = "per second",
                                                                .range = {0.5, 10000},
-                                                               .usualText = "three quarters of the points of amplitude",
+                                                               .usualText = "three quarters of the amplitude points",
                                                                .group = "Other formats"}),
                     &ExportChoices::frequencyPoints},
     ExportParameter{
         described<&ExportParams::split>({.name = "split",
-                                         .text = "For formats that can be one file or several: write several",
+                                         .text = "Write several files, in formats that allow one or several",
                                          .group = "Other formats"}),
         &ExportChoices::split},
-    ExportParameter{described<&ExportParams::quick>(
-                        {.name = "quick",
-                         .text = "Write without a search for the best file (hjif): much faster, mostly a little less "
-                                 "like the sound",
-                         .group = "Other formats"}),
-                    &ExportChoices::quick},
+    ExportParameter{
+        described<&ExportParams::quick>(
+            {.name = "quick",
+             .text = "Skip the search for the best file (hjif): much faster, usually a little less like the sound",
+             .group = "Other formats"}),
+        &ExportChoices::quick},
     ExportParameter{described<&ExportParams::events>(
                         {.name = "events",
-                         .text = "Events: each a transient of its own, with the voice ducked around it, or merged into "
-                                 "the voice where that is as strong (haptic, ahap, hjif)",
+                         .text = "How events are written (haptic, ahap, hjif): as transients, with the voice ducked "
+                                 "around them, or merged into the voice where it is as strong",
                          .choices = eventExportNames,
-                         .usualText = "transients; in hjif merged",
+                         .usualText = "transients; merged in hjif",
                          .group = "Other formats"}),
                     nullptr},
     ExportParameter{described<&ExportParams::envelope, &EnvelopeLimits::points>(
                         {.name = "maxPoints",
-                         .text = "Most control points in an envelope of Android, whatever that costs",
+                         .text = "Maximum number of control points in an Android envelope, at any cost in detail",
                          .range = {2, 1000},
                          .usualText = "any number",
                          .group = "Other formats"}),
                     &ExportChoices::envelope},
     ExportParameter{described<&ExportParams::envelope, &EnvelopeLimits::shortest>(
                         {.name = "minSegment",
-                         .text = "Least time from one control point to the next; every device plays 20",
+                         .text = "Minimum time between control points; all devices support 20",
                          .unit = "ms",
                          .range = {1, 10000},
                          .usualText = "1",
@@ -85,14 +86,14 @@ inline constexpr std::array exportParameters{
                     &ExportChoices::envelope},
     ExportParameter{described<&ExportParams::envelope, &EnvelopeLimits::longest>(
                         {.name = "maxSegment",
-                         .text = "Most time from one control point to the next; every device plays 1000",
+                         .text = "Maximum time between control points; all devices support 1000",
                          .unit = "ms",
                          .range = {2, 100000},
                          .usualText = "1000",
                          .group = "Other formats"}),
                     &ExportChoices::envelope},
     ExportParameter{described<&ExportParams::sampleRate>({.name = "sampleRate",
-                                                          .text = "Sample rate of formats that hold samples",
+                                                          .text = "Sample rate, in formats that contain samples",
                                                           .unit = "Hz",
                                                           .range = {2000, 48000},
                                                           .usualText = "the format's own",
@@ -100,8 +101,8 @@ inline constexpr std::array exportParameters{
                     &ExportChoices::drive},
     ExportParameter{described<&ExportParams::strength>(
                         {.name = "strength",
-                         .text = "Trade of likeness for strength on resonant actuators, in formats that hold samples: "
-                                 "0 plays as flat as can be, 1 all of it on the resonance",
+                         .text = "Balance of fidelity and felt level on resonant actuators, in formats that contain "
+                                 "samples: 0 plays as flat as possible, 1 plays everything on the resonance",
                          .range = {0, 1},
                          .group = "Other formats"}),
                     &ExportChoices::drive},
@@ -109,7 +110,7 @@ inline constexpr std::array exportParameters{
 
 /// Sentence of `profile`, which is a file or a name.
 inline constexpr std::string_view exportProfileText =
-    "Actuator whose frequency range is used by formats that state none: a file or a shipped profile";
+    "Actuator profile: a file or a shipped profile; sets the frequency range in formats that state none";
 
 /// All of exportParameters.
 [[nodiscard]] std::span<const ParameterInfo* const> exportParameterInfos();

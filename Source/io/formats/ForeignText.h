@@ -29,8 +29,8 @@ inline constexpr std::size_t largestForeignText = std::size_t(64) << 20;
 /// The tree of a JSON file. Errors: as in foreignText() and readJsonTree().
 [[nodiscard]] Result<nlohmann::json> readForeignTree(std::string_view bytes, std::vector<std::string>& warnings);
 
-/// What `read(tree, clip)` makes of a JSON file: it fills the clip and its warnings, and returns an error or nothing.
-/// Errors: those of readForeignTree(), `read` and validate().
+/// Result of `read(tree, clip)` for a JSON file; `read` fills the clip and its warnings, and returns an error or
+/// nothing. Errors: those of readForeignTree(), `read` and validate().
 template <typename Read>
 [[nodiscard]] Result<ImportedClip> importForeign(std::string_view bytes, Read read)
 {

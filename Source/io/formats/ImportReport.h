@@ -13,7 +13,7 @@
 namespace pacini
 {
 
-/// Errors and warnings of a reader: the first error, and warnings, of which a hostile file makes no more than fifty.
+/// Errors and warnings of a reader: the first error, and up to fifty warnings, also for hostile files.
 class ImportReport
 {
 public:
@@ -28,7 +28,7 @@ private:
     std::vector<std::string>& warnings;
 };
 
-/// Allocation of bands to waves of which some sound side by side.
+/// Allocation of bands to waves, some of which are simultaneous.
 class ImportLanes
 {
 public:

@@ -1,6 +1,6 @@
 #pragma once
 
-// Collector of what a format loses of a clip, found place by place.
+// Collects the losses of a clip in a format, place by place.
 
 #include "io/formats/ClipFormat.h"
 
@@ -19,7 +19,7 @@ struct SingleVoice;
 /// that players of these formats show.
 inline constexpr double leastAmplitude = 1.0 / 255.0;
 
-/// Joins what is lost at times that only move forward into losses.
+/// Joins adjacent losses; times must not decrease.
 class LossTrack
 {
 public:

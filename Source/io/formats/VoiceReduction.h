@@ -1,6 +1,6 @@
 #pragma once
 
-// Reduction of a clip to one voice, or to a strength, for formats without bands, and what that loses.
+// Reduction of a clip to one voice, or to a level, for formats without bands, with the losses.
 
 #include "io/formats/ClipFormat.h"
 #include "io/formats/EmphasisFit.h"
@@ -37,7 +37,7 @@ namespace pacini
 /// `curve` with at most `pointsPerSecond`, where it has more; values keep their least squared error.
 [[nodiscard]] Curve thinned(const Curve& curve, double pointsPerSecond, double duration);
 
-/// One voice, and what a clip loses in it.
+/// One voice, and the losses of the clip in it.
 struct ReducedVoice
 {
     SingleVoice voice;

@@ -557,7 +557,7 @@ def convert(path: PathLike, output: PathLike, **options: Any) -> list[Any]:
     :meth:`Clip.save`."""
     clip = Clip.load(path)
     if os.path.exists(output) and os.path.samefile(path, output):
-        raise Error("is input and output; name another output", os.fspath(output), "io")
+        raise Error("is both input and output; name another output", os.fspath(output), "io")
     return clip.save(output, **options)
 
 

@@ -41,7 +41,7 @@ export interface EncodeOptions extends Stoppable {
   // parameters: encode
   /** Number of frequency bands (1 to 32) [12] */
   bands?: number
-  /** Most breakpoints; simple sounds take fewer (0.5 to 1000 per second and band) [20] */
+  /** Maximum number of breakpoints; simple sounds need fewer (0.5 to 1000 per second and band) [20] */
   breakpoints?: number
   /** Resolution of each value (4 to 16 bits) [6] */
   quantise?: number
@@ -49,43 +49,43 @@ export interface EncodeOptions extends Stoppable {
   low?: number
   /** Upper end of the bands (2 to 1800 Hz) [1000] */
   high?: number
-  /** How bands are spaced: log or linear [log] */
+  /** Spacing of the bands: log or linear [log] */
   spacing?: 'log' | 'linear'
-  /** Above 1 more and weaker events become transients, below 1 fewer (0.25 to 4) [1] */
+  /** Sensitivity to events; above 1 weaker events also become transients, below 1 only stronger ones (0.25 to 4) [1] */
   sensitivity?: number
-  /** How far loudness drives what lives above the range of touch (rain, ticks, birds); 0 keeps the beat of music (0 to 1) [1] */
+  /** Influence of the loudness of sound above the range of touch (rain, ticks, birds); 0 keeps the beat of music (0 to 1) [1] */
   audible?: number
   /** Keep the level of the sound instead of raising it to full drive [off] */
   keepLevel?: boolean
-  /** Least time between two events; of two closer ones the first stays (0 to 1 s) [0.01] */
+  /** Minimum time between two events; an event that follows sooner is dropped (0 to 1 s) [0.01] */
   minimumGap?: number
-  /** An event less than this below its louder neighbours counts like one alone (0 to 120 dB) [8] */
+  /** Level difference to louder neighbours up to which an event is not masked (0 to 120 dB) [8] */
   maskMargin?: number
-  /** How much clearer an event must be for each dB below that margin, as a fraction of the threshold (0 to 1 per dB) [0.06] */
+  /** Rise of the detection threshold for each dB beyond that margin, as a fraction of the threshold (0 to 1 per dB) [0.06] */
   maskSlope?: number
-  /** How fast the masking by a louder event falls with the distance in time (20 to 1000 dB/s) [20] */
+  /** Decay of masking with the time between two events (20 to 1000 dB/s) [20] */
   maskRecovery?: number
-  /** An event further than this below its louder neighbours is dropped however clear it is (0 to 120 dB) [27] */
+  /** Level difference to louder neighbours above which an event is always dropped (0 to 120 dB) [27] */
   maskLimit?: number
-  /** Events below this level are dropped (-120 to 0 dB) [-90] */
+  /** Level below which events are dropped (-120 to 0 dB) [-90] */
   silence?: number
   /** Attack of the envelope follower (0 to 10 s) [the method's own] */
   attack?: number
-  /** Time that the envelope stands before it falls (0 to 10 s) [the method's own] */
+  /** Hold time of the envelope follower (0 to 10 s) [the method's own] */
   hold?: number
   /** Release of the envelope follower (0 to 10 s) [the method's own] */
   release?: number
-  /** Shorten attack and release by the crest factor of the sound; they are the longest then [the method's own] */
+  /** Shorten attack and release by the crest factor of the sound; the given times are the longest [the method's own] */
   crestAdaptive?: boolean
-  /** Time constant of the averages behind the crest factor (0.001 to 10 s) [the method's own] */
+  /** Time constant of the averages of which the crest factor is computed (0.001 to 10 s) [the method's own] */
   crestMemory?: number
-  /** High-pass before the analysis; 0 leaves it out (0 to 1000 Hz) [the method's own] */
+  /** High-pass before the analysis; 0 switches it off (0 to 1000 Hz) [the method's own] */
   lowLimit?: number
-  /** Low-pass before the analysis; near half the sample rate and above it is left out (10 to 384000 Hz) [the method's own] */
+  /** Low-pass before the analysis; near half the sample rate and above it is off (10 to 384000 Hz) [the method's own] */
   highLimit?: number
-  /** Difference of a fast and a slow envelope from which on there is a transient (0 to 10) [the method's own] */
+  /** Threshold for transients: difference of a fast and a slow envelope (0 to 10) [the method's own] */
   transientThreshold?: number
-  /** Transients of a smaller peak are dropped (0 to 1) [the method's own] */
+  /** Peak below which transients are dropped (0 to 1) [the method's own] */
   transientAmplitude?: number
   // end
   /** Of the clip. */
@@ -164,25 +164,25 @@ export interface WriteOptions extends Stoppable {
   name?: string
   profile?: ProfileInput
   // parameters: export
-  /** Most points of amplitude; without it a clip of one voice keeps its points (0.5 to 10000 per second) [as usual for the format] */
+  /** Maximum number of amplitude points; by default a clip with one voice keeps its points (0.5 to 10000 per second) [the format's own] */
   points?: number
-  /** Most points of frequency (0.5 to 10000 per second) [three quarters of the points of amplitude] */
+  /** Maximum number of frequency points (0.5 to 10000 per second) [three quarters of the amplitude points] */
   frequencyPoints?: number
-  /** For formats that can be one file or several: write several [off] */
+  /** Write several files, in formats that allow one or several [off] */
   split?: boolean
-  /** Write without a search for the best file (hjif): much faster, mostly a little less like the sound [off] */
+  /** Skip the search for the best file (hjif): much faster, usually a little less like the sound [off] */
   quick?: boolean
-  /** Events: each a transient of its own, with the voice ducked around it, or merged into the voice where that is as strong (haptic, ahap, hjif) [transients; in hjif merged] */
+  /** How events are written (haptic, ahap, hjif): as transients, with the voice ducked around them, or merged into the voice where it is as strong [transients; merged in hjif] */
   events?: 'transients' | 'merged'
-  /** Most control points in an envelope of Android, whatever that costs (2 to 1000) [any number] */
+  /** Maximum number of control points in an Android envelope, at any cost in detail (2 to 1000) [any number] */
   maxPoints?: number
-  /** Least time from one control point to the next; every device plays 20 (1 to 10000 ms) [1] */
+  /** Minimum time between control points; all devices support 20 (1 to 10000 ms) [1] */
   minSegment?: number
-  /** Most time from one control point to the next; every device plays 1000 (2 to 100000 ms) [1000] */
+  /** Maximum time between control points; all devices support 1000 (2 to 100000 ms) [1000] */
   maxSegment?: number
-  /** Sample rate of formats that hold samples (2000 to 48000 Hz) [the format's own] */
+  /** Sample rate, in formats that contain samples (2000 to 48000 Hz) [the format's own] */
   sampleRate?: number
-  /** Trade of likeness for strength on resonant actuators, in formats that hold samples: 0 plays as flat as can be, 1 all of it on the resonance (0 to 1) [0.4] */
+  /** Balance of fidelity and felt level on resonant actuators, in formats that contain samples: 0 plays as flat as possible, 1 plays everything on the resonance (0 to 1) [0.4] */
   strength?: number
   // end
   extension?: string

@@ -71,7 +71,7 @@ export class Instance {
 
   #put(bytes) {
     const address = this.#exports.allocate(bytes.length)
-    if (address === 0) throw new PaciniError({ code: 'tooLarge', where: '', message: 'needs more memory than there is' })
+    if (address === 0) throw new PaciniError({ code: 'tooLarge', where: '', message: 'needs more memory than is available' })
     this.#bytes(address, bytes.length).set(bytes)
     return address
   }

@@ -111,7 +111,7 @@ def claims(devices):
         short, long = clip(Path(name), "short.json", 2.0), clip(Path(name), "long.json", 20.0)
 
         code, _, error = run("play", short)
-        check("nothing connected is an error", code == 1 and "no known game controller is connected" in error, error)
+        check("nothing connected is an error", code == 1 and "no supported game controller is connected" in error, error)
         waiting = start("play", short, "--wait")
         time.sleep(1)
         check("--wait waits", waiting.poll() is None)

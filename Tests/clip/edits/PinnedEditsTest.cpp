@@ -430,7 +430,7 @@ TEST_CASE("Edits that would make a clip too long or too large say so")
     const Fragment::LanePart part{{LaneKind::envelope, 0}, {{0.0, 1.0}}};
     CHECK(editError(pasteCurve(clip, {LaneKind::noise, 5}, part, 0.0)) == "lane: is not in the clip");
     CHECK(editError(pasteCurve(clip, {LaneKind::pitch, 0}, part, 0.0)) ==
-          "lane: frequencies and amplitudes cannot stand for each other");
+          "lane: frequencies cannot replace amplitudes, nor amplitudes frequencies");
     CHECK(*pasteCurve(clip, {LaneKind::envelope, 0}, {{LaneKind::envelope, 0}, {}}, 0.0) == clip);
     CHECK(pasteCurve(clip, {LaneKind::noise, 0}, part, 0.0).ok());
 }

@@ -144,7 +144,7 @@ TEST_CASE(".tact: fades, paths and places make one strength", "[formats]")
     CHECK(disabled.clip.bands.empty());
     CHECK(disabled.clip.duration == 0.9);
     CHECK(disabled.warnings ==
-          std::vector<std::string>{"project.tracks: the strongest motor of all places is read as one amplitude"});
+          std::vector<std::string>{"project.tracks: the strongest of all motors is read as one amplitude"});
     // Points of a path count from the start of the effect; a point that goes back ends nothing.
     const std::string path = R"("V": {"mode": "PATH_MODE", "pathMode": {"feedback": [{"pointList":
         [{"time": 0, "intensity": 0.25}, {"time": 200, "intensity": 1}, {"time": 100, "intensity": 0.5},
@@ -216,7 +216,7 @@ TEST_CASE(".haps: times are 0 to 24 hours and gains 0 to 1000", "[formats]")
     // A millisecond beyond the length is rounding.
     CHECK(limitsTaken("haps", wave("0", "1", "1", point("1.0009", "1"))).warnings.empty());
     CHECK(limitsTaken("haps", wave("0", "1", "1", point("1.0011", "1"))).warnings ==
-          std::vector<std::string>{note + ".m_length: ends before the keyframes; they are kept"});
+          std::vector<std::string>{note + ".m_length: ends before its keyframes; they are kept"});
     CHECK(limitsTaken("haps", wave("0", "1", "1", point("1.5", "1"))).clip.duration == 1.5);
     limitsRefused("haps", R"({"m_version": 6, "m_vibration": {}})", "m_version",
                   "is '6.0'; this program reads version 5", ErrorCode::unsupportedVersion);
@@ -224,7 +224,7 @@ TEST_CASE(".haps: times are 0 to 24 hours and gains 0 to 1000", "[formats]")
                   "is '51'; this program reads version 5", ErrorCode::unsupportedVersion);
     limitsRefused("haps", R"({"m_vibration": {}})", "m_version", "is missing");
     CHECK(limitsTaken("haps", R"({"m_version": 5, "m_vibration": {}})").warnings ==
-          std::vector<std::string>{"m_vibration: nothing sounds"});
+          std::vector<std::string>{"m_vibration: nothing is played"});
 }
 
 TEST_CASE(".haps: melodies, mutes and transients are read by their gains", "[formats]")
@@ -242,10 +242,10 @@ TEST_CASE(".haps: melodies, mutes and transients are read by their gains", "[for
     CHECK(read.clip.transients == std::vector<Transient>{{0.25, 0.375, 0.5}, {0.5, 0.125, 0.5}});
     CHECK(read.clip.duration == 0.9);
     CHECK(read.clip.name == "d");
-    CHECK(read.warnings == std::vector<std::string>{
-                               "m_texture: is not read",
-                               "m_vibration.m_melodies[0].m_notes[1]: has neither a type nor an amplitude; taken for "
-                               "a transient"});
+    CHECK(read.warnings ==
+          std::vector<std::string>{
+              "m_texture: is not read",
+              "m_vibration.m_melodies[0].m_notes[1]: has neither a type nor an amplitude and is read as a transient"});
     CHECK(limitsTaken("haps", notes(limitsFilled(transient, {"86400", "0", "1", R"("m_type": 0)"}))).clip.duration ==
           86400.0);
     CHECK(limitsTaken("haps", notes(limitsFilled(transient, {"1", "0.001", "1", R"("m_type": 0)"}))).clip.duration ==
@@ -255,7 +255,7 @@ TEST_CASE(".haps: melodies, mutes and transients are read by their gains", "[for
     CHECK(muted.clip.transients.empty());
     CHECK(muted.warnings == std::vector<std::string>{"m_texture: is not read",
                                                      "m_vibration.m_melodies[0]: is muted and left out",
-                                                     "m_vibration: nothing sounds"});
+                                                     "m_vibration: nothing is played"});
     // Notes that follow each other share a band, those that overlap do not.
     const std::string wave = R"({"m_startingPoint": @, "m_length": @, "m_hapticEffect": {"m_amplitudeModulation":
         {"m_keyframes": [{"m_time": @, "m_value": 0.5}, {"m_time": 0.5, "m_value": 1}]}, "m_frequencyModulation":
@@ -289,7 +289,7 @@ TEST_CASE("Vibration effects have whole milliseconds, amplitudes of -1 to 255 an
     const auto read = limitsTaken("android", steps("0, 10, 86399990", "3, -1, 0", R"(, "repeat": 0)"));
     CHECK(read.clip.duration == 86400.0);
     CHECK(read.clip.bands.at(0).amplitude == Curve{{0.0, 1.0}, {0.01, 1.0}, {0.01, 0.0}, {86400.0, 0.0}});
-    CHECK(read.warnings == std::vector<std::string>{"waveform.repeat: the effect is read once",
+    CHECK(read.warnings == std::vector<std::string>{"waveform.repeat: the effect is read without its repetition",
                                                     "waveform.amplitudes: the device's default of -1 becomes 255"});
     CHECK(limitsTaken("android", steps("10", "255", R"(, "repeat": -1)")).warnings.empty());
     CHECK(limitsTaken("android", steps("10", "0")).clip.bands.empty());
@@ -319,7 +319,7 @@ TEST_CASE("Vibration effects have whole milliseconds, amplitudes of -1 to 255 an
     CHECK(wave.clip.bands.at(0).amplitude == Curve{{0.0, 0.0}, {86400.0, 1.0}});
     CHECK(wave.clip.bands.at(0).pitch == Curve{{0.0, 1.0}, {86400.0, 20000.0}});
     CHECK(wave.warnings ==
-          std::vector<std::string>{"controlPoints: the last amplitude is not 0; Android refuses this"});
+          std::vector<std::string>{"controlPoints: the last amplitude is not 0; Android rejects such effects"});
     const auto basic = limitsTaken("android", points(true, R"("initialSharpness": 0, )", "1", "1", "1"));
     CHECK(basic.clip.bands.at(0).pitch == Curve{{0.0, 65.0}, {0.001, 300.0}});
     CHECK(limitsTaken("android", points(true, "", "1", "0", "1")).clip.bands.at(0).centreFrequency == 65.0);
@@ -410,15 +410,15 @@ TEST_CASE("A table is read by the names of its columns, up to as many as there m
     CHECK(warningsOf("time,noise 0 400000\n0,1").empty());
     CHECK(warningsOf("time,noise 7 7\n0,1").empty());
 
-    limitsRefused("csv", "", "", "has no line with the names of its columns");
-    limitsRefused("csv", "# time\n", "", "has no line with the names of its columns");
+    limitsRefused("csv", "", "", "has no header line with the names of its columns");
+    limitsRefused("csv", "# time\n", "", "has no header line with the names of its columns");
     limitsRefused("csv", "a,b\n", "line 1, column 1", "no column is called 'time'");
     limitsRefused("csv", "\n#\ntime,event,event\n", "line 3, column 3", "'event' is given twice");
     limitsRefused("csv", "time,frequency,pitch\n", "line 1, column 3", "'pitch' is given twice");
     limitsRefused("csv", "time,amplitude 3 2 4\n", "line 1, column 2", "needs low <= centre <= high");
     limitsRefused("csv", "time,amplitude 1 5 4\n", "line 1, column 2", "needs low <= centre <= high");
     limitsRefused("csv", "time,noise 3 2\n", "line 1, column 2", "needs low <= high");
-    limitsRefused("csv", "time,event\n0,1,2\n", "line 2, column 3", "there are more cells than columns");
+    limitsRefused("csv", "time,event\n0,1,2\n", "line 2, column 3", "has more cells than columns");
     limitsRefused("csv", "time,event\n0,1e\n", "line 2, column 2", "'1e' is no number");
     limitsRefused("csv", "time,event\n0,inf\n", "line 2, column 2", "is not a finite number");
     limitsRefused("csv", "event,time\n1\n", "line 2, column 1", "the time is missing");
@@ -426,7 +426,8 @@ TEST_CASE("A table is read by the names of its columns, up to as many as there m
     limitsRefused("csv", "event,time\n1,86401\n", "line 2, column 2", "is later than 24 hours");
     limitsRefused("csv", "event,time\n1,-1\n", "line 2, column 2", "is negative");
     limitsRefused("csv", "event,time\n1,1\n1,0.5\n", "line 3, column 2", "is earlier than the row before");
-    limitsRefused("csv", "time,event,sharpness\n0,,1\n", "line 2, column 1", "a sharpness needs an event beside it");
+    limitsRefused("csv", "time,event,sharpness\n0,,1\n", "line 2, column 1",
+                  "a sharpness needs an event in the same line");
     limitsRefused("csv", "time,event\n0,1000.5\n", "line 2, column 2", "must be 0 to 1000");
     limitsRefused("csv", "time,event\n0,-0.5\n", "line 2, column 2", "must be 0 to 1000");
     limitsRefused("csv", "time,event,sharpness\n0,1,1.5\n", "line 2, column 3", "must be 0 to 1");
@@ -500,7 +501,7 @@ TEST_CASE(".vij: times are 0 to 24 hours and values 0 to 1", "[formats]")
     const auto few = limitsTaken("vij", file(hold, strengths + ", [" + point("0.25", "0.75") + "]"));
     CHECK(few.clip.transients == std::vector<Transient>{{0.25, 1.0, 0.75}, {0.5, 0.5, 0.75}});
     const std::vector<std::string> unequal{
-        "voices.transients: there are not as many sharpnesses as strengths; the nearest one is used"};
+        "voices.transients: the number of sharpnesses differs from that of the strengths; the nearest one is used"};
     CHECK(few.warnings == unequal);
     const auto none = limitsTaken("vij", file(hold, strengths));
     CHECK(none.clip.transients == std::vector<Transient>{{0.25, 1.0, 0.5}, {0.5, 0.5, 0.5}});
@@ -590,7 +591,7 @@ TEST_CASE(".haptic: numbers are taken up to the ends of their ranges", "[formats
     CHECK(limitsTaken("haptic", with({{4, level("0.5", "1")}})).warnings ==
           std::vector<std::string>{amplitude + ": has no duration; strict readers refuse it"});
     const std::vector<std::string> beyond{frequency +
-                                          ": goes beyond the amplitudes and is cut there; strict readers refuse it"};
+                                          ": is longer than the amplitudes and is cut off; strict readers refuse it"};
     const auto cut = limitsTaken("haptic", with({{5, pitch("0", "0") + "," + pitch("2", "1")}}));
     CHECK(cut.warnings == beyond);
     CHECK(cut.clip.bands.at(0).pitch == Curve{{0.0, 55.0}, {1.0, 127.5}});
@@ -819,8 +820,7 @@ TEST_CASE("HJIF: numbers are taken up to the ends of their ranges", "[formats]")
     limitsRefused("hjif", with({{9, "Base"}}), effect + ".effect_type",
                   "must be Basis, Reference or Composite, not 'Base'");
     limitsRefused("hjif", with({{9, "Reference"}}), effect + ".id", "is missing");
-    limitsRefused("hjif", with({{9, "Composite"}}), "perceptions",
-                  "hold nothing that can be read as vibration in time");
+    limitsRefused("hjif", with({{9, "Composite"}}), "perceptions", "contain no vibration over time");
     CHECK(limitsTaken("hjif", with({{10, "86399900"}})).clip.duration == 86400.0);
     limitsRefused("hjif", with({{10, "86399901"}}), effect + ".keyframes[1].relative_position",
                   "must be 0 to 24 hours");
@@ -849,7 +849,7 @@ TEST_CASE("HJIF: numbers are taken up to the ends of their ranges", "[formats]")
           std::vector<std::string>{effect + ": a transient without amplitude is left out"});
     std::string other = with({});
     other.replace(other.find("Vibrotactile"), 12, "Temperature");
-    limitsRefused("hjif", other, "perceptions", "hold nothing that can be read as vibration in time");
+    limitsRefused("hjif", other, "perceptions", "contain no vibration over time");
     for (const char* modality :
          {"Other", "Pressure", "Acceleration", "Velocity", "Position", "Vibration", "Force", "Kinesthetic"})
     {

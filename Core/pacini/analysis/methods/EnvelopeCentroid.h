@@ -1,6 +1,6 @@
 #pragma once
 
-// The translation "envelope-centroid": how loud the sound is, on a sine that follows how bright it is.
+// The translation "envelope-centroid": the level of the sound on a sine that follows its brightness.
 
 #include <pacini/analysis/SpectralCentroid.h>
 #include <pacini/analysis/methods/MethodClip.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-// The translation "envelope-sine": how loud the sound is, on one sine.
+// The translation "envelope-sine": the level of the sound on one sine.
 
 #include <pacini/analysis/methods/MethodClip.h>
 #include <pacini/analysis/methods/MethodCurves.h>

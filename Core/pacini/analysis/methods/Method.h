@@ -60,7 +60,7 @@ void pairWithChoices(Params& params, Choices& choices, Visit visit)
     }
 }
 
-/// `params` with what was chosen.
+/// `params` with the choices applied.
 template <typename Params>
 [[nodiscard]] Params withChoices(Params params, const MethodChoices& choices)
 {
@@ -73,7 +73,7 @@ template <typename Params>
     return params;
 }
 
-/// What `params` are set to.
+/// The values of `params`.
 template <typename Params>
 [[nodiscard]] MethodChoices choicesIn(const Params& params)
 {
@@ -135,7 +135,7 @@ inline void recordChoices(Clip& clip, Method method, const MethodChoices& choice
     case Method::pitchMatch:
         break;
     }
-    assert(false && "no clip is made here by this method");
+    assert(false && "this method does not make a clip");
     return {};
 }
 
@@ -188,7 +188,7 @@ inline void recordChoices(Clip& clip, Method method, const MethodChoices& choice
     case Method::centroidFlatness:
         break;
     }
-    assert(false && "no signal is made by this method");
+    assert(false && "this method does not make a signal");
     return std::vector<float>(mono.size());
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// The translation methods by name, and what users can set of each, without their algorithms.
+// The translation methods by name, and the parameters of each, without their algorithms.
 
 #include <pacini/analysis/EncoderParams.h>
 #include <pacini/foundation/Description.h>
@@ -35,7 +35,7 @@ enum class Method
     pitchMatch,
 };
 
-/// What a translation method makes: clips or samples.
+/// Output of a translation method: clips or samples.
 enum class MethodOutput
 {
     clip,   ///< few breakpoints, to be decoded
@@ -53,27 +53,29 @@ struct MethodInfo
 
 /// All methods, in the order of Method.
 inline constexpr std::array<MethodInfo, 13> methodTable{{
-    {Method::a2vt, "a2vt", MethodOutput::clip, "Pacini's own: band envelopes and pitches at the best price per point"},
-    {Method::thesis, "thesis", MethodOutput::clip, "Weber 2020, literally: six bands on fixed sines, and transients"},
+    {Method::a2vt, "a2vt", MethodOutput::clip,
+     "Pacini's own: band envelopes and pitches with the fewest points for their error"},
+    {Method::thesis, "thesis", MethodOutput::clip,
+     "Weber 2020 as implemented: six bands on fixed sines, and transients"},
     {Method::decomposition, "decomposition", MethodOutput::clip,
-     "Weber 2020, its full proposal: tracked partials, events, and bands of noise"},
+     "Weber 2020 as proposed: tracked partials, events, and bands of noise"},
     {Method::envelopeSine, "envelope-sine", MethodOutput::clip, "the envelope of the sound on a sine of 80 Hz"},
     {Method::envelopeCentroid, "envelope-centroid", MethodOutput::clip,
      "the envelope of the sound on a sine that follows the spectral centroid"},
     {Method::vocoder16, "vocoder16", MethodOutput::clip,
-     "the envelopes of sixteen third octaves from 200 Hz up, all on 100 Hz"},
+     "the envelopes of sixteen third octaves from 200 Hz up, all on a sine of 100 Hz"},
     {Method::centroidFlatness, "centroid-flatness", MethodOutput::clip,
      "the centroid as a pitch of 40 to 400 Hz, tonality as a fade from sine to square wave"},
-    {Method::lowpass, "lowpass", MethodOutput::signal, "the sound below 1 kHz, as it is"},
-    {Method::pitchShift, "pitch-shift", MethodOutput::signal, "the sound two octaves lower, as long as it was"},
+    {Method::lowpass, "lowpass", MethodOutput::signal, "the sound below 1 kHz, unchanged"},
+    {Method::pitchShift, "pitch-shift", MethodOutput::signal, "the sound two octaves lower, with its length unchanged"},
     {Method::hapticGen, "hapticgen", MethodOutput::signal,
-     "Sung 2025: the level on a sine of 200 Hz that rises with it"},
+     "Sung 2025: the level on a sine of 200 Hz whose frequency rises with the level"},
     {Method::frequencyShift, "freqshift", MethodOutput::signal,
      "Okazaki 2015: the sound and copies one and two octaves lower, 125 to 375 Hz"},
     {Method::percept, "percept", MethodOutput::signal,
-     "Lee and Choi 2013: loudness and roughness as those of two sines that beat"},
+     "Lee and Choi 2013: loudness and roughness, reproduced by two beating sines"},
     {Method::pitchMatch, "pitchmatch", MethodOutput::signal,
-     "Kim 2024: loudness on a sine whose pitch follows the ear's"},
+     "Kim 2024: loudness on a sine that follows the pitch heard"},
 }};
 
 /// The entry of a method.
@@ -91,7 +93,7 @@ inline constexpr std::array<MethodInfo, 13> methodTable{{
     return std::nullopt;
 }
 
-/// Choices for the methods other than a2vt; what is left out is the method's own. methodParameters describes them.
+/// Parameters of the methods other than a2vt; unset values are the method's own. methodParameters describes them.
 struct MethodChoices
 {
     std::optional<double> breakpoints; ///< per second of active time and curve; for decomposition as for a2vt
@@ -163,7 +165,7 @@ inline constexpr std::array methodParameters{
                                                        .group = "Other methods"}),
                     detail::withFollower},
     MethodParameter{described<&MethodChoices::hold>({.name = "hold",
-                                                     .text = "Time that the envelope stands before it falls",
+                                                     .text = "Hold time of the envelope follower",
                                                      .unit = "s",
                                                      .range = {0, 10},
                                                      .usualText = "the method's own",
@@ -179,20 +181,20 @@ inline constexpr std::array methodParameters{
     MethodParameter{
         described<&MethodChoices::crestAdaptive>(
             {.name = "crestAdaptive",
-             .text = "Shorten attack and release by the crest factor of the sound; they are the longest then",
+             .text = "Shorten attack and release by the crest factor of the sound; the given times are the longest",
              .usualText = "the method's own",
              .group = "Other methods"}),
         detail::withFollower},
-    MethodParameter{
-        described<&MethodChoices::crestMemory>({.name = "crestMemory",
-                                                .text = "Time constant of the averages behind the crest factor",
-                                                .unit = "s",
-                                                .range = {0.001, 10},
-                                                .usualText = "the method's own",
-                                                .group = "Other methods"}),
-        detail::withFollower},
+    MethodParameter{described<&MethodChoices::crestMemory>(
+                        {.name = "crestMemory",
+                         .text = "Time constant of the averages of which the crest factor is computed",
+                         .unit = "s",
+                         .range = {0.001, 10},
+                         .usualText = "the method's own",
+                         .group = "Other methods"}),
+                    detail::withFollower},
     MethodParameter{described<&MethodChoices::lowLimit>({.name = "lowLimit",
-                                                         .text = "High-pass before the analysis; 0 leaves it out",
+                                                         .text = "High-pass before the analysis; 0 switches it off",
                                                          .unit = "Hz",
                                                          .range = {0, 1000},
                                                          .usualText = "the method's own",
@@ -200,7 +202,7 @@ inline constexpr std::array methodParameters{
                     detail::withFollower},
     MethodParameter{described<&MethodChoices::highLimit>(
                         {.name = "highLimit",
-                         .text = "Low-pass before the analysis; near half the sample rate and above it is left out",
+                         .text = "Low-pass before the analysis; near half the sample rate and above it is off",
                          .unit = "Hz",
                          .range = {10, 384000},
                          .usualText = "the method's own",
@@ -208,13 +210,13 @@ inline constexpr std::array methodParameters{
                     detail::withFollower},
     MethodParameter{described<&MethodChoices::transientThreshold>(
                         {.name = "transientThreshold",
-                         .text = "Difference of a fast and a slow envelope from which on there is a transient",
+                         .text = "Threshold for transients: difference of a fast and a slow envelope",
                          .range = {0, 10},
                          .usualText = "the method's own",
                          .group = "Other methods"}),
                     detail::thesisOnly},
     MethodParameter{described<&MethodChoices::transientAmplitude>({.name = "transientAmplitude",
-                                                                   .text = "Transients of a smaller peak are dropped",
+                                                                   .text = "Peak below which transients are dropped",
                                                                    .range = {0, 1},
                                                                    .usualText = "the method's own",
                                                                    .group = "Other methods"}),

@@ -23,8 +23,8 @@ namespace pacini
 namespace detail
 {
 
-/// What is heard of a frame of 4096 samples at 44.1 kHz, and the amplitudes of the two sines that shall be felt like
-/// it. Numbers of equations are those of Lee and Choi (2013).
+/// Loudness and roughness of a frame of 4096 samples at 44.1 kHz, and the amplitudes of two sines with the same effect
+/// on the skin. Numbers of equations are those of Lee and Choi (2013).
 class PerceptFrame
 {
 public:

@@ -27,7 +27,7 @@ namespace pacini
 namespace detail
 {
 
-/// Frames of 10 ms at 44.1 kHz, each heard as if it were a steady sound (ISO 532-1:2017, 5).
+/// Loudness of frames of 10 ms at 44.1 kHz, each as a steady sound (ISO 532-1:2017, 5).
 class PitchMatchFrames
 {
 public:

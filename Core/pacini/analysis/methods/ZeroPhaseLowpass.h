@@ -1,6 +1,6 @@
 #pragma once
 
-// The translation "lowpass": the part of the sound that skin can feel, as it is.
+// The translation "lowpass": the part of the sound that skin can feel, unchanged.
 
 #include <pacini/filters/Butterworth.h>
 #include <pacini/foundation/Clamp.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-// Solo and mute: what is heard while editing; the clip itself does not change.
+// Solo and mute while editing; the clip itself does not change.
 
 #include <pacini/clip/Clip.h>
 #include <pacini/clip/edits/TimeEdits.h>
@@ -14,7 +14,7 @@
 namespace pacini
 {
 
-/// Which parts of a clip are played.
+/// The parts of a clip to play.
 struct Audition
 {
     std::set<std::size_t> solo;  ///< bands; when there are any, the others are silent

@@ -14,7 +14,7 @@
 namespace pacini
 {
 
-/// Clipboard contents. What was copied: times count from the start of the copied range.
+/// Clipboard contents. Times are relative to the start of the copied range.
 struct Fragment
 {
     struct LanePart
@@ -52,7 +52,8 @@ struct Fragment
     if (curve == nullptr)
         return Error{ErrorCode::invalidArgument, "lane", "is not in the clip"};
     if (isFrequency(lane.kind) != isFrequency(part.lane.kind))
-        return Error{ErrorCode::invalidArgument, "lane", "frequencies and amplitudes cannot stand for each other"};
+        return Error{ErrorCode::invalidArgument, "lane",
+                     "frequencies cannot replace amplitudes, nor amplitudes frequencies"};
     if (part.curve.empty())
         return clip;
     const double at = clampTo(time, 0.0, clip.duration);

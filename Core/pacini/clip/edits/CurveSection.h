@@ -1,6 +1,6 @@
 #pragma once
 
-// Sections of curves: what edits of a stretch of time are made of.
+// Sections of curves, the basis of edits of a time range.
 
 #include <pacini/clip/Curve.h>
 #include <pacini/clip/edits/Lane.h>

@@ -21,7 +21,7 @@ enum class LaneKind
     noise,     ///< amplitude of noise band `index`
 };
 
-/// Which curve of a clip.
+/// Identifies a curve of a clip.
 struct Lane
 {
     LaneKind kind = LaneKind::envelope;

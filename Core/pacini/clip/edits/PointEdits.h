@@ -16,7 +16,7 @@
 namespace pacini
 {
 
-/// What a curve may hold: laneRange() of its lane and the duration of its clip in seconds.
+/// Limits of a curve: laneRange() of its lane and the duration of its clip in seconds.
 struct CurveLimits
 {
     double duration = 0.0;
@@ -28,7 +28,7 @@ struct CurveLimits
     return {clip.duration, laneRange(lane.kind)};
 }
 
-/// A curve after an edit and where the edited points now are in it: those that were selected, or that are new.
+/// A curve after an edit, with the indices of the edited points: the selected or the new ones.
 struct EditedCurve
 {
     Curve curve;

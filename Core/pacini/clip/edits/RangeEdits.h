@@ -19,7 +19,7 @@
 namespace pacini
 {
 
-/// What a range edit works on.
+/// Scope of a range edit.
 struct EditScope
 {
     TimeRange range{0.0, limits::duration};
@@ -61,7 +61,7 @@ void forTransients(Clip& clip, const EditScope& scope, TimeRange range, F&& edit
     return clampTo(value, range.low, range.high);
 }
 
-/// Puts events in order of time; those at one time keep theirs.
+/// Sorts events by time; the sort is stable.
 template <typename Events>
 void sortByTime(Events& events)
 {
@@ -202,7 +202,7 @@ enum class FadeShape
     return clip;
 }
 
-/// Lines in time that events are pulled to.
+/// Time grid for quantising events.
 struct TimeGrid
 {
     double step = 0.1;     ///< s, above 0; other values quantise nothing
@@ -255,7 +255,7 @@ struct TimeGrid
     return clip;
 }
 
-/// How much chance humanise() adds, each uniform in plus or minus this.
+/// Random deviations that humanise() adds, each uniform within plus or minus the value.
 struct Humanisation
 {
     double time = 0.0;  ///< s, 0 to 1

@@ -1,6 +1,6 @@
 #pragma once
 
-// What people would say of a vibration by itself: how strong, how fast, how rough.
+// Predicted impression of a vibration alone: strength, speed and roughness.
 
 #include <pacini/evaluate/match/TouchTrack.h>
 #include <pacini/evaluate/match/TrackStatistics.h>

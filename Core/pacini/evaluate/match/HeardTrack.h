@@ -1,6 +1,6 @@
 #pragma once
 
-// What is heard of a sound over time: how loud, and how sharp.
+// Loudness and sharpness of a sound over time.
 
 #include <pacini/evaluate/SourcePreparation.h>
 #include <pacini/foundation/Result.h>

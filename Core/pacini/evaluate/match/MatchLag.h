@@ -1,6 +1,6 @@
 #pragma once
 
-// By how much a vibration is later than the sound that it belongs to, and the vibration without that.
+// Lag of a vibration behind its sound, and compensation of the lag.
 
 #include <pacini/evaluate/match/HeardTrack.h>
 #include <pacini/evaluate/match/TouchTrack.h>

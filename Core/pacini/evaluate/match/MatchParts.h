@@ -1,6 +1,6 @@
 #pragma once
 
-// How well a vibration matches a sound, by part: what people's judgement is predicted from.
+// Parts of the match of a vibration and a sound, from which the rating by people is predicted.
 
 #include <pacini/evaluate/match/HeardTrack.h>
 #include <pacini/evaluate/match/TouchTrack.h>
@@ -15,7 +15,7 @@
 namespace pacini
 {
 
-/// Agreement of what is heard with what is felt, each 0 (none) to 1.
+/// Agreement of the heard and the felt signal, each part 0 (none) to 1.
 struct MatchParts
 {
     double attacks = 0.0;    ///< rises of loudness and of felt strength, within some 10 ms

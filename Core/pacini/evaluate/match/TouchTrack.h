@@ -1,6 +1,6 @@
 #pragma once
 
-// What skin feels of a vibration over time: how strong, and at which frequency.
+// Felt strength and frequency of a vibration over time.
 
 #include <pacini/evaluate/FeltSpectrum.h>
 #include <pacini/evaluate/HannSmoothing.h>
@@ -21,8 +21,8 @@
 namespace pacini
 {
 
-/// What is felt of a vibration. Strengths are amplitudes (root mean square) in the unit of the signal, power in an
-/// arbitrary one.
+/// A vibration as felt. Strengths are amplitudes (root mean square) in the unit of the signal, power in an arbitrary
+/// one.
 struct TouchTrack
 {
     static constexpr double rate = 500.0;         ///< Hz, of `strength`

@@ -1,6 +1,6 @@
 #pragma once
 
-// Smoothing, correlation and fluctuation of tracks of what is heard and felt.
+// Smoothing, correlation and fluctuation of heard and felt tracks.
 
 #include <pacini/evaluate/HannSmoothing.h>
 #include <pacini/evaluate/match/TouchTrack.h>

@@ -33,7 +33,7 @@ double rounded(double value)
     return std::round(value * 1e6) / 1e6;
 }
 
-/// A stretch of continuous vibration: what is felt is its intensity times the curve.
+/// A section of continuous vibration, with its intensity multiplied by the curve.
 struct Section
 {
     double from = 0.0;

@@ -120,7 +120,7 @@ double largestRounding(const SingleVoice& voice)
 
 namespace
 {
-/// The voice of a clip that all effects are made of, and what it loses.
+/// The voice from which all effects are made, and its losses.
 struct AndroidVoice
 {
     SingleVoice voice;
@@ -195,10 +195,10 @@ void addDeviceLosses(LossList& losses, const std::vector<AndroidPoint>& points, 
 {
     constexpr std::size_t advised = 16;
     if (points.size() > advised)
-        losses.add(LossKind::points, 0.0, duration, 0.0,
-                   fmt::format("envelopes: {} control points; devices need not play more than 16 at once, Android "
-                               "splits the effect",
-                               points.size()));
+        losses.add(
+            LossKind::points, 0.0, duration, 0.0,
+            fmt::format("envelopes: {} control points; devices may support only 16 at once, Android splits the effect",
+                        points.size()));
     std::int64_t at = 0;
     for (const AndroidPoint& point : points)
     {

@@ -36,9 +36,9 @@ public:
                 reader.integer("repeat", repeat, "must be a whole number");
                 if (timings.size() != amplitudes.size())
                     reader.fail("amplitudes",
-                                fmt::format("has {} numbers beside {} timings", amplitudes.size(), timings.size()));
+                                fmt::format("has {} numbers, but {} timings", amplitudes.size(), timings.size()));
                 if (repeat >= 0)
-                    warnings.emplace_back("waveform.repeat: the effect is read once");
+                    warnings.emplace_back("waveform.repeat: the effect is read without its repetition");
                 double sum = 0.0;
                 bool isDefault = false;
                 for (std::size_t i = 0; i < timings.size() && !reader.error; ++i)
@@ -74,7 +74,8 @@ public:
                           if (!reader.error && envelope.points.empty())
                               reader.fail("controlPoints", "has no control point");
                           if (!reader.error && envelope.points.back().amplitude != 0.0)
-                              warnings.emplace_back("controlPoints: the last amplitude is not 0; Android refuses this");
+                              warnings.emplace_back(
+                                  "controlPoints: the last amplitude is not 0; Android rejects such effects");
                           if (!reader.error)
                               envelope.initialFrequency = initial.value_or(envelope.points.front().frequency);
                       });

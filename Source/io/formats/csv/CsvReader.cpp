@@ -45,7 +45,7 @@ std::vector<std::string_view> parts(std::string_view line, char separator)
     return cells;
 }
 
-/// What a column is.
+/// Kind of a column.
 enum class Column
 {
     ignored,
@@ -90,7 +90,7 @@ public:
                 readRow(line, number);
         }
         if (!error && columns.empty())
-            error = Error{ErrorCode::invalidData, "", "has no line with the names of its columns"};
+            error = Error{ErrorCode::invalidData, "", "has no header line with the names of its columns"};
         if (!error)
             finish();
     }
@@ -199,7 +199,7 @@ private:
     {
         const auto cells = parts(line, separator);
         if (cells.size() > columns.size())
-            return fail(number, columns.size(), "there are more cells than columns");
+            return fail(number, columns.size(), "has more cells than columns");
         std::vector<std::optional<double>> values(columns.size());
         std::optional<double> time;
         for (std::size_t i = 0; i < cells.size(); ++i)
@@ -208,7 +208,7 @@ private:
                 continue;
             values[i] = parseNumber(cells[i]);
             if (!values[i])
-                return fail(number, i, fmt::format("'{}' is no number", shownText(cells[i])));
+                return fail(number, i, fmt::format("'{}' is not a number", shownText(cells[i])));
             if (!std::isfinite(*values[i]))
                 return fail(number, i, "is not a finite number");
             if (columns[i].kind == Column::time)
@@ -232,7 +232,7 @@ private:
         if (event && event->amplitude >= 0.0)
             clip.transients.push_back(*event);
         else if (event)
-            fail(number, timeColumn, "a sharpness needs an event beside it");
+            fail(number, timeColumn, "a sharpness needs an event in the same line");
     }
 
     void store(ColumnPlace place, double time, double value, std::optional<Transient>& event, std::size_t line,

@@ -14,8 +14,8 @@ namespace pacini
 
 namespace
 {
-/// The table as it is written: what stands in column `c` at a time; the n-th value of a column at one time is in the
-/// n-th row of that time.
+/// The table to write: values of column `c` at a time; the n-th value of a column at one time is in the n-th row of
+/// that time.
 class Table
 {
 public:

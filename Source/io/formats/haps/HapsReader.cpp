@@ -132,7 +132,7 @@ private:
     void addTransient(const Note& note, double gain, const std::string& where)
     {
         if (!note.effect.type)
-            report.warn(where, "has neither a type nor an amplitude; taken for a transient");
+            report.warn(where, "has neither a type nor an amplitude and is read as a transient");
         constexpr double plain = 0.5;
         clip.transients.push_back({note.start, gain, plain});
         const double end = note.start + std::max(note.length, hapsTransientLength); // players know one length only
@@ -185,13 +185,13 @@ private:
         double end = std::max(note.start, amplitude.back().time);
         const double stated = note.start + note.length;
         if (end > stated + 1e-3)
-            report.warn(where + ".m_length", "ends before the keyframes; they are kept");
+            report.warn(where + ".m_length", "ends before its keyframes; they are kept");
         else if (end < stated)
             amplitude.push_back({end = stated, amplitude.back().value});
 
         Band* band = lanes.take(note.start, end, limits::bands - std::min(clip.bands.size(), limits::bands));
         if (band == nullptr)
-            return report.fail(where, "sounds together with 256 others", ErrorCode::tooLarge);
+            return report.fail(where, "plays at the same time as 256 others", ErrorCode::tooLarge);
         if (note.start > 0.0 && amplitude.front().value > 0.0)
             band->amplitude.push_back({note.start, 0.0});
         if (note.start < amplitude.front().time)
@@ -265,7 +265,7 @@ std::optional<Error> readHapsEffect(const nlohmann::json& tree, ImportedClip& im
     imported.clip = std::move(importer.clip);
     imported.clip.name = importedName(description);
     if (imported.clip.bands.empty() && imported.clip.transients.empty())
-        imported.warnings.emplace_back("m_vibration: nothing sounds");
+        imported.warnings.emplace_back("m_vibration: nothing is played");
     return {};
 }
 } // namespace

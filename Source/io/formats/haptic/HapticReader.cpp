@@ -139,9 +139,8 @@ private:
         if (clip.duration <= first)
             warnings.emplace_back("signals.continuous.envelopes.amplitude: has no duration; strict readers refuse it");
         if (!band.pitch.empty() && (band.pitch.front().time < first || band.pitch.back().time > clip.duration))
-            warnings.emplace_back(
-                "signals.continuous.envelopes.frequency: goes beyond the amplitudes and is cut there; "
-                "strict readers refuse it");
+            warnings.emplace_back("signals.continuous.envelopes.frequency: is longer than the amplitudes and is cut "
+                                  "off; strict readers refuse it");
         if (!band.pitch.empty() && band.pitch.front().time > clip.duration)
             band.pitch = {{clip.duration, band.pitch.front().value}};
         cutAfter(band.pitch, clip.duration);

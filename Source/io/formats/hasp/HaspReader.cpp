@@ -52,7 +52,7 @@ std::optional<Error> readProject(const nlohmann::json& project, ImportedClip& im
     const auto list = project.find("clips");
     if (list == project.end() || !list->is_array())
         return Error{ErrorCode::invalidData, "clips",
-                     list == project.end() ? "is missing, which a project of Haptics Studio has"
+                     list == project.end() ? "is missing; a project of Haptics Studio has it"
                                            : "must be a list in brackets"};
     const auto clips = clipsOf(*list);
     constexpr const char* advice = "export them from Haptics Studio as .haptic files";

@@ -68,7 +68,8 @@ std::optional<Error> checkVersion(const std::string& version, std::vector<std::s
     if (year < firstYear || (version.size() > 4 && version[4] != '-'))
         return Error{ErrorCode::invalidData, "version", "must be a year from 2023, such as \"2023\" or \"2023-1\""};
     if (year > knownYear)
-        warnings.push_back(fmt::format("version: {} is newer than what this program knows", shownText(version)));
+        warnings.push_back(
+            fmt::format("version: {} is newer than the versions that this program supports", shownText(version)));
     return {};
 }
 } // namespace

@@ -75,7 +75,7 @@ public:
             if (!vibrates(perception.modality))
             {
                 report.warn(where + ".perception_modality",
-                            fmt::format("'{}' is no vibration in time; left out", shownText(perception.modality)));
+                            fmt::format("'{}' is not a vibration over time; left out", shownText(perception.modality)));
                 continue;
             }
             library = &perception.library;
@@ -191,7 +191,7 @@ private:
             const double end = position + effect->keyframes.back().position;
             Band* lane = lanes.take(position, end, room);
             if (lane == nullptr)
-                return report.fail(where, "has more than 256 waves that sound together", ErrorCode::tooLarge);
+                return report.fail(where, "has more than 256 waves at the same time", ErrorCode::tooLarge);
             if (band.type == "Curve")
                 appendHjifCurve(*lane, *effect, position, scale);
             else

@@ -62,7 +62,7 @@ std::vector<float> playedAsFile(const Clip& file, const std::vector<HjifEvent>& 
     return samples;
 }
 
-/// Mean difference of levels where either is felt, as a share of what counts as another level altogether.
+/// Mean difference of levels where either is felt, as a share of the difference that counts as a complete mismatch.
 class LevelDistance
 {
 public:

@@ -28,8 +28,8 @@ std::optional<Error> readHjifClip(const nlohmann::json& tree, ImportedClip& impo
                                                                 [](const HjifChannel& c) { return !c.bands.empty(); });
                                          });
         if (hadMore)
-            return Error{ErrorCode::invalidData, "perceptions", "hold nothing that can be read as vibration in time"};
-        imported.warnings.push_back("perceptions: nothing sounds");
+            return Error{ErrorCode::invalidData, "perceptions", "contain no vibration over time"};
+        imported.warnings.push_back("perceptions: nothing is played");
     }
     return {};
 }

@@ -11,7 +11,7 @@ namespace pacini
 
 namespace
 {
-/// What a bit of the stream is about; each kind has statistics of its own.
+/// Kind of a bit in the stream; each kind has its own statistics.
 enum class BitKind
 {
     header,

@@ -1,6 +1,6 @@
 #pragma once
 
-// Transients of HJIF that stand for what sounds at an event, with the waves ducked for them.
+// Transients of HJIF for events, with the waves ducked around them.
 
 #include "io/formats/hjif/HjifEvents.h"
 
@@ -15,7 +15,7 @@ namespace pacini
 /// energy than the pulse of an event of the same amplitude, and more than the attack that it stands for.
 inline constexpr double hjifLeastTap = 0.25;
 
-/// How much of the waves becomes the Transient of an event.
+/// Share of the waves that becomes the transient of an event.
 struct HjifTapShare
 {
     double share = 0.0; ///< of what is felt of them while the Transient plays

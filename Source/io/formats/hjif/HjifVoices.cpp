@@ -106,7 +106,7 @@ void markCovered(Clip& played, const Clip& clip)
     }
 }
 
-/// How much each event takes of the waves; none: events are merged.
+/// Share of the waves for each event; none: events are merged.
 using TapShares = std::vector<HjifTapShare>;
 
 constexpr double usualShare = 0.25; // of the waves
@@ -151,7 +151,7 @@ Clip withCurves(Clip clip, std::vector<Curve> curves)
     return clip;
 }
 
-/// What is to be written, and what it was made of.
+/// The content to write, and its source.
 struct Written
 {
     HjifVoices all;
@@ -167,7 +167,7 @@ Written usual(const Clip& clip, CarrierMode carriers, const TapShares& shares)
     return written;
 }
 
-/// Chooses how much of the waves the events take.
+/// Chooses the share of the waves that events take.
 class TapChoice
 {
 public:

@@ -20,7 +20,7 @@ enum class HjifEffort
     usual   ///< one that is mostly good
 };
 
-/// What a file has of a clip.
+/// Content of a clip in a file.
 struct HjifVoices
 {
     Clip clip;

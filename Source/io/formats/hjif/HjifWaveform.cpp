@@ -90,7 +90,7 @@ void HjifWaveform::addWavelet(const HjifBand& band, std::span<const HjifPlaced> 
         const auto block = hjifBlockSamples(*effect->stream, *size);
         if (!block)
             return report.fail(fmt::format("{}.effects[{}].wavelet_stream", where, i),
-                               "has characters that are not of its alphabet: letters, digits, '+' and '/'");
+                               "has characters other than letters, digits, '+' and '/'");
         std::transform(block->begin(), block->end(), samples.begin() + static_cast<std::ptrdiff_t>(i * *size),
                        [](double x) { return static_cast<float>(x); });
         moved = moved || std::abs(position - static_cast<double>(i) * *band.blockLength) > 0.5 * *band.blockLength;

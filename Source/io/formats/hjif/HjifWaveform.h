@@ -16,9 +16,9 @@
 namespace pacini
 {
 
-/// Draws WaveletWave and Curve bands as samples and translates them as a sound is: what a wavelet band holds is a
-/// waveform, and the two bands of the reference encoder make sense together only, for the one holds what the other is
-/// off by. All channels are drawn at one rate.
+/// Draws WaveletWave and Curve bands as samples and translates them like a sound: a wavelet band contains a waveform,
+/// and the two bands of the reference encoder belong together, as one contains the error of the other. All channels are
+/// drawn at one rate.
 class HjifWaveform
 {
 public:

@@ -20,7 +20,7 @@ struct HjifScale
     double level = 1.0;    ///< amplitude of 1
 };
 
-/// An effect of a band, looked up, and where it stands.
+/// An effect of a band, resolved, and its position.
 struct HjifPlaced
 {
     const HjifEffect* effect = nullptr;

@@ -279,12 +279,11 @@ private:
                 waves.add(wavePulse(tick, told[i]), told[i].frequency, told[i].frequency);
             if (told[i].inTrain && told[i].tap <= 0.0)
                 losses.add(LossKind::event, event.time, told[i].length, 0.0,
-                           "a transient would fill the gaps of a fast train: its events are written as short waves");
+                           "events of a fast train are written as short waves: transients would fill its gaps");
             if (told[i].tap > 0.0 && told[i].wave > 0.0)
-                losses.add(
-                    LossKind::event, event.time, hjifTransientLength, 0.0,
-                    "a part of a sharp event is a transient, which is dull and 22 ms long in the reference player; "
-                    "the rest is a short wave of its own frequency");
+                losses.add(LossKind::event, event.time, hjifTransientLength, 0.0,
+                           "sharp events are written as a transient, which is dull and 22 ms long in the reference "
+                           "player, and a short wave at their frequency");
             if (told[i].tap > 0.0)
             {
                 const double place = hjifDullFrequency + event.sharpness * (hjifSharpFrequency - hjifDullFrequency);

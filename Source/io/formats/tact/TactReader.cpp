@@ -250,7 +250,7 @@ std::optional<Error> readTactProject(const nlohmann::json& tree, ImportedClip& i
     voice.frequency = {{0.0, tactMotorFrequency}};
     imported.clip = clipOfVoice(std::move(voice));
     imported.clip.name = importedName(reader.name);
-    imported.warnings.emplace_back("project.tracks: the strongest motor of all places is read as one amplitude");
+    imported.warnings.emplace_back("project.tracks: the strongest of all motors is read as one amplitude");
     return {};
 }
 } // namespace

@@ -100,7 +100,8 @@ private:
     {
         constexpr double plain = 0.5;
         if (sharpnesses.size() != strengths.size())
-            report.warn("voices.transients", "there are not as many sharpnesses as strengths; the nearest one is used");
+            report.warn("voices.transients",
+                        "the number of sharpnesses differs from that of the strengths; the nearest one is used");
         for (const Breakpoint& strength : strengths)
             clip.transients.push_back(
                 {strength.time, strength.value, sharpnesses.empty() ? plain : valueAt(sharpnesses, strength.time)});
