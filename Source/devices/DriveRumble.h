@@ -28,8 +28,8 @@ using DriveRenderer = std::function<void(std::span<const std::span<float>>)>;
 /// Two Butterworth filters, whose powers add up to that of the signal, part it at the border of the carriers of HD
 /// rumble. The amplitude of a tone is that of a sinusoid of the same power, not above the peak; its frequency is that
 /// of a sinusoid whose steps from sample to sample have the same power: exact for one sinusoid, and the mean weighted
-/// by power for many. A tone that leaks through the other filter so keeps its frequency, and is joined with its other
-/// half by whoever maps tones by their frequencies. An event is a level that doubles within a packet.
+/// by power for many. A tone that leaks through the other filter so keeps its frequency; the mapper of tones joins it
+/// with its other half. An event is a level that doubles within a packet.
 class DriveMeasure
 {
 public:
@@ -61,8 +61,8 @@ private:
     double heldPeak = 0.0; ///< of those before, fading
 };
 
-/// Converter of drive signals, of which the controller's thread pulls what it needs, to states of a controller. One
-/// signal plays on both sides; of more, the first two play left and right. It never ends.
+/// Converts drive signals, pulled by the controller's thread, to states of a controller. One signal plays on both
+/// sides; of more, the first two play left and right. It never ends.
 class DriveRumble : public RumbleSource
 {
 public:

@@ -9,10 +9,10 @@ namespace pacini::devices
 
 /// While it lives and is armed, a signal that ends the program first writes a report that silences a controller:
 /// SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGSYS and SIGABRT, and also SIGINT, SIGTERM, SIGHUP and SIGQUIT where the program
-/// does not take them in itself. Then the signal does what it would have done; who lives on nevertheless sends nothing
-/// more. Everything is prepared before: the handler only reads this object's lasting place and writes, by one system
-/// call. Once more after 20 ms, as another thread may have been about to send. SIGKILL cannot be caught. Does nothing
-/// where there are no such signals.
+/// does not take them in itself. Then the signal has its usual effect; a program that survives sends nothing more.
+/// Everything is prepared before: the handler only reads this object's lasting place and writes, by one system call.
+/// Once more after 20 ms, as another thread may have been about to send. SIGKILL cannot be caught. Does nothing where
+/// there are no such signals.
 class EmergencyStop
 {
 public:

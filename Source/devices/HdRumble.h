@@ -1,6 +1,6 @@
 #pragma once
 
-// HD rumble: the four bytes by which a Joy-Con or one side of a Pro Controller plays two sinusoids.
+// HD rumble: the four bytes of two sinusoids for a Joy-Con or one side of a Pro Controller.
 
 #include <pacini/foundation/Units.h>
 

@@ -16,7 +16,7 @@ constexpr std::size_t maxNested = 16;              // collections, and saved sta
 constexpr std::size_t maxFields = 256;             // haptic devices have some tens
 constexpr std::uint64_t maxReportBits = 8 * 16384; // Linux, HID_MAX_BUFFER_SIZE
 
-/// What holds until it is changed.
+/// Global items of the descriptor, valid until changed.
 struct GlobalState
 {
     std::uint16_t page = 0;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Parser of HID report descriptors: the fields that the reports of a device hold.
+// Parser of HID report descriptors: lists the fields in the reports of a device.
 
 #include <pacini/foundation/Result.h>
 

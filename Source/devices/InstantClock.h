@@ -11,7 +11,7 @@
 namespace pacini::devices
 {
 
-/// Simulated clock, which waiting moves on at once: for lists of what would be sent and for tests.
+/// Simulated clock that waiting advances at once, for dry runs and tests.
 class InstantClock : public SendClock
 {
 public:

@@ -8,7 +8,7 @@
 namespace pacini::devices
 {
 
-/// Levels 0..1, linear in what the controller is asked for. What lies outside is brought into the range, NaN to 0.
+/// Levels 0..1, linear in the value sent to the controller. Values outside are clamped, NaN becomes 0.
 struct MotorLevels
 {
     double strong = 0.0; ///< the heavy, slow motor, in the left grip

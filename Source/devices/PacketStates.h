@@ -31,9 +31,9 @@ namespace pacini::devices
 
 /// Converter of packets to the states of any controller that is not sent samples.
 ///
-/// On waveforms (see chosenWaveforms()), an event is triggered in its packet, as strong as it is, and what lasts gives
-/// way to it until it has ended. What lasts follows the levels of two motors: where the strong one is ahead it is a
-/// rumble, otherwise a buzz, as intense as both together.
+/// On waveforms (see chosenWaveforms()), an event is triggered in its packet at its level and interrupts the continuous
+/// part until it has ended. The continuous part follows the levels of two motors: a rumble if the strong one is higher,
+/// otherwise a buzz, with the intensity of both together.
 class PacketStates
 {
 public:

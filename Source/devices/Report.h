@@ -1,6 +1,6 @@
 #pragma once
 
-// HID report, as it goes to a controller.
+// HID report for a controller.
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 namespace pacini::devices
 {
 
-/// Which way a report goes.
+/// Direction of a report.
 enum class ReportWay
 {
     output,

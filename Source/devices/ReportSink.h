@@ -1,6 +1,6 @@
 #pragma once
 
-// Interface for receivers of output reports: a controller, or a list of what would be sent.
+// Interface for receivers of output reports: a controller, or the list of a dry run.
 
 #include "devices/Report.h"
 
@@ -11,7 +11,7 @@
 namespace pacini::devices
 {
 
-/// What silences a controller: a report, and a second where it takes two.
+/// Reports that silence a controller: one, or two if it needs two.
 struct StopReport
 {
     Report report;

@@ -70,7 +70,7 @@ struct RumbleMapperParams
     bool operator==(const RumbleMapperParams&) const = default;
 };
 
-/// Smoothed mapping for one side of a controller. An actuator that is told to jump clicks: amplitudes and logarithms of
+/// Smoothed mapping for one side of a controller. Jumps make an actuator click; therefore amplitudes and logarithms of
 /// frequencies go to their targets exponentially, so never beyond them, and independently of the interval. A carrier
 /// that starts from silence starts at its new frequency, as nobody has felt another; one that fades out keeps its
 /// frequency.

@@ -25,10 +25,10 @@ struct PlayReport
     Seconds latest;           ///< by how much the packet that was latest came too late
 };
 
-/// Packet n is sent n intervals after the first; a late one moves no other. When sending takes longer than an interval,
-/// the packets that it has taken the place of are left out. What a controller plays from a memory of its own is sent
-/// Pacing::ahead intervals before, and only left out when the memory has run dry. Whatever ends playing, the last two
-/// packets are silent; after them come only the closing reports of the controller.
+/// Packet n is sent n intervals after the first; a late packet does not delay others. If sending takes longer than an
+/// interval, the packets due meanwhile are skipped. Packets for a controller with its own buffer are sent Pacing::ahead
+/// intervals early, and are skipped only if the buffer has run empty. Playback always ends with two silent packets,
+/// followed only by the closing reports of the controller.
 class RumblePlayback
 {
 public:

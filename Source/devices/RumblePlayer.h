@@ -1,6 +1,6 @@
 #pragma once
 
-// Player for a controller, on a thread of its own.
+// Player for a controller, on its own thread.
 
 #include "devices/ClipRumble.h"
 #include "devices/ControllerReports.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-// Interface of what is played on a controller, packet after packet.
+// Interface of sources of packets for a controller.
 
 #include "devices/ControllerReports.h"
 

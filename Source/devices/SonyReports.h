@@ -1,6 +1,6 @@
 #pragma once
 
-// The output reports by which DualShock 4 and DualSense turn their two motors.
+// Output reports for the two motors of DualShock 4 and DualSense.
 
 #include "devices/MotorLevels.h"
 

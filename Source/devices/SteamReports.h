@@ -49,7 +49,7 @@ struct SteamStream
 /// Report 0x88: samples for the grips and the trackpads, left and right. [any]
 [[nodiscard]] Report steamSamplesReport(const SteamStream& stream, const PcmBlock& block) noexcept;
 
-/// What report 0x86 does with a pair of actuators.
+/// Command of report 0x86 for a pair of actuators.
 enum class SteamSwitch : std::uint8_t
 {
     off = 1,

@@ -1,6 +1,6 @@
 #pragma once
 
-// The output report by which a haptic device of HID usage page 0x0E plays one of its own waveforms.
+// Output report that plays a built-in waveform of a haptic device of HID usage page 0x0E.
 
 #include "devices/Report.h"
 
@@ -11,7 +11,7 @@
 namespace pacini::devices
 {
 
-/// Position and range of a number in a report; with 0 bits it is not there.
+/// Position and range of a number in a report; 0 bits if it is absent.
 struct ReportField
 {
     std::uint16_t bit = 0; ///< from the lowest bit of the byte after the report's number on
@@ -22,7 +22,7 @@ struct ReportField
 };
 
 /// Layout of the report that triggers waveforms, and the ordinals of those that are played, 0 for none. The device
-/// keeps playing a waveform that lasts 0 s until it is stopped.
+/// repeats a waveform with a duration of 0 s until it is stopped.
 struct WaveformTrigger
 {
     std::uint8_t report = 0; ///< its number

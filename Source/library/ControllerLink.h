@@ -1,6 +1,6 @@
 #pragma once
 
-// A game controller that plays an engine's drive signals, on a thread of its own.
+// A game controller that plays an engine's drive signals, on its own thread.
 
 #include "devices/DriveRumble.h"
 #include "devices/OpenController.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-// Handles: numbers for objects of the library, which tell when what they stood for is gone.
+// Handles: numbers for objects of the library that detect destroyed objects.
 
 #include <array>
 #include <atomic>

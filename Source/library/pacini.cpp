@@ -65,7 +65,7 @@ struct EngineEntry
     std::uint64_t controller = 0;
 };
 
-/// All that the library holds. It is never destroyed: an audio thread may outlive the end of main().
+/// All objects of the library. Never destroyed, as an audio thread may outlive main().
 struct Library
 {
     std::mutex control; ///< of everything but `engines` while rendering
@@ -130,7 +130,7 @@ pacini_result noMemory() noexcept
     return PACINI_NO_MEMORY;
 }
 
-/// Runs what may allocate; nothing leaves it but a code.
+/// Runs code that may allocate; turns all exceptions into a code.
 template <typename Work>
 pacini_result guarded(Work&& work) noexcept
 {
@@ -160,7 +160,7 @@ pacini_result guarded(Work&& work) noexcept
     }
 }
 
-/// What a struct of the caller, which may be older and shorter, says beside the defaults.
+/// The fields of the caller's struct, which may be older and shorter, with defaults for the rest.
 template <typename Struct>
 bool readStruct(const Struct* from, Struct& to)
 {
@@ -173,7 +173,7 @@ bool readStruct(const Struct* from, Struct& to)
     return true;
 }
 
-/// Writes what fits into a struct of the caller.
+/// Writes the fields that fit into the caller's struct.
 template <typename Struct>
 pacini_result writeStruct(Struct& from, Struct* to)
 {
@@ -493,7 +493,7 @@ pacini_result play(pacini_engine engine, const devices::Controller& controller, 
     return PACINI_OK;
 }
 
-/// Puts what is connected now in the place of what was.
+/// Replaces the list of controllers with those connected now.
 void keepConnected(const std::vector<devices::Controller>& now)
 {
     std::vector<std::uint64_t> kept;
@@ -543,8 +543,8 @@ pacini_result within(const char* name, double seconds, Work&& work)
     return finish(work(Seconds(seconds)));
 }
 
-/// Calls work(control, glide) for a control that there is and a glide in range. What the value may be the engine knows,
-/// but not that priorities are whole.
+/// Calls work(control, glide) if the control exists and the glide is in range. The engine checks the value, but not
+/// that priorities are whole.
 template <typename Work>
 pacini_result setControl(std::int32_t control, double value, double glide, Work&& work)
 {

@@ -1,6 +1,6 @@
 #pragma once
 
-// Secrets of a session: what a phone shows once, and what it is known by from then on.
+// Secrets of a session: a code for one-time pairing, and a token for the paired phone.
 
 #include <array>
 #include <cstddef>

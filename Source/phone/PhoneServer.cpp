@@ -71,7 +71,7 @@ Result<std::string> localAddress()
     return socket.local_endpoint().address().to_string();
 }
 
-/// What sessions share: used by the thread of the server alone, but for what is said otherwise.
+/// State shared by sessions: used only by the thread of the server, unless noted.
 class Host
 {
 public:

@@ -20,7 +20,7 @@ struct PhoneServerParams
     std::uint16_t port = 0; ///< 0: any that is free
 };
 
-/// Why a phone was not let in.
+/// Reason for refusing a phone.
 enum class Refusal
 {
     usedCode,  ///< another phone had its code
@@ -35,10 +35,10 @@ inline constexpr std::size_t mostPhones = 64;
 [[nodiscard]] std::string refusalText(Refusal refusal);
 
 /// A page that vibrates, for browsers that have the pairing code: it is in the address, works once, and is then
-/// another. It is used up by a tap on the page that it opens, not by a preview of the link. Nothing else is served,
-/// nothing is taken in but the time of the phone's clock; what is not paired is refused. All of it has a thread of its
-/// own and ends with the object. Protocol: HTTP and WebSocket (RFC 9110, RFC 6455), not encrypted, so for networks that
-/// are trusted.
+/// another. It is used up by a tap on the page that it opens, not by a preview of the link. Nothing else is served, and
+/// only the time of the phone's clock is accepted; unpaired phones are refused. The server runs on its own thread and
+/// ends with the object. Protocol: HTTP and WebSocket (RFC 9110, RFC 6455), not encrypted, so for networks that are
+/// trusted.
 class PhoneServer
 {
 public:

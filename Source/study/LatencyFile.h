@@ -1,6 +1,6 @@
 #pragma once
 
-// What was measured of the delay between sound and touch: `latency.json` in the folder of a study.
+// Measured delay between sound and haptic output: `latency.json` in the folder of a study.
 
 #include "study/Latency.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// Simulated participants, and what a study of them would find.
+// Simulated participants, and the results of a study with them.
 
 #include "study/Session.h"
 
@@ -56,7 +56,7 @@ private:
 /// Runs one participant through a session that was begun. Errors: those of Session.
 [[nodiscard]] Result<void> simulateSession(const Study& study, Session& session, const ObserverParams& params);
 
-/// How often studies with an effect would find it.
+/// Power: how often studies find an existing effect.
 struct PowerEstimate
 {
     std::string first, second;  ///< groups that are compared

@@ -1,6 +1,6 @@
 #pragma once
 
-// Profiles that know what a person feels.
+// Profiles with the thresholds of a person.
 
 #include "study/StudyResults.h"
 

@@ -18,7 +18,7 @@ namespace pacini::study
 
 namespace
 {
-/// Lines of fields. A field in quotes may hold what otherwise ends it.
+/// Lines of fields. A field in quotes may contain separators.
 class CsvLines
 {
 public:

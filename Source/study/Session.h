@@ -1,6 +1,6 @@
 #pragma once
 
-// A participant's way through a study: which trial is next, what was answered, what is kept.
+// A participant's session: the next trial, the answers, and their storage.
 
 #include "study/Plan.h"
 #include "study/SessionLog.h"
@@ -17,7 +17,7 @@
 namespace pacini::study
 {
 
-/// What begins a session.
+/// Parameters of a new session.
 struct SessionStart
 {
     std::string language = "en";

@@ -23,7 +23,7 @@ namespace pacini::study
 inline constexpr std::string_view sessionFormatName = "pacini.session";
 inline constexpr int sessionFormatVersion = 1;
 
-/// Who takes part in which study: the first line of a log.
+/// Participant and study: the first line of a log.
 struct SessionHead
 {
     std::string study;       ///< its name
@@ -37,7 +37,7 @@ struct SessionHead
     std::string program; ///< name and version
 };
 
-/// What was answered, and when what was presented began.
+/// An answer, and the start time of its presentation.
 struct Answer
 {
     std::optional<double> value; ///< on the scale

@@ -18,7 +18,7 @@
 namespace pacini::study
 {
 
-/// What the participant's devices are.
+/// Devices of the participant.
 struct StimulusParams
 {
     int sampleRate = 48000;         ///< Hz, of the device
@@ -34,7 +34,7 @@ struct PreparedStimulus
     std::vector<float> touch; ///< drive signal, within the limits of the profile
 };
 
-/// What an adaptive trial changes in a stimulus.
+/// Variable of a stimulus that an adaptive trial changes.
 struct Variation
 {
     Variable variable = Variable::level;

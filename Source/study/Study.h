@@ -1,6 +1,6 @@
 #pragma once
 
-// A study with people: what they feel and hear, in which groups and order, and what they are asked.
+// A study with participants: stimuli, groups, orders and questions.
 
 #include <cstddef>
 #include <cstdint>
@@ -13,13 +13,13 @@
 namespace pacini::study
 {
 
-/// A text in several languages: pairs of a code such as "en" and what it says, in the order of the codes.
+/// A text in several languages: pairs of a code such as "en" and its text, in the order of the codes.
 using Text = std::vector<std::pair<std::string, std::string>>;
 
 /// In `language`, else in English, else in the first; empty for no text.
 [[nodiscard]] std::string_view inLanguage(const Text& text, std::string_view language);
 
-/// What a participant does in a trial.
+/// Task of a participant in a trial.
 enum class Task
 {
     rating,        ///< one number on a scale
@@ -59,8 +59,8 @@ struct Tone
     bool operator==(const Tone&) const = default;
 };
 
-/// One thing to be felt or heard. Exactly one of clip, drive, tone and silence says what is felt; without any it is the
-/// sound's translation.
+/// A stimulus. At most one of clip, drive, tone and silence defines the haptic part; without any it is the translation
+/// of the sound.
 struct Stimulus
 {
     std::string name;  ///< never shown to participants
@@ -97,7 +97,7 @@ struct RatingScale
     bool operator==(const RatingScale&) const = default;
 };
 
-/// What an adaptive procedure changes, and in which unit.
+/// Variable of an adaptive procedure, and its unit.
 enum class Variable
 {
     level,           ///< of the touch, dB re full drive: is there anything at all?
@@ -115,7 +115,7 @@ enum class Procedure
     questPlus ///< Bayesian, the most informative value next (Watson 2017)
 };
 
-/// How a staircase finds a threshold of its variable. Steps are in dB: of the level, or 20 log10 of what the variable
+/// Staircase that finds a threshold of its variable. Steps are in dB: of the level, or 20 log10 of what the variable
 /// counts in.
 struct Adaptive
 {
@@ -174,7 +174,7 @@ struct Masking
     bool operator==(const Masking&) const = default;
 };
 
-/// What participants are spared. Computed for each, shown to the experimenter and never passed.
+/// Limits for participants. Computed for each one, shown to the experimenter and never exceeded.
 struct ExposureLimits
 {
     double daily = 2.5;  ///< m/s2, A(8) of ISO 5349-1: the action value of the directive 2002/44/EC

@@ -47,7 +47,7 @@ constexpr double sameBelow = -30.0;  // dB; smaller differences than 3 % of the 
 constexpr double longSession = 60.0; // minutes
 constexpr std::size_t mostCompared = 40; // stimuli of a block, each with each
 
-/// Stimuli as they are made, and what they cost.
+/// Prepared stimuli, and their exposure.
 struct MadeStimulus
 {
     double seconds = 0.0;

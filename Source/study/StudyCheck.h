@@ -1,6 +1,6 @@
 #pragma once
 
-// What would spoil a study, found before anybody is invited.
+// Check of a study for problems before participants are invited.
 
 #include "study/Stimuli.h"
 
@@ -18,7 +18,7 @@ struct Finding
     std::string message;
 };
 
-/// What a participant of a group goes through.
+/// Sequence of trials for a participant of a group.
 struct GroupLoad
 {
     std::string group;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Study files (JSON, format pacini.study) and the rules that a study keeps.
+// Study files (JSON, format pacini.study) and the rules of valid studies.
 
 #include "io/ReadWarnings.h"
 #include "study/Study.h"

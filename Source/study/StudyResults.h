@@ -1,6 +1,6 @@
 #pragma once
 
-// Results of a study: what all sessions in its folder have answered, sorted by kind.
+// Results of a study: the answers of all sessions in its folder, by kind.
 
 #include "study/Ratings.h"
 #include "study/SessionLog.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-// A session as it runs: plays what the trial asks for, knows when it may be answered, keeps what was measured.
+// A running session: plays trials, allows answers at the right time, and stores measurements.
 
 #include "study/Session.h"
 #include "study/TrialPlayback.h"

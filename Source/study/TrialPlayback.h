@@ -15,7 +15,7 @@
 namespace pacini::study
 {
 
-/// What became of a trial that was started.
+/// Outcome of a started trial.
 struct PlaybackReport
 {
     bool playing = false;

@@ -1,6 +1,6 @@
 #pragma once
 
-// What one trial plays: sound, touch and masking noise as one piece, on one clock.
+// Playback of one trial: sound, haptic signal and masking noise together, on one clock.
 
 #include "study/Plan.h"
 #include "study/Stimuli.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-// Free descriptions: words, how often they come, and their categories.
+// Free descriptions: words, their counts and their categories.
 
 #include <pacini/foundation/Result.h>
 
@@ -27,7 +27,7 @@ struct Description
 /// English: und, the).
 [[nodiscard]] std::vector<std::string> wordsOf(std::string_view text);
 
-/// Which words belong to which category. A word that ends in * stands for all that begin so.
+/// Words of each category. A word that ends in * matches all words with this beginning.
 class WordCategories
 {
 public:
@@ -45,7 +45,7 @@ private:
     std::vector<std::string> ordered;
 };
 
-/// How often each word came, the most frequent first.
+/// Count of each word, the most frequent first.
 using WordCounts = std::vector<std::pair<std::string, std::size_t>>;
 [[nodiscard]] WordCounts countWords(const std::vector<Description>& descriptions, std::string_view group);
 

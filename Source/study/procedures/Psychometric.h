@@ -1,6 +1,6 @@
 #pragma once
 
-// Psychometric function and what answers say of its parameters.
+// Psychometric function, and estimation of its parameters from answers.
 
 #include "study/statistics/Sample.h"
 

@@ -12,7 +12,7 @@
 namespace pacini::study
 {
 
-/// What a procedure has found.
+/// Result of a procedure.
 struct ThresholdEstimate
 {
     double strength = 0.0; ///< dB

@@ -1,6 +1,6 @@
 #pragma once
 
-// Agreement of raters and differences between what they all rated: ICC, Kendall's W, Friedman.
+// Agreement of raters, and differences between items that all of them rated: ICC, Kendall's W, Friedman.
 
 #include "study/statistics/Sample.h"
 

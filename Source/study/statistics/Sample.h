@@ -9,7 +9,7 @@
 namespace pacini::study
 {
 
-/// An interval that holds the true value in the given share of all studies.
+/// Confidence interval: contains the true value in the given share of all studies.
 struct Interval
 {
     double low = 0.0;
