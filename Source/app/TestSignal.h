@@ -12,7 +12,7 @@
 namespace pacini::app
 {
 
-/// Six seconds that repeat: a sweep over the range of touch, clicks in silence, rough noise that comes and goes.
+/// A loop of six seconds: a sweep over the range of touch, clicks in silence, rough noise that fades in and out.
 class TestSignal
 {
 public:

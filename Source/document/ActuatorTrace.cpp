@@ -38,7 +38,7 @@ std::string hertz(double frequency)
     return frequency < 1000.0 ? fmt::format("{:.0f} Hz", frequency) : fmt::format("{:.2f} kHz", frequency / 1000.0);
 }
 
-/// How much output filter and overdrive change a tone, linear, over frequency.
+/// Gain of output filter and overdrive for a tone, linear, over frequency.
 class OutputGain
 {
 public:
@@ -65,7 +65,7 @@ private:
     std::array<double, static_cast<std::size_t>(10.0 * perOctave)> gains{}; // to 4 kHz
 };
 
-/// What the actuator does in each step of time.
+/// State of the actuator in each time step.
 class Steps : public RenderSink
 {
 public:
@@ -111,7 +111,7 @@ private:
     std::size_t done = 0;
 };
 
-/// What was made of a clip for the actuator.
+/// A clip adapted to the actuator.
 struct FittedClip
 {
     const AdaptationParams& adaptation;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Trace of a clip on an actuator: what it really plays of the clip, and what is lost on the way.
+// Trace of a clip on an actuator: the signal that it plays, and the losses.
 
 #include "document/view/Columns.h"
 
@@ -21,7 +21,7 @@
 namespace pacini
 {
 
-/// Reason why something of a clip is not played as it is.
+/// Reason why part of a clip is changed or not played.
 enum class Loss : std::uint8_t
 {
     none,

@@ -12,7 +12,7 @@
 namespace pacini
 {
 
-/// Progress callback, called now and then with what is done, 0 to 1; false stops the work.
+/// Progress callback, called repeatedly with the completed share, 0 to 1; returning false stops the work.
 using GoOn = std::function<bool(double done)>;
 
 /// The clip of a sound on the grids of `params.quantise` bits, named after its file and sealed. Errors: those of

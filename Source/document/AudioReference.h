@@ -42,7 +42,7 @@ struct AudioReference
 /// Whether `path` is the file of a sound: in its place, or elsewhere with its content.
 [[nodiscard]] bool isFileOf(const AudioReference& reference, const std::filesystem::path& path);
 
-/// Reads a sound and says what it is. The samples come along, so that it is read once. Errors: those of readAudio().
+/// Reads a sound once; returns its description together with the samples. Errors: those of readAudio().
 struct DescribedAudio
 {
     AudioReference reference;

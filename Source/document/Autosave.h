@@ -18,10 +18,10 @@
 namespace pacini
 {
 
-/// Writes a document that has unsaved changes into a recovery folder, on a thread of its own: at once when it has been
-/// quiet, else at most every `interval`. A file is replaced as a whole, so that a program killed at any time leaves a
-/// complete one, at most `interval` and the time of writing old (twice that time, where it is the longer). Embedded
-/// sounds are written once, beside it. A lock beside it says that the program still runs.
+/// Writes a document that has unsaved changes into a recovery folder, on a thread of its own: at once after a pause,
+/// else at most every `interval`. A file is replaced as a whole, so that a program killed at any time leaves a complete
+/// one, at most `interval` and the time of writing old (twice that time, where it is the longer). Embedded sounds are
+/// written once, beside it. A lock file beside it shows that the program still runs.
 class Autosave
 {
 public:

@@ -1,6 +1,6 @@
 #pragma once
 
-// Persistent list in shared chunks, for long lists of which many slightly different versions are kept.
+// Persistent list in shared chunks, for many slightly different versions of long lists.
 
 #include <algorithm>
 #include <cstddef>

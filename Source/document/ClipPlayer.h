@@ -20,7 +20,7 @@ namespace pacini
 class PreviewEngine;
 class PreviewWorker;
 
-/// A preview engine with its worker, made anew when the device changes its rate.
+/// A preview engine with its worker, recreated when the device changes its rate.
 class ClipPlayer
 {
 public:

@@ -19,7 +19,7 @@
 namespace pacini
 {
 
-/// The path of a pointer as one height for each column of pixels; where it goes back, the later part counts.
+/// The path of a pointer as one height for each column of pixels; later parts overwrite earlier ones.
 class Stroke
 {
 public:

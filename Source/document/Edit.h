@@ -1,6 +1,6 @@
 #pragma once
 
-// Edit operations as data: the hand edits over an analysis, which are applied anew when the analysis changes.
+// Edit operations as data: a layer over an analysis, applied again when the analysis changes.
 
 #include "document/ChunkedList.h"
 
@@ -15,7 +15,7 @@
 namespace pacini
 {
 
-/// The points of one lane between two times, replaced. What edits of points become, whatever the tool was.
+/// Replaces the points of one lane between two times. All tools store edits of points in this form.
 struct LanePatch
 {
     Lane lane;
@@ -151,8 +151,8 @@ using EditOperation = std::variant<LanePatch, TransientPatch, MarkersEdit, Renam
                                    QuantiseEdit, HumaniseEdit, TransposeEdit, TrimEdit, CutEdit, InsertEdit, RepeatEdit,
                                    ReverseEdit, StretchEdit, ReplaceEdit, ThinEdit>;
 
-/// An operation and where its lanes lay: `frequencies` holds for each lane that the operation names, in their order,
-/// the centre of its band when the edit was made (0 for envelope and centroid), so that it is found among other bands.
+/// An operation and the frequencies of its lanes: for each lane of the operation, in order, `frequencies` has the
+/// centre of its band at the time of the edit (0 for envelope and centroid), to find it among other bands.
 struct Edit
 {
     EditOperation operation;

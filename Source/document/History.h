@@ -16,8 +16,8 @@
 namespace pacini
 {
 
-/// All states of a project, each with the name of the step that led to it. A step costs what it changed: clips are kept
-/// in chunks that states share.
+/// All states of a project, each with the name of the step that led to it. A step takes memory only for its changes:
+/// states share clips in chunks.
 class History
 {
 public:

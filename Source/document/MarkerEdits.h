@@ -1,6 +1,6 @@
 #pragma once
 
-// Edits of the markers of a clip. Pure functions: a list in order of time goes in, another comes out.
+// Edits of the markers of a clip. Pure functions from one list sorted by time to another.
 
 #include <pacini/clip/Clip.h>
 

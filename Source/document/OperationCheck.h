@@ -15,7 +15,7 @@ namespace pacini
 
 namespace detail
 {
-/// Visits an operation as FieldsWriter does and looks for what JSON cannot hold.
+/// Visits an operation like FieldsWriter and finds values that JSON cannot represent.
 class OperationVisitor
 {
 public:

@@ -1,6 +1,6 @@
 #pragma once
 
-// What a preview plays: clip, loop and bands, and how the seconds that are played lie in the clip.
+// Content of a preview: clip, loop and bands, and the mapping from played time to clip time.
 
 #include <pacini/clip/Clip.h>
 #include <pacini/clip/edits/Audition.h>

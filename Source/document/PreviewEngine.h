@@ -31,7 +31,7 @@ namespace pacini
 /// is another engine that the old one fades into. From its start on, a clip is what `pacini render` renders, sample by
 /// sample; an edit is heard within two blocks of its being built, and fades in within 10 ms.
 ///
-/// Three threads may use it at once: [message] says what to play, [worker] calls service() whenever wantsService() (at
+/// Three threads may use it at once: [message] sets the content, [worker] calls service() whenever wantsService() (at
 /// least every 100 ms while playing), [audio] calls process().
 class PreviewEngine
 {

@@ -1,6 +1,6 @@
 #pragma once
 
-// Background thread that builds what a PreviewEngine plays.
+// Background thread that builds the objects that a PreviewEngine plays.
 
 #include "document/PreviewEngine.h"
 

@@ -20,7 +20,7 @@
 namespace pacini
 {
 
-/// A clip of a project with what it was made of: an analysis of a sound, and the hand edits over it.
+/// A clip of a project with its sources: an analysis of a sound, and the edits over it.
 struct ClipItem
 {
     int id = 0;        ///< in its project, from 1
@@ -35,7 +35,7 @@ struct ClipItem
     std::shared_ptr<const Clip> clip;     ///< the analysis with the edits; never null
 };
 
-/// The actuator that the project is made for, and how it is played.
+/// The actuator of the project, and its playback settings.
 struct ProjectProfile
 {
     std::string name;                   ///< of a shipped profile or a file; empty: none

@@ -17,7 +17,7 @@
 namespace pacini::projectFields
 {
 
-/// A whole number, of any size that a double holds.
+/// A whole number within the range of a double.
 template <typename Number, typename Visitor>
 void visitCount(Number& value, const char* name, double lowest, double highest, Visitor& visitor)
 {

@@ -40,7 +40,7 @@ public:
     }
 };
 
-/// The tree of a project, in which a number stands for each clip.
+/// The tree of a project, in which a number refers to each clip.
 class ProjectTree final : public JsonTreeBuilder
 {
 public:

@@ -44,7 +44,7 @@ struct BuiltScene
 /// that glides from the point before it, so that levels, pan and delay go in straight lines; pitches step.
 [[nodiscard]] BuiltScene sceneOf(const Project& project);
 
-/// What is played of a scene, as it is planned.
+/// The played parts of a scene, by its plan.
 struct SceneForecast
 {
     std::map<std::size_t, std::string> leftOut; ///< why a part is not played, by its index

@@ -13,8 +13,8 @@
 namespace pacini::editor
 {
 
-/// One lane for each band, high ones above, the newest at the right; events are ticks at the top. Stands still, without
-/// repainting, when there is nothing but silence.
+/// One lane for each band, high ones above, the newest at the right; events are ticks at the top. Does not repaint
+/// during silence.
 class BandView final : public juce::Component
 {
 public:

@@ -28,14 +28,14 @@ namespace pacini::editor
 /// Errors: those of AudioWriter and describeAudio().
 [[nodiscard]] Result<DescribedAudio> soundOfCapture(const Capture& capture, double sampleRate, const std::string& name);
 
-/// What became of a capture.
+/// Result of a capture.
 struct CapturedClip
 {
     Clip clip;
     std::optional<Result<DescribedAudio>> sound; ///< where it was to be kept
 };
 
-/// Encodes one capture on a thread of its own.
+/// Encodes one capture on its own thread.
 class CaptureJob final : private juce::Thread, private juce::AsyncUpdater
 {
 public:

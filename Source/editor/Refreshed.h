@@ -6,9 +6,9 @@
 namespace pacini::editor
 {
 
-/// Interface for polling: refresh() looks whether what is shown has changed, and repaints only then. Listeners of
-/// parameters would be called on the audio thread under automation, and would have to wake the message thread from
-/// there.
+/// Interface for polling: refresh() repaints only if the displayed values have changed. Listeners of
+/// parameters would be called on the audio thread under automation, and would have to wake the message thread
+/// from there.
 class Refreshed
 {
 public:

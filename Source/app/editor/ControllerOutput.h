@@ -17,8 +17,8 @@
 namespace pacini::app
 {
 
-/// Follows the session: plays when it plays, from the same place, and is silent when it is. Edits are felt from the
-/// next restart on, which follows the last of them within a fifth of a second. The sender has a thread of its own.
+/// Follows the session: plays and stops with it, from the same position. Edits take effect at the
+/// next restart, within a fifth of a second after the last edit. The sender has its own thread.
 /// [message]
 class ControllerOutput final : private juce::Timer
 {

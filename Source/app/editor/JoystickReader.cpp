@@ -35,7 +35,7 @@ JoystickReader::~JoystickReader()
 #if JUCE_LINUX
 namespace
 {
-/// What the kernel's joystick interface sends (Documentation/input/joydev/joystick-api.rst).
+/// Event of the kernel's joystick interface (Documentation/input/joydev/joystick-api.rst).
 struct JoystickEvent
 {
     std::uint32_t time;

@@ -11,7 +11,7 @@
 namespace pacini::app
 {
 
-/// A button that goes down, or a stick or cross that is moved to an end; while it stays there, again and again.
+/// A pressed button, or a stick or cross moved to an end; repeated while it stays there.
 struct JoystickPress
 {
     int button = -1;   ///< counted from 0; -1: an axis
@@ -19,7 +19,7 @@ struct JoystickPress
     int direction = 0; ///< of the axis: -1 or 1
 };
 
-/// Listens to all joysticks, which may come and go. Elsewhere than on Linux there are none.
+/// Listens to all joysticks, also those connected later. Finds none on systems other than Linux.
 class JoystickReader final : private juce::Thread
 {
 public:

@@ -16,7 +16,7 @@ namespace pacini::app
 {
 
 /// Plays on one output and records up to three inputs of the device that the editor has open, in its callback. The
-/// inputs are opened only for measuring: some systems show that somebody listens.
+/// inputs are opened only for measuring, as some systems show that a program records.
 class MeasureDevice final : public MeasureRig, private juce::AudioIODeviceCallback
 {
 public:

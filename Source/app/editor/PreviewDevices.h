@@ -19,8 +19,8 @@ namespace pacini::app
 {
 
 /// Runs the player in the device's callback, or without a device on the message thread, so that controllers and phones
-/// can follow it. Tells the haptic outputs what channels there are. A device that is lost is looked for, and opened
-/// again when it is there.
+/// can follow it. Reports the available channels to the haptic outputs. Searches for a lost device and opens it again
+/// when it returns.
 class PreviewDevices final : private juce::AudioIODeviceCallback,
                              private juce::AsyncUpdater,
                              private juce::ChangeListener,

@@ -44,7 +44,7 @@ private:
     juce::AudioDeviceManager& manager;
     study::TrialPlayback playback;
     std::atomic<int> soundChannel{0}, touchChannel{1};
-    // Of what plays: how far it was when, by which a device that is there but silent is told.
+    // Last observed progress of the playback, for detecting a device that is open but stalled.
     mutable std::size_t lastFrame = 0;
     mutable double lastMoved = 0.0; ///< ms of JUCE's counter
     mutable bool stalled = false;

@@ -10,7 +10,7 @@
 namespace pacini::app
 {
 
-/// The experimenter's window: who is where, what plays, how much was felt. To be kept out of the participant's sight.
+/// The experimenter's window: participant, trial, playback and exposure. Keep it out of the participant's sight.
 class StudyWindow::Monitor final : public juce::DocumentWindow
 {
 public:

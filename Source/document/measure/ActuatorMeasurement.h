@@ -35,9 +35,9 @@ enum class MeasureStepState
     failed ///< see problem(), or what it stands on is spoiled
 };
 
-/// State of a measurement: what has been measured, and what follows from it. Everything behind a step that changes is
-/// forgotten; what then has to be computed anew is told by due(), done elsewhere and brought back with the ticket of
-/// that moment: results of what has changed meanwhile are not taken.
+/// State of a measurement: measured data, and derived results. A change of a step discards all later steps. due() names
+/// the results to compute again. They are computed elsewhere and returned with the ticket of that moment; results that
+/// are outdated meanwhile are rejected.
 class ActuatorMeasurement
 {
 public:

@@ -16,7 +16,7 @@
 namespace pacini
 {
 
-/// Sweeps, and between them a test tone that comes and goes softly. prepare() is not called while process() may run.
+/// Plays sweeps, and between them a test tone with fades. prepare() is not called while process() may run.
 class MeasureCallback
 {
 public:

@@ -97,7 +97,7 @@ struct VerifiedResponse
                                                       const FittedEqualizer& equalizer, double tolerance);
 
 /// The sweep through an equaliser, at the level asked for or as much below it as the equaliser raises it over full
-/// scale. `raised`: it is scaled to the peak that was asked for, since an equaliser that lowers nearly everything would
+/// scale. `raised`: the sweep is scaled to the requested peak, since an equaliser that lowers nearly everything would
 /// let it drown in the noise.
 struct VerifyingSweep
 {

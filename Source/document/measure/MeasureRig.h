@@ -39,7 +39,7 @@ enum class RigState
     lost      ///< the device went away or changed while playing
 };
 
-/// Plays a signal and records what the sensor says, in step. [message]
+/// Plays a signal and records the sensor in sync. [message]
 class MeasureRig
 {
 public:

@@ -1,6 +1,6 @@
 #pragma once
 
-// Messages for errors and warnings of a measurement, in plain words and with what to do.
+// Messages for errors and warnings of a measurement, in plain words and with remedies.
 
 #include <pacini/foundation/Result.h>
 #include <pacini/linearize/SweepMeasurement.h>

@@ -55,7 +55,7 @@ inline void curveColumns(std::span<const Breakpoint> curve, const TimeAxis& axis
     }
 }
 
-/// Extremes of a sound at several resolutions, so that an hour is drawn as fast as a second. Holds 1/32 of its size.
+/// Extremes of a sound at several resolutions, so that an hour is drawn as fast as a second. Takes 1/32 of its size.
 class WaveformPeaks
 {
 public:

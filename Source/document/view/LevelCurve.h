@@ -58,7 +58,7 @@ namespace pacini
     return sum;
 }
 
-/// Keeps what has been worked out of clips that are there still.
+/// Caches the curves of existing clips.
 class LevelCurves
 {
 public:

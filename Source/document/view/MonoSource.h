@@ -13,7 +13,7 @@
 namespace pacini
 {
 
-/// Reads stretches of a channel. What it reads from outlives it. [any]
+/// Reads sections of a channel. The source must outlive it. [any]
 class MonoSource
 {
 public:

@@ -19,9 +19,9 @@
 namespace pacini
 {
 
-/// Filled piece by piece, by whoever computes them: first a column for every 20 ms of the whole sound, which coarser
-/// levels are made of at once, then finer ones of what is looked at, of which only some are kept. What is missing is
-/// shown by the next coarser, else as silence. Not for two threads at once.
+/// Filled piece by piece by the caller: first a column for every 20 ms of the whole sound, from which the coarser
+/// levels are made, then finer columns of the visible part, only some of which are kept. Missing columns are replaced
+/// by the next coarser level, else by silence. Not for two threads at once.
 class Spectrogram
 {
 public:

@@ -56,9 +56,9 @@ struct SpectrumLevel
     [[nodiscard]] static double decibels(std::uint8_t level) noexcept { return floor * (1.0 - level / 255.0); }
 };
 
-/// Hann windows of 0.2 s for low rows, 60 ms and 20 ms for higher ones: pitch where that is felt, time where that is.
-/// A row shows the strongest bin within it, so that a tone has the level of its amplitude whatever the row's width.
-/// Not for two threads at once.
+/// Hann windows of 0.2 s for low rows, 60 ms and 20 ms for higher ones: frequency resolution where pitch is felt, time
+/// resolution where timing is felt. A row shows the strongest bin within it, so that a tone has the level of its
+/// amplitude whatever the row's width. Not for two threads at once.
 class SpectrumAnalyzer
 {
 public:

@@ -1,6 +1,6 @@
 #pragma once
 
-// Marks of a value axis: at round values, as many as there is room for.
+// Ticks of a value axis: at round values, as many as fit.
 
 #include "document/view/ValueAxis.h"
 

@@ -33,7 +33,7 @@
 namespace pacini::editor
 {
 
-/// Services of the program or plugin around an editor; its menus leave out what is not there.
+/// Services of the program or plugin around an editor; menus omit missing services.
 struct HostServices
 {
     std::vector<std::filesystem::path> demoSounds;                ///< those of the library too
@@ -52,7 +52,7 @@ struct HostServices
     juce::String version = {};                 ///< of the program; empty: not told
 };
 
-/// Layout, look and sheets; what commands do stands with their menus.
+/// Layout, look and sheets; the menus implement the commands.
 class EditorView final : public juce::Component, public juce::FileDragAndDropTarget
 {
 public:

@@ -43,7 +43,7 @@ constexpr std::array<LibraryEntry, 10> library{{
     {"music_bed", "Music bed", "music, beat, bass"},
 }};
 
-/// What a clip may be made for: a name, and the profile that stands for it.
+/// A target for clips: a name and its profile.
 struct FeltByChoice
 {
     const char* name;

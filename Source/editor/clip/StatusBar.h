@@ -12,7 +12,7 @@
 namespace pacini::editor
 {
 
-/// What a user has done at least once; kept by the program.
+/// Steps that the user has done at least once; stored by the program.
 struct FirstSteps
 {
     bool chosen = false, shaped = false, exported = false;

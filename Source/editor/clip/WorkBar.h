@@ -11,7 +11,7 @@
 namespace pacini::editor
 {
 
-/// Shows itself when work has gone on for a moment, and hides itself when it is done.
+/// Appears when work takes longer than a moment, and hides when it is done.
 class WorkBar final : public juce::Component, private juce::Timer
 {
 public:

@@ -22,8 +22,8 @@
 namespace pacini::editor
 {
 
-/// Steps at the left, the chosen one beside them. Escape stops a sweep, or closes the page; what was measured stays in
-/// the controller. One page at a time for a controller.
+/// Steps at the left, the chosen one beside them. Escape stops a sweep, or closes the page; measured data stays in the
+/// controller. One page at a time for a controller.
 class MeasurePage final : public Sheet, private juce::Timer
 {
 public:

@@ -78,7 +78,7 @@ struct Note
     bool operator==(const Note&) const = default;
 };
 
-/// Notes to be read, and scrolled when there are many.
+/// A scrollable list of notes.
 class NoteBox final : public juce::TextEditor
 {
 public:

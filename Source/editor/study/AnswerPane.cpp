@@ -82,7 +82,7 @@ std::unique_ptr<juce::AccessibilityHandler> Paragraph::createAccessibilityHandle
 
 namespace
 {
-/// A scale with what its ends mean.
+/// A scale with labels at its ends.
 class ScaleSlider final : public Slider
 {
 public:

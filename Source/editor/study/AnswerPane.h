@@ -16,7 +16,7 @@
 namespace pacini::editor
 {
 
-/// What a participant answers with. Nothing in it tells what a stimulus is.
+/// Controls for the answers of a participant. Reveals nothing about the stimulus.
 class AnswerPane : public juce::Component
 {
 public:

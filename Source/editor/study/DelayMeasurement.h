@@ -14,8 +14,8 @@
 namespace pacini::editor
 {
 
-/// Plays the probe on the ears' and the actuator's output and listens to what comes back. The rig is open as long as
-/// this exists. [message]
+/// Plays the probe on the sound output and the haptic output and records the response. The rig is open during the
+/// lifetime of this object. [message]
 class DelayMeasurement
 {
 public:

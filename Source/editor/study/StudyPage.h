@@ -21,7 +21,7 @@
 namespace pacini::editor
 {
 
-/// What the program has for a study.
+/// Services of the program for a study.
 struct StudyServices
 {
     study::TrialPlayer* player = nullptr;
@@ -35,7 +35,7 @@ struct StudyServices
     std::string program = {}; ///< name and version, for the logs
 };
 
-/// What a game controller says.
+/// Input from a game controller.
 enum class Control
 {
     next, ///< goes on, or takes the choice that is marked

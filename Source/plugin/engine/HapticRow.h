@@ -21,9 +21,9 @@
 namespace pacini::plugin
 {
 
-/// Gives every channel its level and its delay. What moves runs along chords of 32 frames, counted from reset() on, so
+/// Applies a level and a delay to every channel. Changes run along chords of 32 frames, counted from reset() on, so
 /// that blocks leave no trace: levels cross their whole range in 10 ms at least, delays change by a tenth of the time
-/// that passes at most, which bends pitches by less than two semitones. All gains are 1 at most and stand behind the
+/// that passes at most, which bends pitches by less than two semitones. All gains are at most 1 and apply after the
 /// protection. A channel at full level without a delay is copied.
 class HapticRow
 {

@@ -34,8 +34,8 @@ inline constexpr std::size_t maxMainChannels = 16;
 inline constexpr std::size_t maxSidechainChannels = 8;
 inline constexpr double captureSeconds = 30.0;
 
-/// The channels of one block. Main goes in and comes out in place. A haptic channel may lie in the memory of a
-/// sidechain channel: what goes in is read before anything is written.
+/// The channels of one block. The main channels are processed in place. A haptic channel may share the memory of a
+/// sidechain channel: all inputs are read before any output is written.
 struct EngineBlock
 {
     std::span<float* const> main;

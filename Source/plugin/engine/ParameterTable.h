@@ -56,7 +56,7 @@ inline constexpr std::size_t parameterCount = static_cast<std::size_t>(Parameter
 
 inline constexpr std::size_t maxHapticChannels = 8;
 
-/// What each haptic channel has for itself.
+/// Parameters of each haptic channel.
 enum class ChannelSetting : std::size_t
 {
     actuator,
@@ -101,7 +101,7 @@ enum class OutputMode
     addToChannel   ///< the drives are added to a channel and, for further haptic channels, those behind it
 };
 
-/// What moves the touch over the haptic channels.
+/// Parameters of panning over the haptic channels.
 enum class PanChoice
 {
     off,      ///< every channel carries all of it

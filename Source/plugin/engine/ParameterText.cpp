@@ -45,7 +45,7 @@ std::string_view trimmed(std::string_view text)
                                            : text.substr(first, text.find_last_not_of(blanks) - first + 1);
 }
 
-/// A number and what stands behind it.
+/// A number and its unit.
 struct Measured
 {
     double number = 0.0;

@@ -20,8 +20,8 @@ namespace pacini::plugin
 {
 
 /// Main input and output of 1 to 16 channels; a sidechain of up to 8 and a haptic output of 1 to 8 channels, one for
-/// each actuator, both of which may be missing. The main output is the main input, late by the reported latency, unless
-/// the output mode says otherwise.
+/// each actuator; both are optional. The main output is the main input, delayed by the reported latency, unless the
+/// output mode is different.
 class PluginProcessor : public juce::AudioProcessor, private SetupWorker::Client
 {
 public:

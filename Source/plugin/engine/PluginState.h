@@ -39,7 +39,7 @@ struct PluginState
 /// JSON. Values by the ids of the parameters, in their units.
 [[nodiscard]] std::string stateText(const PluginState& state);
 
-/// A state and what was wrong with it but could be done without.
+/// A state, and the defects that were ignored.
 struct ReadState
 {
     PluginState state;

@@ -13,7 +13,7 @@
 namespace pacini::plugin
 {
 
-/// There is no session, and so no thread of its own, before anyone asks for it.
+/// The session and its thread are created on first use.
 class HostedSession final : private juce::AsyncUpdater
 {
 public:

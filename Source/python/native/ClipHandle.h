@@ -1,6 +1,6 @@
 #pragma once
 
-// A clip as the module holds it: a value that never changes, so that arrays can look into it.
+// A clip of the module: an immutable value, so that arrays can refer to it.
 
 #include <pacini/clip/Clip.h>
 

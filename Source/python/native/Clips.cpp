@@ -1,4 +1,4 @@
-// Clips: what they hold, as arrays; edits; files of all formats.
+// Clips: their content as arrays, edits, and files of all formats.
 
 #include "io/ClipFile.h"
 #include "io/ClipSeal.h"
@@ -222,7 +222,7 @@ ExportParams exportParams(const ClipFormat& format, const ExportOptions& options
         format, given, options.profile != nullptr ? std::optional(options.profile->profile()) : std::nullopt));
 }
 
-/// What a format loses: kind, time, duration, error, message.
+/// Loss of a format: kind, time, duration, error, message.
 using LossTuple = std::tuple<std::string, double, double, double, std::string>;
 
 std::vector<LossTuple> lossesOf(const ExportedClip& exported)
@@ -265,7 +265,7 @@ bool isDriveOf(const ClipHandle& handle, const std::filesystem::path& path, cons
     return false;
 }
 
-/// The clip with what its reader let pass, and the name of the format.
+/// The clip, the warnings of its reader, and the name of the format.
 using ReadTuple = std::tuple<ClipHandle, std::string, std::vector<std::string>>;
 
 ReadTuple readFile(const std::filesystem::path& path, bool strict)

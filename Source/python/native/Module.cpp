@@ -1,4 +1,4 @@
-// The module pacini._native: what the package is made of, without its face.
+// The module pacini._native: implementation of the package behind its public interface.
 
 #include "python/native/Support.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// What of Python may be overwritten: the answer to a caller who named a file.
+// Overwrite policy of Python, for files that the caller named.
 
 #include "io/Overwrite.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// An actuator profile as the module holds it: a value that never changes.
+// An actuator profile of the module: an immutable value.
 
 #include <pacini/actuator/Profile.h>
 

@@ -1,4 +1,4 @@
-// Scenes, and the way from clips and scenes to drive signals or what is felt of them.
+// Scenes, and rendering of clips and scenes as drive signals or as the acceleration of the skin.
 
 #include "io/SceneCheck.h"
 #include "io/SceneFile.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-// A scene as the module holds it: a value that never changes.
+// A scene of the module: an immutable value.
 
 #include <pacini/synthesis/Scene.h>
 

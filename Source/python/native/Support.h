@@ -1,6 +1,6 @@
 #pragma once
 
-// What all parts of the Python module share: errors as exceptions, arrays in and out, work without the interpreter's
+// Shared parts of the Python module: errors as exceptions, conversion of arrays, work without the interpreter's
 // lock.
 
 #include <pacini/analysis/EncodeSound.h>
@@ -183,7 +183,7 @@ struct SoundView
 /// Raises pacini.Error unless the array is one that SoundArray describes, of 1 to 64 channels.
 [[nodiscard]] SoundView soundOf(const SoundArray& array);
 
-/// What becomes of samples that are no numbers or absurdly large.
+/// Treatment of samples that are not finite or absurdly large.
 enum class Unsound
 {
     refuse,

@@ -56,7 +56,7 @@ void set(TranslatorParams& params, const std::string& name, nb::handle value)
     raise({ErrorCode::invalidArgument, name, "is no parameter of the translator" + meantText(name, names)});
 }
 
-/// A translator with what it was made with, to be made anew. One thread at a time; others wait.
+/// A translator with its parameters, for creating it again. One thread at a time; others wait.
 class TranslatorHandle
 {
 public:

@@ -94,7 +94,7 @@ Result<Profile> profileOf(const Call& call, std::size_t input)
 
 namespace
 {
-/// What the last call left: its text is the value or the error.
+/// Result of the last call: its text is the value or the error.
 struct Reply
 {
     std::string text;

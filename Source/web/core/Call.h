@@ -24,7 +24,7 @@ namespace pacini::web
 
 using Json = nlohmann::ordered_json;
 
-/// Takes the next samples of the sound that a call works on from JavaScript: interleaved, how many frames came.
+/// Receives the next interleaved samples of a call's sound from JavaScript; returns the number of frames.
 using Pull = std::function<std::size_t(std::span<float>)>;
 
 /// One call while it is worked on.
@@ -62,7 +62,7 @@ private:
     std::vector<std::span<const std::byte>> given;
 };
 
-/// Does the work of a call. What is wrong with its options stands in the reader.
+/// Runs a call. Errors of its options are in the reader.
 using Handler = Result<void> (*)(Call& call);
 
 struct NamedHandler

@@ -1,5 +1,5 @@
-// The calls `read`, `write`, `formats`, `exportParameters`, `profile` and `lint`: clips between formats, and what is
-// lost on the way.
+// The calls `read`, `write`, `formats`, `exportParameters`, `profile` and `lint`: conversion of clips between formats,
+// with the losses.
 
 #include "io/formats/ClipFormat.h"
 #include "io/formats/ExportParameters.h"

@@ -1,4 +1,4 @@
-// The call `defaults`: what encoding and rendering do by themselves. Knobs show it before anything is encoded.
+// The call `defaults`: default settings of encoding and rendering, for showing in knobs.
 
 #include "web/core/Call.h"
 

@@ -1,4 +1,4 @@
-// The calls `encode`, a sound to a clip by Pacini's own method, and `parameters`, what can be set of that.
+// The calls `encode`, from a sound to a clip by Pacini's own method, and `parameters`, its settings.
 
 #include "web/core/Call.h"
 #include "web/core/SoundInput.h"

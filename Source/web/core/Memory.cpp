@@ -1,4 +1,4 @@
-// Memory for what JavaScript hands over: exports of every module.
+// Memory for data from JavaScript: exports of every module.
 
 #include <cstdint>
 #include <cstdlib>

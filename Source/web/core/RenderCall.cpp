@@ -1,4 +1,4 @@
-// The call `render`: clips and scenes to drive signals, or to what is felt of them.
+// The call `render`: renders clips and scenes as drive signals, or as the acceleration of the skin.
 
 #include "io/GivenParameters.h"
 #include "io/SceneJson.h"

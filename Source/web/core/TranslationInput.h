@@ -1,6 +1,6 @@
 #pragma once
 
-// The translation that a call asks for: options of its own before those of its `settings`.
+// The translation of a call: its own options override those of its `settings`.
 
 #include "io/Settings.h"
 #include "web/core/Call.h"

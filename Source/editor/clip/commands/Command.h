@@ -6,7 +6,7 @@
 namespace pacini::editor
 {
 
-/// What each does stands with its menu: FileMenu.cpp, EditMenu.cpp and so on.
+/// The menus implement the commands: FileMenu.cpp, EditMenu.cpp and so on.
 enum Command : int
 {
     newProject = 1,

@@ -8,7 +8,7 @@
 namespace pacini::editor
 {
 
-/// The key of a switch: tapped, the switch stays; held, it goes back when the key is let go. Times in ms.
+/// The key of a switch: a tap toggles the switch; holding the key toggles it until release. Times in ms.
 class HeldSwitch
 {
 public:

@@ -21,9 +21,9 @@
 namespace pacini::editor
 {
 
-/// Two plots: the drive with what protection takes from it, and under it one line for each band, shaded where it is not
-/// played as it is in the clip. Rendered in the background when the clip has rested for a moment. Muted and soloed
-/// bands do not count here.
+/// Two plots: the drive with the reduction by the protection, and below it one line for each band, shaded where
+/// playback differs from the clip. Rendered in the background after a pause in editing. Ignores mute and solo of
+/// bands.
 class ActuatorRow final : public juce::Component,
                           public juce::SettableTooltipClient,
                           public ContextMenu,

@@ -25,7 +25,7 @@ constexpr int scrollBarWidth = 10;
 constexpr int headHeight = 8; // of the playhead
 } // namespace
 
-/// Playhead and marquee over everything; lets the mouse through.
+/// Playhead and marquee on top of all lanes; ignores the mouse.
 class ClipView::Overlay final : public juce::Component
 {
 public:

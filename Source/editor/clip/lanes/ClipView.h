@@ -25,8 +25,8 @@
 namespace pacini::editor
 {
 
-/// Ruler, markers (where there are some) and sound stay, the lanes below scroll: transients, their sharpness, envelope,
-/// centroid, the bands with high ones above, noise; what the actuator plays and the overview are at the foot.
+/// Ruler, markers (if any) and sound are fixed, the lanes below scroll: transients, sharpness, envelope, centroid,
+/// bands with high ones on top, noise. The signal of the actuator and the overview are at the bottom.
 class ClipView final : public juce::Component, private juce::Timer
 {
 public:

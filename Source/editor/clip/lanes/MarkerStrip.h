@@ -16,7 +16,7 @@
 namespace pacini::editor
 {
 
-/// The markers of the clip with their names, below the ruler. A click brings the playhead there, a drag moves one.
+/// The markers of the clip with their names, below the ruler. A click moves the playhead, a drag the marker.
 class MarkerStrip final : public juce::Component, public juce::SettableTooltipClient
 {
 public:

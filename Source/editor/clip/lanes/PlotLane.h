@@ -23,8 +23,8 @@ namespace pacini::editor
 
 inline constexpr int laneHeadWidth = 144; ///< pixels, of all rows alike
 
-/// What mouse and keys do in a lane is the same for all kinds; the kinds say where their things are and what moving
-/// them means. Paints only the part that is to be drawn anew.
+/// Handles mouse and keys in the same way for all kinds of lanes; each kind defines the positions of its items and the
+/// effect of moving them. Paints only the invalidated part.
 class PlotLane : public juce::Component, public juce::SettableTooltipClient, public ContextMenu
 {
 public:

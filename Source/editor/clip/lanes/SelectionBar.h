@@ -13,8 +13,8 @@
 namespace pacini::editor
 {
 
-/// The time of what is selected as a bar in the ruler, whose ends can be dragged: everything selected, in all lanes, is
-/// stretched about the other end. Lets the mouse through elsewhere.
+/// The time range of the selection as a bar in the ruler. Dragging an end stretches the selection in all lanes about
+/// the other end. Ignores the mouse elsewhere.
 class SelectionBar final : public juce::Component, public juce::SettableTooltipClient
 {
 public:

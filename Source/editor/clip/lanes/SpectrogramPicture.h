@@ -18,7 +18,7 @@
 namespace pacini::editor
 {
 
-/// Computes in the background what has been looked at last, and the rest after that. [message]
+/// Computes in the background, first the part visible last, then the rest. [message]
 class SpectrogramPicture
 {
 public:

@@ -10,7 +10,7 @@
 namespace pacini::editor
 {
 
-/// Switches for what the mouse does in lanes, beside the ruler: drawing, snapping, and which version is seen and heard.
+/// Switches for the mouse in lanes, beside the ruler: drawing, snapping, and the version to show and play.
 class ToolStrip final : public juce::Component
 {
 public:

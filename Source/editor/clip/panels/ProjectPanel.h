@@ -13,7 +13,7 @@ namespace pacini::editor
 
 class EditorView;
 
-/// Typed notes become a step when they have not changed for a moment, or the keyboard goes elsewhere.
+/// Typed notes become a step after a pause, or when the keyboard focus moves away.
 class ProjectPanel final : public juce::Component, private juce::Timer
 {
 public:

@@ -16,7 +16,7 @@ namespace
 constexpr int tabHeight = 30;
 constexpr int scrollBarWidth = 8;
 
-/// The page is as wide as there is room and at least as high as it was made.
+/// The page fills the available width and has at least its original height.
 class Scrolled final : public juce::Viewport
 {
 public:

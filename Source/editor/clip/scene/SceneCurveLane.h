@@ -14,7 +14,7 @@
 namespace pacini::editor
 {
 
-/// The range of a parameter as it is shown and can be edited here.
+/// The displayed and editable range of a parameter.
 struct SceneRange
 {
     double low = 0.0, high = 1.0, usual = 0.0;

@@ -20,7 +20,7 @@
 namespace pacini::editor
 {
 
-/// Parts are selected, moved and removed by mouse and keys. Only what is in sight is drawn.
+/// Parts are selected, moved and removed by mouse and keys. Draws only visible parts.
 class SceneTimeline final : public juce::Component, public juce::SettableTooltipClient
 {
 public:

@@ -13,7 +13,7 @@
 namespace pacini::editor
 {
 
-/// Points, transients and the time range, kept within the clip whatever becomes of it. [message]
+/// Points, transients and the time range, always kept within the clip. [message]
 class ClipSelection
 {
 public:

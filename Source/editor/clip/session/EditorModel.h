@@ -22,8 +22,8 @@
 namespace pacini::editor
 {
 
-/// Document, files, recovery and undo, and which clip is shown. Everything that changes the document goes through here,
-/// so that autosave and views follow. [message]
+/// Document, files, recovery, undo, and the displayed clip. All changes of the document go through this class, so that
+/// autosave and views follow. [message]
 class EditorModel
 {
 public:

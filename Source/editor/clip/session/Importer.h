@@ -44,9 +44,9 @@ struct WorkState
     bool operator==(const WorkState&) const = default;
 };
 
-/// One file after another is read and, if it is a sound, analysed; meanwhile the first of them is shown as a waveform.
-/// The others come into the project without taking the place of what is looked at. What failed is told once, when all
-/// is done. [message]
+/// One file after another is read and, if it is a sound, analysed; meanwhile the first of them is shown as a
+/// waveform. The others are added to the project without changing the view. Failures are reported once, at the end.
+/// [message]
 class Importer
 {
 public:

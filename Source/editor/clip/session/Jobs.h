@@ -11,8 +11,8 @@
 namespace pacini::editor
 {
 
-/// One thread that does one thing after another and brings each result back to the message thread. Nothing is brought
-/// back after destruction, which waits for the work under way. [message]
+/// One thread that runs jobs in order and returns each result to the message thread. The destructor waits for the
+/// current job; no results are returned afterwards. [message]
 class Jobs
 {
 public:

@@ -14,7 +14,7 @@ namespace pacini::editor
 
 inline constexpr double snapReach = 8.0; ///< pixels
 
-/// Targets of snapping that depend on what is dragged: what moves must not snap to itself.
+/// Targets of snapping during a drag: moving items must not snap to themselves.
 struct Snapping
 {
     const Clip* clip = nullptr;        ///< where transients and markers are looked for; null: the one that is shown

@@ -9,7 +9,7 @@ namespace pacini::editor
 
 namespace
 {
-/// {0} stands for the number.
+/// {0} is the number.
 struct Words
 {
     const char *point, *points, *transient, *transients, *both;

@@ -12,7 +12,7 @@
 namespace pacini::editor
 {
 
-/// What is done to points and transients.
+/// Kind of change to points and transients.
 enum class SelectionStep
 {
     move,

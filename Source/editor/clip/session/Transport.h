@@ -19,7 +19,7 @@ enum class Heard
     both
 };
 
-/// Tells the player what to play, and follows what is shown, selected and chosen. [message]
+/// Controls the player by the displayed clip, the selection and the chosen outputs. [message]
 class Transport : private juce::Timer
 {
 public:

@@ -11,7 +11,7 @@
 namespace pacini::editor
 {
 
-/// Type, choose with the arrows, Return does it. What cannot be done now is shown dim, behind the rest.
+/// Type to search, choose with the arrow keys, press Return to run. Unavailable commands are dim and come last.
 class CommandSheet final : public Sheet, private juce::ListBoxModel, private juce::KeyListener
 {
 public:

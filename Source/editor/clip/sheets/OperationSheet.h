@@ -43,8 +43,8 @@ struct Operation
     std::function<EditOperation(const OperationValues&)> make;
 };
 
-/// While it is open the clip in the view is what the edit would make of it; Return makes it an edit, Cancel takes it
-/// back. Space plays, the arrow keys up and down change the number that has the focus.
+/// While it is open, the view previews the result of the edit; Return applies the edit, Cancel discards it. Space
+/// plays, the arrow keys up and down change the focused number.
 class OperationSheet final : public Sheet
 {
 public:

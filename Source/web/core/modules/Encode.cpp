@@ -1,4 +1,4 @@
-// The module of Pacini's own method: sounds to clips, and what was edited by hand over them.
+// The module of Pacini's own method: encoding of sounds, and edits over the clips.
 
 #include "web/core/Call.h"
 

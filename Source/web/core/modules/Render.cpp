@@ -1,4 +1,4 @@
-// The module of clips in Pacini's own formats, and of what actuators play of them.
+// The module of clips in Pacini's own formats, and of rendering them for actuators.
 
 #include "web/core/Call.h"
 

@@ -1,4 +1,4 @@
-// The module of what compares and shows: other methods, measures, spectrograms.
+// The module of research tools: other methods, measures, spectrograms.
 
 #include "web/core/Call.h"
 
