@@ -25,7 +25,7 @@ juce::String adviceFor(juce::AudioDeviceManager& manager)
         "on, then search again.";
 #if JUCE_LINUX || JUCE_BSD
     text << " The command \"aplay -l\" lists what the system has. If it lists nothing, the driver is missing or you "
-            "are not allowed to use the device (group \"audio\"). JACK has to run before it is found.";
+            "are not allowed to use the device (group \"audio\"). Start JACK before searching.";
 #endif
     return text;
 }

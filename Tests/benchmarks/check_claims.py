@@ -70,7 +70,7 @@ def sizes(folder):
 
 
 def likeness(folder):
-    stated(r"as close to the sound by HTS, [\w ]+, as the sound below 1 kHz itself at (4500) bytes per second")
+    stated(r"score the same HTS, [\w ]+, as the sound itself below 1 kHz, which takes (4500) bytes per second")
     text, _ = pacini("bench", "methods", DEMO, "-o", folder / "bench", "--repeat", "1", "--json")
     means = [row for row in rows(json.loads(text), "method", "hts") if "clip" not in row]
     hts = {method: [row["hts"] for row in means if row["method"] == method and row["variant"].endswith(variant)][0]
@@ -89,7 +89,7 @@ def rows(report, *keys):
 
 def speed(folder):
     encoding, rendering = stated(r"more than (\d+) times real time on one core, rendering at more than (\d+) times")
-    stated(r"with an actuator's profile and its protection at a third to two thirds of that")
+    stated(r"[Ww]ith an actuator profile and protection, rendering runs at a third to two thirds of that speed")
     copies = 24  # ten minutes: starting the program hardly counts then
     (folder / "sounds").mkdir()
     for file in DEMO.glob("*.flac"):

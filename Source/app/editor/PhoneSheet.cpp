@@ -22,9 +22,9 @@ constexpr int quietZone = 4;        // modules that are light around the picture
 PhoneSheet::PhoneSheet(PhoneOutput& wanted) : Sheet("Feel on a phone", 640, 420), output(wanted)
 {
     const auto explanation =
-        editor::tr("Scan the picture with a phone in the same network: it plays what the editor plays. The "
-                   "code works once; then there is another. Browsers of Android vibrate, those of iPhones "
-                   "and Firefox do not. What goes over the network is not encrypted.");
+        editor::tr("Scan the QR code with a phone in the same network; it vibrates along with the editor. Each code "
+                   "works once and is then replaced. Browsers on Android vibrate, those on iPhones and Firefox do not. "
+                   "The connection is not encrypted.");
     help.setMultiLine(true);
     help.setReadOnly(true);
     help.setCaretVisible(false);
@@ -43,7 +43,7 @@ PhoneSheet::PhoneSheet(PhoneOutput& wanted) : Sheet("Feel on a phone", 640, 420)
     for (juce::Component* part : std::initializer_list<juce::Component*>{&help, &address, &status})
         addAndMakeVisible(part);
     endButton.setButtonText("End the session");
-    editor::prepareButton(endButton, "No phone feels anything any more, and their pages end",
+    editor::prepareButton(endButton, "Disconnects all phones and closes their pages",
                           [this]
                           {
                               output.end();
@@ -69,9 +69,9 @@ juce::String PhoneSheet::newRefusal(const phone::PhoneServer& server)
     juce::String text;
     for (auto& [reason, count] : refusals)
         if (const std::size_t now = server.refused(reason); now != std::exchange(count, now))
-            text = reason == Refusal::usedCode ? editor::tr("A phone was refused: its code let another one in.")
+            text = reason == Refusal::usedCode ? editor::tr("A phone was refused: its code was already used.")
                    : reason == Refusal::wrongCode
-                       ? editor::tr("A phone was refused: its code is not one of this session.")
+                       ? editor::tr("A phone was refused: its code is not from this session.")
                        : editor::tr("A phone was refused: {0} are connected already.",
                                     {juce::String(static_cast<int>(phone::mostPhones))});
     return text;

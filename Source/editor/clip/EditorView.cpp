@@ -339,8 +339,8 @@ void EditorView::tellNowhere()
     answers.push_back({"Close", {}});
     ask(std::make_unique<MessageSheet>(
         "Nothing to play on",
-        "No audio device is open, so nothing would be heard or felt. Connect it or switch it on; it is used as soon as "
-        "it is there. Game controllers and phones play without one.",
+        "No audio device is open, so there is no sound or haptic output. Connect one or switch it on; it is used at "
+        "once. Game controllers and phones play without an audio device.",
         std::move(answers)));
 }
 

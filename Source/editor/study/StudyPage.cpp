@@ -316,8 +316,8 @@ void StudyPage::buildSetUp()
 void StudyPage::buildDelay()
 {
     buildText(tr("Delay between sound and touch"),
-              tr("Lead the outputs back to two inputs by cables, or put a sensor on the actuator. Nobody wears it "
-                 "meanwhile. Ten short bursts are played."));
+              tr("Connect the outputs to two inputs with cables, or put a sensor on the actuator. Do not wear the "
+                 "actuator meanwhile. Ten short bursts are played."));
     if (!delay)
         delay = std::make_unique<DelayMeasurement>(*services.rig, place.folder);
     const auto ports = delay->ports();
@@ -362,18 +362,17 @@ void StudyPage::pollDelay()
         if (*latency)
         {
             const study::Latency& found = **latency;
-            return status.setText(
-                tr("The touch comes {0} ms after the sound: {1} bursts, SD {2} ms. It is kept, and sessions make up "
-                   "for it.",
-                   {juce::String(1000.0 * found.delay, 3), juce::String(found.bursts),
-                    juce::String(1000.0 * found.deviation, 3)}));
+            return status.setText(tr("The haptic output comes {0} ms after the sound: {1} bursts, SD {2} ms. The delay "
+                                     "is stored, and sessions compensate for it.",
+                                     {juce::String(1000.0 * found.delay, 3), juce::String(found.bursts),
+                                      juce::String(1000.0 * found.deviation, 3)}));
         }
         const Error& error = latency->error();
         return status.setText(
-            error.where == "sound"   ? tr("The sound did not come back. Is its cable connected, its input loud enough?")
-            : error.where == "touch" ? tr("The touch did not come back. Is its cable or sensor connected, its input "
-                                          "loud enough?")
-            : error.where == "device" ? tr("The sound device went away. Please measure again.")
+            error.where == "sound" ? tr("The sound was not recorded. Check its cable and its input level.")
+            : error.where == "touch"
+                ? tr("The haptic signal was not recorded. Check its cable or sensor and its input level.")
+            : error.where == "device" ? tr("The audio device was disconnected. Please measure again.")
                                       : toText(error.text()));
     }
     status.setText(tr("Measuring: {0} %", {juce::String(static_cast<int>(100.0 * delay->progress()))}));

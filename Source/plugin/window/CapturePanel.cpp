@@ -32,7 +32,7 @@ CapturePanel::CapturePanel(PluginProcessor& heard)
         length.addItem(editor::tr("Last {0} s", {juce::String(seconds)}), seconds);
     length.setSelectedId(5, juce::dontSendNotification);
     length.setTitle("Length of the capture");
-    length.setTooltip("How much of the recent sound becomes a clip");
+    length.setTooltip("Length of the recent sound that becomes a clip");
     button.setDescription("Turns the last seconds of sound into a clip");
     editor::prepareButton(button, "Turns the last seconds of sound into a clip", [this] { captureNow(); });
     editButton.setDescription("Opens the captured clip in the clip editor");

@@ -286,8 +286,8 @@ void PluginWindow::editCaptured(const editor::CapturedClip& captured)
         }
         else
             session.model.onError("Sound not kept",
-                                  editor::tr("The clips of this session have {0} MB of sound already. The new clip is "
-                                             "there, but cannot be analysed again.",
+                                  editor::tr("The clips of this session already have {0} MB of sound. The new clip is "
+                                             "kept without its sound and cannot be analysed again.",
                                              {juce::String(kept >> 20)}));
     }
     session.sounds.add(std::move(imported));

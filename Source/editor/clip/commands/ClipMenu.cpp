@@ -56,7 +56,7 @@ Menu clipMenu(EditorView& view)
              [&view] { ask(view, repeatOperation()); }, anyClip, {ctrl('r')});
     menu.add(
         fitToActuator, "Fit to actuator",
-        "Moves levels and frequencies into what the chosen actuator can play, as one step",
+        "Adapts levels and frequencies to the range of the chosen actuator, as one step",
         [&session]
         {
             session.model.setClip("Fit to actuator", fittedClip(*session.model.clip(), *session.actuators.profile(),
@@ -78,7 +78,7 @@ Menu clipMenu(EditorView& view)
         [&session] { session.model.joinNext(); }, [&session] { return session.model.nextClipId() != 0; },
         {juce::KeyPress('j')});
     menu.addLine();
-    menu.add(keepVersionA, "Store as version A", "Stores the clip as it is now, to compare with later edits",
+    menu.add(keepVersionA, "Store as version A", "Stores the current clip, to compare with later edits",
              [&session] { session.model.keepVersion(); }, anyClip, {ctrl('k')});
     menu.addSwitch(
         compareWithA, "Compare with A", "Switches between version A and the clip, also during playback",

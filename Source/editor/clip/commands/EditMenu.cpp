@@ -75,7 +75,7 @@ Menu editMenu(EditorView& view)
     menu.add(selectAll, "Select all", "Selects all points of the focused lane, or all transients",
              [&session] { session.clipSelection.select(everything(*session.model.clip())); }, anyClip, {ctrl('a')});
     menu.add(
-        selectKind, "Select events of this kind", "Selects all thuds, knocks or clicks, as the selected ones are",
+        selectKind, "Select events of this kind", "Selects all events of the same kind: thuds, knocks or clicks",
         [&session]
         { session.clipSelection.select(selectKinds(*session.model.clip(), session.clipSelection.selected())); },
         [&session] { return session.model.clip() && !session.clipSelection.selected().transients.empty(); },

@@ -85,7 +85,7 @@ Operation quantiseOperation(const ClipSelection& selection)
               .choices = names,
               .counts = whenFirstIs(1.0)},
              number("Offset", "s", "Time of any grid line, in s", 0.0, 60.0, 0.0, 3),
-             number("Strength", "%", "How far points move towards the grid; 100 % is all the way", 0.0, 100.0, 100.0)},
+             number("Strength", "%", "Strength of quantising: 100 % moves points onto the grid", 0.0, 100.0, 100.0)},
             make};
 }
 

@@ -44,10 +44,10 @@ Menu toolsMenu(EditorView& view)
              [&view] { view.files().askForProfile(); });
     menu.addLine();
     menu.add(
-        runStudy, "Run a study...", "Opens a study with people (study.json) in a window for the participant",
+        runStudy, "Run a study...", "Opens a study (study.json) in a window for the participant",
         [&view] { view.files().askForStudy(); }, [&view] { return view.hostServices().runStudy != nullptr; });
     menu.add(
-        feelOnPhone, "Feel on a phone...", "Lets a phone in the same network vibrate with what is played here",
+        feelOnPhone, "Feel on a phone...", "Makes a phone in the same network vibrate along with playback",
         [&view] { view.hostServices().feelOnPhone(); }, [&view] { return view.hostServices().feelOnPhone != nullptr; });
     return menu;
 }

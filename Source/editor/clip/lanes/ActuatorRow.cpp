@@ -277,11 +277,11 @@ void ActuatorRow::paint(juce::Graphics& g)
         const bool chosen = actuators.profile() != nullptr;
         g.setColour(failure.isNotEmpty() && chosen ? p.warning : p.dim);
         g.setFont(smallFont());
-        g.drawFittedText(
-            !chosen ? tr("No actuator chosen. Pick one at the top right to see what it plays and what is lost.")
-            : failure.isNotEmpty() ? failure
-                                   : tr(toText("Rendering…")),
-            plot.reduced(grid, 2), juce::Justification::centredLeft, 2);
+        g.drawFittedText(!chosen
+                             ? tr("No actuator chosen. Choose one at the top right to see its signal and the losses.")
+                         : failure.isNotEmpty() ? failure
+                                                : tr(toText("Rendering…")),
+                         plot.reduced(grid, 2), juce::Justification::centredLeft, 2);
         return;
     }
     paintDrive(g, drivePlot().withTrimmedTop(1));

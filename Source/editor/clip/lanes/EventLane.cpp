@@ -40,7 +40,7 @@ EventLane::EventLane(EditorModel& project, ClipSelection& selected, ViewState& s
     setDescription(shows == Shows::amplitude
                        ? "Short events and their levels: round heads are thuds, squares knocks, pointed heads clicks. "
                          "Double-click to add one"
-                       : "How crisp events feel: 0 % dull, 100 % crisp");
+                       : "Sharpness of events: 0 % dull, 100 % crisp");
 }
 
 PlotLane::Style EventLane::style() const

@@ -37,7 +37,7 @@ PlayPanel::PlayPanel(Transport& playing, HapticOutputs& hapticOutputs)
     panLabel.setBorderSize({});
     panLabel.setAccessible(false);
     pan.setTitle("Pan");
-    pan.setTooltip("How the position is played: not at all, by levels, by delays or by both");
+    pan.setTooltip("Panning by the position: off, by levels, by delays or by both");
     pan.addItem("Off", noPan);
     pan.addItem("Levels", noPan + 1 + static_cast<int>(PanLaw::constantPower));
     pan.addItem("Delays", noPan + 1 + static_cast<int>(PanLaw::delay));
@@ -48,7 +48,7 @@ PlayPanel::PlayPanel(Transport& playing, HapticOutputs& hapticOutputs)
         outputs.setPan(chosen < 0 ? std::nullopt : std::optional(static_cast<PanLaw>(chosen)));
     };
     resetButton.setTitle("Reset live controls");
-    prepareButton(resetButton, "Resets all live controls, so that the clip plays as it is",
+    prepareButton(resetButton, "Resets all live controls, so that the clip plays unchanged",
                   [this] { transport.setControls({}); });
     note.setFont(smallFont());
     note.setBorderSize({});

@@ -66,7 +66,7 @@ SceneSheet::SceneSheet(Session& shared)
         clips.setSelectedId(0, juce::dontSendNotification);
     };
     actuators.setTitle("Actuators");
-    actuators.setTooltip("How many actuators stand in a row, from pan 0 to pan 1");
+    actuators.setTooltip("Number of actuators in the row from pan 0 to pan 1");
     for (int i = 1; i <= limits::actuators; ++i)
         actuators.addItem(juce::String(i), i);
     actuators.onChange = [this]
@@ -83,7 +83,7 @@ SceneSheet::SceneSheet(Session& shared)
                        [this](ProjectScene& scene) { scene.panLaw = static_cast<PanLaw>(law.getSelectedId() - 1); });
     };
     parameter.setTitle("Curve");
-    parameter.setTooltip("What the curve changes while the clip plays");
+    parameter.setTooltip("Parameter that the curve changes while the clip plays");
     parameter.addItemList({"Position", "Gain", "Pitch", "Stretch", "Delay", "Tones", "Events", "Noise"}, 1);
     parameter.setSelectedId(1, juce::dontSendNotification);
     parameter.onChange = [this]
@@ -120,7 +120,7 @@ SceneSheet::SceneSheet(Session& shared)
                            [this](ScenePart& part) { part.play.priority = juce::roundToInt(priority.getValue()); });
     };
     repeats.setTitle("Repeats");
-    repeats.setTooltip("How often the clip plays; 0 repeats it until the scene ends");
+    repeats.setTooltip("Number of passes of the clip; 0 repeats it until the scene ends");
     repeats.setSliderStyle(juce::Slider::IncDecButtons);
     repeats.setRange(0.0, mostRepeats, 1.0);
     repeats.setValue(1.0, juce::dontSendNotification);

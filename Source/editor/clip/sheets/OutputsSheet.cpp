@@ -175,7 +175,7 @@ void OutputsSheet::show()
     note.setText(
         shared ? tr("Two outputs share a channel: only the first one plays.")
         : silent.isNotEmpty()
-            ? tr("Plays nowhere: output {0}. Choose a channel that the device has and no other output.", {silent})
+            ? tr("Output {0} does not play. Choose a channel that the device has and no other output uses.", {silent})
         : beyond           ? tr("The device has fewer channels: its last one is used instead.")
         : list.size() == 1 ? tr("One output plays the clip.")
                            : tr("All outputs play the clip; the Play page pans it across them."),

@@ -19,7 +19,7 @@ juce::String kindText(const StandingFile& file)
     switch (file.kind)
     {
     case FileKind::sound:
-        what = "{0} is a sound that Pacini did not make: a recording would be lost.";
+        what = "{0} is a sound that Pacini did not make. Overwriting it would destroy a recording.";
         break;
     case FileKind::madeSound:
         what = "{0} is a sound that Pacini made.";
