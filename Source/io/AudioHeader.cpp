@@ -1,148 +1,189 @@
 #include "io/AudioHeader.h"
 
-#include "io/FileHandle.h"
-
 #include <algorithm>
-#include <array>
 #include <limits>
-#include <span>
-#include <string_view>
 
 namespace pacini
 {
 
 namespace
 {
-using Bytes = std::array<unsigned char, 48>;
-
-std::uint64_t number(std::span<const unsigned char> bytes, bool bigEndian)
-{
-    std::uint64_t value = 0;
-    for (std::size_t i = 0; i < bytes.size(); ++i)
-        value = (value << 8) | bytes[bigEndian ? i : bytes.size() - 1 - i];
-    return value;
-}
-
-bool startsWith(std::span<const unsigned char> bytes, std::string_view text)
-{
-    return std::equal(text.begin(), text.end(), bytes.begin(),
-                      [](char a, unsigned char b) { return static_cast<unsigned char>(a) == b; });
-}
-
-/// How a chunked format lays its chunks out: an id, then a size, then the content.
-struct ChunkLayout
-{
-    std::string_view fileId;    ///< first four bytes of the file
-    std::string_view dataId;    ///< first four bytes of the audio chunk's id
-    std::uint64_t firstChunk;   ///< offset in bytes
-    std::size_t idBytes;        ///< length of an id
-    std::size_t sizeBytes;      ///< length of a size
-    bool bigEndian;             ///< byte order of sizes
-    bool sizeCountsHeader;      ///< a chunk's size includes its id and size
-    std::uint64_t alignment;    ///< chunks start at multiples of it
-    std::uint64_t headerOfData; ///< bytes of the audio chunk before the first sample
-};
-
 // Sources: Microsoft and IBM, "Multimedia Programming Interface and Data Specifications 1.0", 1991 (RIFF);
-// EBU Tech 3306, 2009 (RF64); Apple, "Audio Interchange File Format 1.3", 1989, and "Apple Core Audio Format
-// Specification 1.0", 2006; Sony Pictures, "Wave64 file format", 2003.
+// EBU Tech 3306, 2009 (RF64); ITU-R BS.2088-1, 2019 (BW64); Apple, "Audio Interchange File Format 1.3", 1989, and
+// "Apple Core Audio Format Specification 1.0", 2006; Sony Pictures, "Wave64 file format", 2003.
 constexpr ChunkLayout layouts[] = {
     {"RIFF", "data", 12, 4, 4, false, false, 2, 0}, {"RIFX", "data", 12, 4, 4, true, false, 2, 0},
-    {"RF64", "data", 12, 4, 4, false, false, 2, 0}, {"FORM", "SSND", 12, 4, 4, true, false, 2, 8},
-    {"caff", "data", 8, 4, 8, true, false, 1, 4},   {"riff", "data", 40, 16, 8, false, true, 8, 0},
+    {"RF64", "data", 12, 4, 4, false, false, 2, 0}, {"BW64", "data", 12, 4, 4, false, false, 2, 0},
+    {"FORM", "SSND", 12, 4, 4, true, false, 2, 8},  {"caff", "data", 8, 4, 8, true, false, 1, 4},
+    {"riff", "data", 40, 16, 8, false, true, 8, 0},
 };
 
-/// Sizes that writers leave behind when they cannot seek back: all ones, and what SoX writes.
-bool isLeftOpen(std::uint64_t size, const ChunkLayout& layout)
+constexpr int maxChunks = 10000;
+
+/// Sizes that writers leave behind when they cannot seek back: all ones or the largest of a signed number, less some
+/// header or rounded to frames and blocks; and numbers that are round in either system.
+bool isLeftOpen(std::uint64_t size, std::size_t sizeBytes)
 {
-    if (layout.sizeBytes == 8)
-        return size == std::numeric_limits<std::uint64_t>::max();
-    return size == 0xFFFFFFFFu || size == 0x7FFFFFFFu || size == 0x7FFFF000u;
+    if (sizeBytes == 8)
+        return size >= std::uint64_t{1} << 62u;
+    constexpr std::uint64_t rounding = 65536;
+    constexpr std::uint64_t half = 0x80000000u;
+    return (size <= half && size >= half - rounding) || size >= 2 * half - rounding ||
+           (size >= 1'000'000'000 && size % 100'000'000 == 0);
 }
 
-AudioDataSize sizes(std::uint64_t promised, std::uint64_t start, std::uint64_t fileBytes)
+/// What the 64-bit sizes of RF64 hold when nobody wrote them.
+bool isLeftOpen64(std::uint64_t size)
 {
-    return AudioDataSize{promised, std::min(promised, fileBytes - std::min(start, fileBytes))};
+    return isLeftOpen(size, 8) || (size <= std::numeric_limits<std::uint32_t>::max() && isLeftOpen(size, 4));
 }
 
-std::optional<AudioDataSize> walk(std::FILE* file, const ChunkLayout& layout, std::uint64_t fileBytes)
+/// Whether `offset` has the start of a chunk: an id of letters, digits and marks.
+bool hasId(ByteWindow& file, const ChunkLayout& layout, std::uint64_t offset)
 {
-    constexpr int maxChunks = 10000;
+    const auto id = file.at(offset, 4);
+    return id.size() == 4 && file.at(offset, layout.idBytes).size() == layout.idBytes && id[0] != ' ' &&
+           std::all_of(id.begin(), id.end(), [](unsigned char c) { return c >= 0x20 && c < 0x7F; });
+}
+
+std::uint64_t aligned(const ChunkLayout& layout, std::uint64_t offset, std::uint64_t begin)
+{
+    return begin + (offset - begin + layout.alignment - 1) / layout.alignment * layout.alignment;
+}
+
+/// Where the chunk after that at `offset` is; nothing if that does not fit before `end`.
+std::optional<std::uint64_t> nextChunk(ByteWindow& file, const ChunkLayout& layout, std::uint64_t offset,
+                                       std::uint64_t end)
+{
+    const auto headerBytes = layout.idBytes + layout.sizeBytes;
+    if (end < headerBytes || offset > end - headerBytes)
+        return {};
+    const auto size = file.number(offset + layout.idBytes, layout.sizeBytes, layout.bigEndian);
+    if (size > end)
+        return {};
+    const auto whole = layout.sizeCountsHeader ? std::max<std::uint64_t>(size, headerBytes) : size + headerBytes;
+    return offset + whole;
+}
+
+std::optional<AudioChunk> walk(ByteWindow& file, const ChunkLayout& layout, std::uint64_t begin, std::uint64_t end)
+{
     const auto headerBytes = layout.idBytes + layout.sizeBytes;
     std::optional<std::uint64_t> longSize;
-    auto offset = layout.firstChunk;
-    for (int chunk = 0; chunk < maxChunks && offset + headerBytes <= fileBytes; ++chunk)
+    auto offset = begin + layout.firstChunk;
+    for (int chunk = 0; chunk < maxChunks && offset + headerBytes <= end; ++chunk)
     {
-        Bytes bytes{};
-        if (!seekStream(file, static_cast<std::int64_t>(offset), SEEK_SET))
-            return {};
-        const auto got = std::fread(bytes.data(), 1, headerBytes + 16, file);
-        const auto id = std::span(bytes).first(layout.idBytes);
-        auto size = number(std::span(bytes).subspan(layout.idBytes, layout.sizeBytes), layout.bigEndian);
-        const auto content = offset + headerBytes;
         // RF64 keeps the 64-bit sizes of file and data in a chunk of their own.
-        if (layout.fileId == "RF64" && startsWith(id, "ds64") && got >= headerBytes + 16)
-            longSize = number(std::span(bytes).subspan(headerBytes + 8, 8), false);
-        if (startsWith(id, layout.dataId))
+        if ((layout.fileId == "RF64" || layout.fileId == "BW64") && file.has(offset, "ds64") &&
+            offset + headerBytes + 16 <= end)
+            longSize = file.number(offset + headerBytes + 8, 8, false);
+        if (file.has(offset, layout.dataId))
         {
+            AudioChunk found;
+            found.layout = &layout;
+            found.sizeField = offset + layout.idBytes;
+            found.start = offset + headerBytes + layout.headerOfData;
+            found.sizeExtra = layout.headerOfData + (layout.sizeCountsHeader ? headerBytes : 0);
+            const auto size = file.number(found.sizeField, layout.sizeBytes, layout.bigEndian);
             if (size == 0xFFFFFFFFu && longSize)
-                size = *longSize;
-            else if (isLeftOpen(size, layout))
-                return {};
-            const auto extra = layout.headerOfData + (layout.sizeCountsHeader ? headerBytes : 0);
-            return sizes(size - std::min(size, extra), content + layout.headerOfData, fileBytes);
+            {
+                if (!isLeftOpen64(*longSize))
+                    found.promise = *longSize;
+            }
+            else if (!isLeftOpen(size, layout.sizeBytes))
+                found.promise = size - std::min(size, found.sizeExtra);
+            return found;
         }
-        if (size > fileBytes)
+        const auto next = nextChunk(file, layout, offset, end);
+        if (!next)
             return {};
-        const auto whole = layout.sizeCountsHeader ? std::max<std::uint64_t>(size, headerBytes) : size + headerBytes;
-        offset = (offset + whole + layout.alignment - 1) / layout.alignment * layout.alignment;
+        offset = aligned(layout, *next, begin);
     }
     return {};
 }
 } // namespace
 
-std::optional<AudioDataSize> audioDataSize(std::FILE* file)
+std::optional<AudioChunk> findAudioChunk(ByteWindow& file, std::uint64_t begin, std::uint64_t end)
 {
-    if (!seekStream(file, 0, SEEK_END))
-        return {};
-    const auto end = tellStream(file);
-    if (end < 0 || !seekStream(file, 0, SEEK_SET))
-        return {};
-    const auto fileBytes = static_cast<std::uint64_t>(end);
-    Bytes start{};
-    if (std::fread(start.data(), 1, 16, file) < 12)
+    if (file.at(begin, 16).size() < 12)
         return {};
     for (const ChunkLayout& layout : layouts)
-        if (startsWith(start, layout.fileId))
-            return walk(file, layout, fileBytes);
+        if (file.has(begin, layout.fileId))
+            return walk(file, layout, begin, end);
     // AU: the size of the header, then the size of the audio, big-endian (Sun, "audio.h").
-    if (startsWith(start, ".snd"))
+    if (!file.has(begin, ".snd"))
+        return {};
+    AudioChunk found;
+    found.sizeField = begin + 8;
+    found.start = begin + file.number(begin + 4, 4, true);
+    if (const auto size = file.number(found.sizeField, 4, true); !isLeftOpen(size, 4))
+        found.promise = size;
+    return found;
+}
+
+bool startsSound(ByteWindow& file, std::uint64_t offset)
+{
+    using namespace std::string_view_literals;
+    for (const std::string_view id : {"RIFF", "RIFX", "RF64", "BW64"})
+        if (file.has(offset, id))
+            return file.has(offset + 8, "WAVE");
+    if (file.has(offset, "FORM"))
+        return file.has(offset + 8, "AIF");
+    for (const std::string_view id : {"caff\0\1"sv, "riff\x2e\x91\xcf\x11"sv, ".snd\0\0"sv, "fLaC\0\0\0"sv, "OggS\0"sv})
+        if (file.has(offset, id))
+            return true;
+    return false;
+}
+
+bool areZeros(ByteWindow& file, std::uint64_t offset, std::uint64_t end)
+{
+    while (offset < end)
     {
-        const auto promised = number(std::span(start).subspan(8, 4), true);
-        if (promised != 0xFFFFFFFFu)
-            return sizes(promised, number(std::span(start).subspan(4, 4), true), fileBytes);
+        const auto piece = file.at(offset, static_cast<std::size_t>(std::min<std::uint64_t>(end - offset, 4096)));
+        if (piece.empty() || std::any_of(piece.begin(), piece.end(), [](unsigned char c) { return c != 0; }))
+            return false;
+        offset += piece.size();
+    }
+    return true;
+}
+
+std::optional<std::uint64_t> endOfChunks(ByteWindow& file, const ChunkLayout& layout, std::uint64_t offset,
+                                         std::uint64_t end)
+{
+    for (int chunk = 0; chunk < maxChunks; ++chunk)
+    {
+        if (offset >= end)
+            return end;
+        if (startsSound(file, offset))
+            return offset;
+        if (chunk > 0 && areZeros(file, offset, end))
+            return end;
+        if (!hasId(file, layout, offset) || file.has(offset, layout.dataId))
+            return {};
+        const auto next = nextChunk(file, layout, offset, end);
+        if (!next || *next > end)
+            return {};
+        // A chunk of odd length may lack the byte behind it.
+        const auto padded = aligned(layout, *next, 0);
+        const bool isPadded = padded >= end || hasId(file, layout, padded) || !hasId(file, layout, *next);
+        offset = isPadded ? padded : *next;
     }
     return {};
 }
 
-bool hasMp3FrameCount(std::FILE* file)
+std::uint64_t startOfLastChunks(ByteWindow& file, const ChunkLayout& layout, std::uint64_t from, std::uint64_t end)
 {
-    std::array<unsigned char, 64> bytes{};
-    if (!seekStream(file, 0, SEEK_SET) || std::fread(bytes.data(), 1, 10, file) != 10)
-        return false;
-    std::int64_t offset = 0;
-    // ID3v2 in front: its size has 7 bits per byte (M. Nilsson, "ID3 tag version 2.4.0", 2000).
-    if (startsWith(bytes, "ID3"))
-        offset = 10 + ((bytes[6] & 0x7F) << 21 | (bytes[7] & 0x7F) << 14 | (bytes[8] & 0x7F) << 7 | (bytes[9] & 0x7F));
-    if (!seekStream(file, offset, SEEK_SET))
-        return false;
-    const auto got = std::fread(bytes.data(), 1, bytes.size(), file);
-    // Behind the 4 bytes of the frame's header and at most 32 bytes of side information.
-    for (std::size_t i = 4; i + 8 <= got; ++i)
-        for (std::string_view id : {"Xing", "Info"})
-            if (startsWith(std::span(bytes).subspan(i), id))
-                return (bytes[i + 7] & 1u) != 0;
-    return false;
+    // The chunks that programs put behind the audio.
+    constexpr std::string_view usual[] = {"LIST", "id3 ", "ID3 ", "bext", "cue ", "smpl", "fact", "PEAK",
+                                          "iXML", "JUNK", "junk", "axml", "chna", "inst", "acid", "_PMX",
+                                          "NAME", "AUTH", "ANNO", "MARK", "COMM", "INST", "info", "free"};
+    constexpr std::uint64_t reach = 32768;
+    auto first = end;
+    const auto begin = std::max(from, end > reach ? end - reach : 0);
+    for (const std::string_view id : usual)
+        for (auto place = file.find(id, begin, end); place < end; place = file.find(id, place + 1, end))
+            if (place < first && endOfChunks(file, layout, place, end) == end)
+                first = place;
+    return first;
 }
 
 } // namespace pacini

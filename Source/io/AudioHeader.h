@@ -1,29 +1,62 @@
 #pragma once
 
-// Size of the audio data that a file's header states. libsndfile silently shortens it to the real size.
+// Where a file's header says that its audio is. libsndfile silently shortens it to what the file holds and never looks
+// behind it.
+
+#include "io/ByteWindow.h"
 
 #include <cstdint>
-#include <cstdio>
 #include <optional>
+#include <string_view>
 
 namespace pacini
 {
 
-/// The audio bytes that a header promises and the bytes that the file has in their place.
-struct AudioDataSize
+/// How a chunked format lays its chunks out: an id, then a size, then the content.
+struct ChunkLayout
 {
-    std::uint64_t promised = 0;
-    std::uint64_t present = 0;
-    bool operator==(const AudioDataSize&) const = default;
+    std::string_view fileId;    ///< first four bytes of the file
+    std::string_view dataId;    ///< first four bytes of the audio chunk's id
+    std::uint64_t firstChunk;   ///< offset in bytes
+    std::size_t idBytes;        ///< length of an id
+    std::size_t sizeBytes;      ///< length of a size
+    bool bigEndian;             ///< byte order of sizes
+    bool sizeCountsHeader;      ///< a chunk's size includes its id and size
+    std::uint64_t alignment;    ///< chunks start at multiples of it
+    std::uint64_t headerOfData; ///< bytes of the audio chunk before the first sample
+
+    [[nodiscard]] bool isWave() const noexcept { return fileId == "RIFF" || fileId == "RF64" || fileId == "BW64"; }
 };
 
-/// Finds the audio chunk of a WAV (RIFF, RIFX, RF64), AIFF, AIFC, CAF, W64 or AU file. Nothing when the format has no
-/// such promise (FLAC, Ogg, MP3), when the writer left the size open (streamed files), or when there is no such chunk.
-/// Trusts no number of the file; moves the stream's position.
-[[nodiscard]] std::optional<AudioDataSize> audioDataSize(std::FILE* file);
+/// The audio of a WAV (RIFF, RIFX, RF64, BW64), AIFF, AIFC, CAF, W64 or AU file. Offsets count from the file's start.
+struct AudioChunk
+{
+    const ChunkLayout* layout = nullptr;  ///< none for AU
+    std::uint64_t sizeField = 0;          ///< where the size is
+    std::uint64_t start = 0;              ///< of the first sample
+    std::uint64_t sizeExtra = 0;          ///< what the size counts besides the audio
+    std::optional<std::uint64_t> promise; ///< bytes of audio; empty where the writer left them open
 
-/// Whether an MP3 file starts with a header that counts its frames (Xing or Info). Without one, its length can only be
-/// guessed from the bit rate. Moves the stream's position.
-[[nodiscard]] bool hasMp3FrameCount(std::FILE* file);
+    [[nodiscard]] std::uint64_t present(std::uint64_t end) const noexcept { return end > start ? end - start : 0; }
+};
+
+/// Finds the audio chunk of the file that begins at `begin` and may last until `end`. Nothing when the format has none
+/// (FLAC, Ogg, MP3), or when there is no such chunk. Trusts no number of the file.
+[[nodiscard]] std::optional<AudioChunk> findAudioChunk(ByteWindow& file, std::uint64_t begin, std::uint64_t end);
+
+/// Whether a file of a known format begins at `offset`.
+[[nodiscard]] bool startsSound(ByteWindow& file, std::uint64_t offset);
+
+/// Whether there is nothing but zeros.
+[[nodiscard]] bool areZeros(ByteWindow& file, std::uint64_t offset, std::uint64_t end);
+
+/// `end` if chunks and nothing else lie from `offset` to there, zeros behind them apart; where another sound begins
+/// behind such chunks; nothing if there is something else.
+[[nodiscard]] std::optional<std::uint64_t> endOfChunks(ByteWindow& file, const ChunkLayout& layout,
+                                                       std::uint64_t offset, std::uint64_t end);
+
+/// Where the chunks begin that follow an audio chunk of unknown size, up to `end`; `end` where there are none.
+[[nodiscard]] std::uint64_t startOfLastChunks(ByteWindow& file, const ChunkLayout& layout, std::uint64_t from,
+                                              std::uint64_t end);
 
 } // namespace pacini

@@ -1,8 +1,10 @@
 #include "io/AudioReader.h"
 
-#include "io/AudioHeader.h"
 #include "io/InputFile.h"
+#include "io/RateRaiser.h"
 #include "io/SoundHandle.h"
+#include "io/SoundPartView.h"
+#include "io/SoundParts.h"
 
 #include <pacini/foundation/DspBlock.h>
 
@@ -24,36 +26,34 @@ namespace fs = std::filesystem;
 
 namespace
 {
-// libsndfile reads through these: it never sees the file's name, so content alone decides the format, and a failing
-// disk can be told from a damaged file.
-sf_count_t streamLength(void* user)
+sf_count_t viewLength(void* user)
 {
-    auto* file = static_cast<std::FILE*>(user);
-    const auto here = tellStream(file);
-    if (!seekStream(file, 0, SEEK_END))
+    return static_cast<sf_count_t>(static_cast<SoundPartView*>(user)->size());
+}
+
+sf_count_t viewSeek(sf_count_t offset, int origin, void* user)
+{
+    auto& view = *static_cast<SoundPartView*>(user);
+    if (origin == SEEK_CUR)
+        offset += static_cast<sf_count_t>(view.place);
+    else if (origin == SEEK_END && view.hidesEnd)
         return -1;
-    const auto length = tellStream(file);
-    seekStream(file, here, SEEK_SET);
-    return length;
+    else if (origin == SEEK_END)
+        offset += static_cast<sf_count_t>(view.size());
+    return offset >= 0 && view.goTo(static_cast<std::uint64_t>(offset)) ? offset : -1;
 }
 
-sf_count_t streamSeek(sf_count_t offset, int origin, void* user)
-{
-    auto* file = static_cast<std::FILE*>(user);
-    return seekStream(file, offset, origin) ? tellStream(file) : -1;
-}
-
-sf_count_t streamRead(void* bytes, sf_count_t count, void* user)
+sf_count_t viewRead(void* bytes, sf_count_t count, void* user)
 {
     if (count <= 0)
         return 0;
     return static_cast<sf_count_t>(
-        std::fread(bytes, 1, static_cast<std::size_t>(count), static_cast<std::FILE*>(user)));
+        static_cast<SoundPartView*>(user)->read({static_cast<char*>(bytes), static_cast<std::size_t>(count)}));
 }
 
-sf_count_t streamTell(void* user)
+sf_count_t viewTell(void* user)
 {
-    return tellStream(static_cast<std::FILE*>(user));
+    return static_cast<sf_count_t>(static_cast<SoundPartView*>(user)->place);
 }
 
 Error invalid(std::string message)
@@ -92,28 +92,28 @@ std::uint64_t sampleBytes(int format)
 }
 
 /// The Error for a header that promises more than the file has, or nothing.
-std::optional<Error> brokenPromise(const AudioDataSize& data, const SF_INFO& info)
+std::optional<Error> brokenPromise(const SoundPart& part, const SF_INFO& info)
 {
-    if (data.present >= data.promised)
+    if (part.isWhole || !part.promisedBytes)
         return {};
     const auto width = sampleBytes(info.format);
     if (width == 0)
-        return truncated(data.present, data.promised, "bytes of audio");
+        return truncated(part.presentBytes, *part.promisedBytes, "bytes of audio");
     const auto frameBytes = width * static_cast<std::uint64_t>(info.channels);
-    if (data.present / frameBytes == data.promised / frameBytes)
+    if (part.presentBytes / frameBytes == *part.promisedBytes / frameBytes)
         return {};
     // libsndfile delivers a frame or two less than fit in some formats.
     const auto delivers = static_cast<std::uint64_t>(std::max<sf_count_t>(info.frames, 0));
-    return truncated(std::min(data.present / frameBytes, delivers), data.promised / frameBytes);
+    return truncated(std::min(part.presentBytes / frameBytes, delivers), *part.promisedBytes / frameBytes);
 }
 
 /// Why libsndfile could not open a file that exists.
-Error openingFailed(const std::optional<AudioDataSize>& data)
+Error openingFailed(const SoundPart& part)
 {
     if (sf_error(nullptr) == SF_ERR_UNRECOGNISED_FORMAT)
         return invalid("is not audio in a supported format; convert it to WAV, AIFF, FLAC, Ogg or CAF");
-    if (data && data->present < data->promised)
-        return truncated(data->present, data->promised, "bytes of audio");
+    if (!part.isWhole && part.promisedBytes)
+        return truncated(part.presentBytes, *part.promisedBytes, "bytes of audio");
     auto reason = soundError(nullptr);
     // What it says of rates and channels that cannot be.
     if (reason.starts_with("internal error"))
@@ -128,13 +128,25 @@ Error openingFailed(const std::optional<AudioDataSize>& data)
 struct AudioReader::State
 {
     FileHandle file; // outlives sound, which reads through it
+    std::vector<SoundPart> parts;
+    std::size_t current = 0;
+    SoundPartView view; // likewise
     SoundHandle sound;
     SF_INFO info{};
     AudioReadOptions options;
-    std::optional<std::uint64_t> promisedFrames;
-    std::uint64_t slackFrames = 0; ///< frames that a promise may be off
-    std::uint64_t delivered = 0;
+    std::uint64_t delivered = 0;       ///< frames
+    std::uint64_t deliveredBefore = 0; ///< those of earlier parts
     std::uint64_t replaced = 0;
+    bool ended = false;
+    std::vector<std::string> warnings;
+    std::optional<RateRaiser> raiser;
+
+    /// Fills `interleaved` at the rate of the file.
+    Result<std::size_t> read(std::span<float> interleaved);
+
+    [[nodiscard]] const SoundPart& part() const { return parts[current]; }
+    [[nodiscard]] double seconds(std::uint64_t frames) const { return static_cast<double>(frames) / info.samplerate; }
+    [[nodiscard]] bool isFormat(int type) const { return (info.format & SF_FORMAT_TYPEMASK) == type; }
 
     /// Replaces or reports samples that are no numbers. `samples` starts at frame `delivered`.
     Result<void> checkFinite(std::span<float> samples)
@@ -159,25 +171,237 @@ struct AudioReader::State
         return {};
     }
 
+    /// The time that so many bytes of the current part take, as near as can be told.
+    [[nodiscard]] double secondsOf(std::uint64_t bytes) const
+    {
+        if (const auto width = sampleBytes(info.format); width > 0)
+            return seconds(bytes / (width * static_cast<std::uint64_t>(info.channels)));
+        const auto whole = view.size();
+        return whole > 0 ? static_cast<double>(bytes) / static_cast<double>(whole) * seconds(partFrames().value_or(0))
+                         : 0.0;
+    }
+
+    /// Frames of the current part as far as a header or the decoder tells.
+    [[nodiscard]] std::optional<std::uint64_t> partFrames() const
+    {
+        if (info.frames >= 0 && info.frames < SF_COUNT_MAX)
+            return static_cast<std::uint64_t>(info.frames);
+        return part().countedFrames ? part().countedFrames : part().promisedFrames;
+    }
+
+    template <typename... Values>
+    void warn(fmt::format_string<Values...> text, Values&&... values)
+    {
+        warnings.push_back(fmt::format(text, std::forward<Values>(values)...));
+    }
+
+    bool openView(bool hideEnd)
+    {
+        sound.reset();
+        view = {file.get(), &part(), 0, hideEnd};
+        view.goTo(0);
+        SF_VIRTUAL_IO io{viewLength, viewSeek, viewRead, nullptr, viewTell};
+        info = {};
+        const SoundLibraryCall inside;
+        sound.reset(sf_open_virtual(&io, SFM_READ, &info, &view));
+        return sound != nullptr;
+    }
+
+    /// Opens parts[current].
+    Result<void> openPart()
+    {
+        // The decoder of MP3 guesses the number of frames from the size if it can, and libsndfile reads no more of
+        // them.
+        if (!part().countedFrames || part().promisedFrames || !openView(true))
+            openView(false);
+        if (!sound)
+            return openingFailed(part());
+        if (info.channels < 1 || info.samplerate < 1)
+            return invalid(fmt::format("has a damaged header, which names no {}; get a complete copy",
+                                       info.channels < 1 ? "channels" : "sample rate"));
+        if (info.channels > limits::channels)
+            return invalid(
+                fmt::format("has {} channels, 1 to {} are accepted; mix it down", info.channels, limits::channels));
+        if (info.samplerate < limits::slowestSound || info.samplerate > limits::highestSampleRate)
+            return invalid(fmt::format("has a sample rate of {} Hz, {} to {} Hz are accepted; resample it",
+                                       info.samplerate, limits::slowestSound, limits::highestSampleRate));
+        const auto broken = brokenPromise(part(), info);
+        if (broken && !options.allowTruncated)
+            return *broken;
+        if (broken)
+            warn("is cut off: {:.3f} s of {:.3f} s are there", secondsOf(part().presentBytes),
+                 secondsOf(*part().promisedBytes));
+        else if (part().promisedBytes && part().isWhole)
+            warnOfPromise(secondsOf(*part().promisedBytes), secondsOf(part().presentBytes));
+        return {};
+    }
+
+    void warnOfPromise(double promised, double present)
+    {
+        if (promised != present)
+            warn("has a header that states {:.3f} s, but {:.3f} s are there and all of them are read; save it anew",
+                 promised, present);
+    }
+
     /// Why fewer frames came than were asked for; ok at a regular end.
-    Result<void> explainEnd() const
+    Result<void> explainEnd()
     {
         if (std::ferror(file.get()) != 0)
             return fileError(EIO);
-        if (options.allowTruncated)
-            return {};
-        const auto type = info.format & SF_FORMAT_TYPEMASK;
-        if (info.frames == SF_COUNT_MAX && type == SF_FORMAT_OGG)
-            return Error{
-                ErrorCode::truncated, "",
-                fmt::format("is truncated: it has {} frames, but no end marker; get a complete copy", delivered)};
-        if (promisedFrames && delivered + slackFrames < *promisedFrames)
-            return truncated(delivered, *promisedFrames);
-        if (sf_error(sound.get()) != SF_ERR_NO_ERROR)
-            return Error{
-                ErrorCode::truncated, "",
-                fmt::format("is damaged after frame {} ({}); get a complete copy", delivered, soundError(sound.get()))};
+        const auto here = delivered - deliveredBefore;
+        if (info.frames == SF_COUNT_MAX && isFormat(SF_FORMAT_OGG))
+        {
+            if (!options.allowTruncated)
+                return Error{
+                    ErrorCode::truncated, "",
+                    fmt::format("is cut off: {} frames are there, but not the mark of its end; get a complete copy",
+                                here)};
+            warn("is cut off after {:.3f} s: the mark of its end is missing", seconds(here));
+        }
+        if (isFormat(SF_FORMAT_MPEG))
+            return explainMpegEnd(here);
+        if (isFormat(SF_FORMAT_OGG))
+            warnOfLostPages(here);
+        if (isFormat(SF_FORMAT_FLAC) && sf_error(sound.get()) != SF_ERR_NO_ERROR &&
+            here >= part().promisedFrames.value_or(here + 1))
+            warn("has bytes behind its sound that are left out");
+        std::optional<std::uint64_t> promised = part().promisedFrames;
+        if (!promised && info.frames < SF_COUNT_MAX)
+            promised = static_cast<std::uint64_t>(std::max<sf_count_t>(info.frames, 0));
+        return promised ? checkPromise(here, *promised) : checkDecoder(here);
+    }
+
+    Result<void> explainMpegEnd(std::uint64_t here)
+    {
+        // Encoders disagree on whether the padding of the first and last of the 1152-frame blocks counts.
+        constexpr std::uint64_t slack = 2 * 1152;
+        const auto counted = part().countedFrames.value_or(here);
+        if (const auto stated = part().promisedFrames.value_or(counted);
+            counted + slack < stated || stated + slack < counted)
+            return checkPromise(counted, stated);
+        // With a header, the decoder leaves out what its encoder filled up the first and last block with.
+        const bool cuts = part().promisedFrames && info.frames < SF_COUNT_MAX;
+        const auto expected = cuts ? static_cast<std::uint64_t>(std::max<sf_count_t>(info.frames, 0)) : counted;
+        if (here + slack < expected)
+            return checkPromise(here, expected);
+        // A decoder's delay and what fills up two blocks are less than this.
+        if (here + 3 * 1152 < counted)
+            warn("has a header that leaves out {:.3f} s of {:.3f} s at its beginning and end", seconds(counted - here),
+                 seconds(counted));
+        return checkDecoder(here);
+    }
+
+    /// The Error or the warning of a header that promises another number of frames than `here`.
+    Result<void> checkPromise(std::uint64_t here, std::uint64_t promised)
+    {
+        if (here < promised && !options.allowTruncated)
+            return truncated(here, promised);
+        if (here < promised)
+            warn("is cut off: {:.3f} s of {:.3f} s are there", seconds(here), seconds(promised));
+        else if (here > promised)
+            warnOfPromise(seconds(promised), seconds(here));
         return {};
+    }
+
+    Result<void> checkDecoder(std::uint64_t here)
+    {
+        if (sf_error(sound.get()) == SF_ERR_NO_ERROR)
+            return {};
+        if (!options.allowTruncated)
+            return Error{
+                ErrorCode::truncated, "",
+                fmt::format("is damaged after frame {} ({}); get a complete copy", here, soundError(sound.get()))};
+        warn("is damaged after {:.3f} s ({})", seconds(here), soundError(sound.get()));
+        return {};
+    }
+
+    /// The pages of an Ogg stream say when they end. The decoder leaves out damaged ones without a word.
+    void warnOfLostPages(std::uint64_t here)
+    {
+        const bool opus = (info.format & SF_FORMAT_SUBMASK) == SF_FORMAT_OPUS;
+        const double unit = opus ? 48000.0 : info.samplerate;
+        // Pages that were cut off before the first may count from any time; what is damaged may be the first.
+        const auto first = part().skippedBytes > 0 ? 0 : part().firstTime;
+        const double missing = static_cast<double>(part().lastTime - first) / unit - seconds(here);
+        if (part().skippedBytes > 0)
+            warn("is damaged: {} bytes are no sound, about {:.3f} s are missing", part().skippedBytes,
+                 std::max(missing, 0.0));
+        else if (missing > 0.0)
+            warn("is damaged: about {:.3f} s are missing", missing);
+    }
+
+    /// Ends the current FLAC stream where another begins, if it was on that one that the decoder lost its way, and goes
+    /// to the same place anew; whether it was.
+    bool endBeforeNextFlac()
+    {
+        auto next = nextFlac(file.get(), part().begin + 4, part().end);
+        if (!next)
+            return false;
+        parts[current].end = next->begin;
+        parts.insert(parts.begin() + static_cast<std::ptrdiff_t>(current) + 1, std::move(*next));
+        if (!openView(false))
+            return false;
+        const SoundLibraryCall inside;
+        std::vector<float> passed(4096 * static_cast<std::size_t>(info.channels));
+        for (auto left = static_cast<sf_count_t>(delivered - deliveredBefore); left > 0;)
+        {
+            const auto count = sf_readf_float(sound.get(), passed.data(), std::min<sf_count_t>(left, 4096));
+            if (count <= 0)
+                return false;
+            left -= count;
+        }
+        return true;
+    }
+
+    /// What of the current part and of what follows is not sound.
+    void warnOfRest()
+    {
+        if (part().endsInFrame)
+            warn("ends within a block of its codec at {:.3f} s; it may have been cut off", seconds(delivered));
+        if (part().leftOutBytes > 0)
+            warn("has {} bytes behind its sound that are left out; as sound they would be {:.3f} s",
+                 part().leftOutBytes, secondsOf(part().leftOutBytes));
+    }
+
+    void warnOfGap()
+    {
+        if (part().skippedBytes > 0 && !isFormat(SF_FORMAT_OGG))
+            warn("is damaged at {:.3f} s: {} bytes are no sound, about {:.3f} s are missing", seconds(delivered),
+                 part().skippedBytes, secondsOf(part().skippedBytes));
+    }
+
+    /// Goes on to the next part that can be read; whether there is one.
+    bool openNext()
+    {
+        const auto before = info;
+        warnOfRest();
+        while (current + 1 < parts.size())
+        {
+            ++current;
+            if (part().end <= part().begin)
+            {
+                warnOfGap();
+                continue;
+            }
+            const auto opened = openPart();
+            if (opened && info.samplerate == before.samplerate && info.channels == before.channels)
+            {
+                warnOfGap();
+                deliveredBefore = delivered;
+                return true;
+            }
+            const auto bytes = part().end - part().begin;
+            if (!opened)
+                warn("has another sound behind {:.3f} s, which is left out: it {} ({} bytes)",
+                     static_cast<double>(delivered) / before.samplerate, opened.error().message, bytes);
+            else
+                warn("has another sound behind {:.3f} s, which is left out: it has {} channels at {} Hz ({:.3f} s); "
+                     "save it as a file of its own",
+                     static_cast<double>(delivered) / before.samplerate, info.channels, info.samplerate,
+                     secondsOf(bytes));
+            info = before;
+        }
+        return false;
     }
 };
 
@@ -191,47 +415,27 @@ Result<AudioReader> AudioReader::open(const fs::path& path, AudioReadOptions opt
     auto file = openRewindable(path);
     if (!file)
         return file.error();
-    if (streamLength(file->get()) == 0)
-        return invalid("is empty; choose a file with audio");
-
     auto state = std::make_unique<State>();
     state->file = std::move(*file);
     state->options = options;
-    const auto data = audioDataSize(state->file.get());
-    const bool countsItsFrames = hasMp3FrameCount(state->file.get());
-    seekStream(state->file.get(), 0, SEEK_SET);
-
-    SF_VIRTUAL_IO io{streamLength, streamSeek, streamRead, nullptr, streamTell};
-    SF_INFO& info = state->info;
+    state->parts = soundParts(state->file.get());
+    if (state->parts.empty())
+        return invalid("is empty; it has no audio");
+    if (const auto opened = state->openPart(); !opened)
+        return opened.error();
+    state->warnOfGap();
+    if (const int rate = state->info.samplerate; rate < options.lowestSampleRate)
     {
-        const SoundLibraryCall inside;
-        state->sound.reset(sf_open_virtual(&io, SFM_READ, &info, state->file.get()));
+        state->raiser.emplace(rate, options.lowestSampleRate, static_cast<std::size_t>(state->info.channels));
+        state->warn("is sampled at {} Hz, so all above {} Hz is missing; it is read at {} Hz", rate, rate / 2,
+                    rate * state->raiser->multiple());
     }
-    if (!state->sound)
-        return openingFailed(data);
-    if (info.channels < 1 || info.samplerate < 1)
-        return invalid(fmt::format("has a damaged header without {}; get a complete copy",
-                                   info.channels < 1 ? "channels" : "sample rate"));
-    if (info.channels > limits::channels)
-        return invalid(fmt::format("has {} channels, but only 1 to {} are supported; mix it down", info.channels,
-                                   limits::channels));
-    if (info.samplerate < options.lowestSampleRate || info.samplerate > limits::highestSampleRate)
-        return invalid(fmt::format("has a sample rate of {} Hz, but only {} to {} Hz are supported; resample it",
-                                   info.samplerate, options.lowestSampleRate, limits::highestSampleRate));
-    if (data && !options.allowTruncated)
-        if (auto broken = brokenPromise(*data, info))
-            return *broken;
-    const bool mp3 = (info.format & SF_FORMAT_TYPEMASK) == SF_FORMAT_MPEG;
-    if (info.frames < SF_COUNT_MAX && (!mp3 || countsItsFrames))
-        state->promisedFrames = static_cast<std::uint64_t>(std::max<sf_count_t>(info.frames, 0));
-    // Encoders disagree on whether the padding of the first and last of the 1152-frame blocks counts.
-    state->slackFrames = mp3 ? 2 * 1152 : 0;
     return AudioReader(std::move(state));
 }
 
 int AudioReader::sampleRate() const noexcept
 {
-    return state->info.samplerate;
+    return state->info.samplerate * (state->raiser ? state->raiser->multiple() : 1);
 }
 
 int AudioReader::channels() const noexcept
@@ -241,30 +445,58 @@ int AudioReader::channels() const noexcept
 
 std::optional<std::uint64_t> AudioReader::frames() const noexcept
 {
-    if (state->info.frames < 0 || state->info.frames == SF_COUNT_MAX)
-        return {};
-    return static_cast<std::uint64_t>(state->info.frames);
+    auto frames = state->partFrames();
+    if (frames && state->raiser)
+        *frames *= static_cast<std::uint64_t>(state->raiser->multiple());
+    if (!frames || state->parts.size() == 1 || state->view.size() == 0)
+        return frames;
+    double bytes = 0.0;
+    for (const SoundPart& part : state->parts)
+        bytes += static_cast<double>(part.end - std::min(part.end, part.begin));
+    return static_cast<std::uint64_t>(static_cast<double>(*frames) / static_cast<double>(state->view.size()) * bytes);
 }
 
 Result<std::size_t> AudioReader::read(std::span<float> interleaved)
 {
-    const auto channels = static_cast<std::size_t>(state->info.channels);
+    if (!state->raiser)
+        return state->read(interleaved);
+    return state->raiser->read(interleaved, [this](std::span<float> block) { return state->read(block); });
+}
+
+Result<std::size_t> AudioReader::State::read(std::span<float> interleaved)
+{
+    const auto channels = static_cast<std::size_t>(info.channels);
     assert(interleaved.size() % channels == 0);
     const auto wanted = interleaved.size() / channels;
-    sf_count_t count = 0;
+    std::size_t done = 0;
+    while (done < wanted && !ended)
     {
-        const SoundLibraryCall inside;
-        count = sf_readf_float(state->sound.get(), interleaved.data(), static_cast<sf_count_t>(wanted));
-    }
-    const auto got = static_cast<std::size_t>(std::max<sf_count_t>(count, 0));
-    if (!state->options.keepNan)
-        if (auto finite = state->checkFinite(interleaved.first(got * channels)); !finite)
-            return finite.error();
-    state->delivered += got;
-    if (got < wanted)
-        if (auto end = state->explainEnd(); !end)
+        const auto rest = interleaved.subspan(done * channels);
+        sf_count_t count = 0;
+        {
+            const SoundLibraryCall inside;
+            count = sf_readf_float(sound.get(), rest.data(), static_cast<sf_count_t>(wanted - done));
+        }
+        if (isFormat(SF_FORMAT_FLAC) && sf_error(sound.get()) != SF_ERR_NO_ERROR && endBeforeNextFlac())
+            continue;
+        const auto got = static_cast<std::size_t>(std::max<sf_count_t>(count, 0));
+        if (!options.keepNan)
+            if (auto finite = checkFinite(rest.first(got * channels)); !finite)
+                return finite.error();
+        delivered += got;
+        done += got;
+        if (done == wanted)
+            break;
+        if (auto end = explainEnd(); !end)
             return end.error();
-    return got;
+        ended = !openNext();
+    }
+    return done;
+}
+
+const std::vector<std::string>& AudioReader::warnings() const noexcept
+{
+    return state->warnings;
 }
 
 std::uint64_t AudioReader::replacedSamples() const noexcept
@@ -283,7 +515,7 @@ Result<AudioData> readAudio(const fs::path& path, AudioReadOptions options, std:
     if (!opened)
         return opened.error();
     AudioReader& reader = *opened;
-    AudioData audio{reader.sampleRate(), reader.channels(), {}, 0};
+    AudioData audio{reader.sampleRate(), reader.channels(), {}, 0, {}};
     const auto channels = static_cast<std::size_t>(audio.channels);
     // Memory follows the frames that really come; the header's count is not believed.
     bool fits = true;
@@ -300,6 +532,7 @@ Result<AudioData> readAudio(const fs::path& path, AudioReadOptions options, std:
     if (!fits)
         return tooManyFrames(maximumFrames);
     audio.replacedSamples = reader.replacedSamples();
+    audio.warnings = reader.warnings();
     return audio;
 }
 

@@ -11,6 +11,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace pacini
@@ -22,27 +23,29 @@ struct AudioReadOptions
     bool allowTruncated = false; ///< deliver what is there of a file that was cut off
     bool allowNan = false;       ///< replace NaN, infinite and absurd samples by 0 and count them
     bool keepNan = false;        ///< deliver such samples as they are; they are neither an error nor counted
-    int lowestSampleRate = 8000; ///< Hz: limits::lowestSampleRate, where sounds for haptics begin
+    int lowestSampleRate = 8000; ///< Hz: limits::lowestSampleRate; slower sounds are delivered at a multiple of theirs
 };
 
 /// The range of files that are read and written.
 namespace limits
 {
 inline constexpr int channels = 64;
-inline constexpr int lowestSampleRate = 8000;    ///< Hz
+inline constexpr int slowestSound = 1000;        ///< Hz: what is read
+inline constexpr int lowestSampleRate = 8000;    ///< Hz: what is encoded
 inline constexpr int highestSampleRate = 768000; ///< Hz
 inline constexpr int lowestWrittenRate = 2000;   ///< Hz: drive signals may be slower than any sound that is read
 } // namespace limits
 
-/// An open audio file: WAV, RF64, AIFF, CAF, W64, AU, FLAC, Ogg (Vorbis, Opus) and, where libsndfile was built with it,
-/// MP3. The content decides the format, not the name. Memory does not grow with what a header claims.
+/// An open audio file: WAV, RF64, BW64, AIFF, CAF, W64, AU, FLAC, Ogg (Vorbis, Opus) and, where libsndfile was built
+/// with it, MP3. The content decides the format, not the name. Memory does not grow with what a header claims. All of
+/// the sound is read, also where a header states less, and sounds of one rate that lie one behind the other in a file.
 class AudioReader
 {
 public:
     /// Opens `path`; what comes from a pipe or standard input (`-`) is taken in first. Errors: io (missing, folder,
     /// device, unreadable), invalidData (empty, no audio, damaged header, channels outside 1-64, rate below
-    /// options.lowestSampleRate or above 768 kHz), truncated (the header promises more than is there; FLAC, Ogg and MP3
-    /// show this only at their end, in read()).
+    /// 1 kHz or above 768 kHz), truncated (the header promises more than is there, and not by a
+    /// slip; FLAC, Ogg and MP3 show this only at their end, in read()).
     [[nodiscard]] static Result<AudioReader> open(const std::filesystem::path& path, AudioReadOptions options = {});
 
     AudioReader(AudioReader&&) noexcept;
@@ -83,6 +86,10 @@ public:
     /// Samples that allowNan has replaced so far.
     [[nodiscard]] std::uint64_t replacedSamples() const noexcept;
 
+    /// What was let pass of a header that is wrong, and what is missing of the sound and how many seconds of it, each a
+    /// sentence about the file. Complete when read() has reached the end.
+    [[nodiscard]] const std::vector<std::string>& warnings() const noexcept;
+
 private:
     struct State;
     explicit AudioReader(std::unique_ptr<State> opened) noexcept;
@@ -96,6 +103,7 @@ struct AudioData
     int channels = 0;
     std::vector<float> samples; ///< interleaved
     std::uint64_t replacedSamples = 0;
+    std::vector<std::string> warnings; ///< those of AudioReader
 };
 
 namespace limits

@@ -39,6 +39,7 @@ StoredAudio::StoredAudio(const AudioData& audio) : StoredAudio(audio.sampleRate,
 {
     append(audio.samples);
     close();
+    doubts = audio.warnings;
 }
 
 Result<StoredAudio> StoredAudio::read(const std::filesystem::path& path)
@@ -62,6 +63,7 @@ Result<StoredAudio> StoredAudio::read(const std::filesystem::path& path)
     if (!fits)
         return tooManyFrames(limits::audioFrames);
     sound.close();
+    sound.doubts = opened->warnings();
     return sound;
 }
 

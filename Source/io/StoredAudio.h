@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace pacini
@@ -43,6 +44,8 @@ public:
         return sampleRate > 0 ? static_cast<double>(frames()) / sampleRate : 0.0;
     }
     [[nodiscard]] std::size_t bytes() const noexcept; ///< that the samples take
+    /// What was let pass when its file was read: see AudioReader::warnings().
+    [[nodiscard]] const std::vector<std::string>& warnings() const noexcept { return doubts; }
 
     /// Interleaved samples from frame `first` on, for whole frames that are there.
     void read(std::size_t first, std::span<float> interleaved) const noexcept;
@@ -74,6 +77,7 @@ private:
     std::uint64_t total = 0; ///< samples: those that are 0 take no memory
     std::vector<std::shared_ptr<const Piece>> pieces;
     std::vector<float> open; ///< the last piece, while it is not full
+    std::vector<std::string> doubts;
 };
 
 } // namespace pacini

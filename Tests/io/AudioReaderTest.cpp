@@ -130,13 +130,11 @@ TEST_CASE("Channels and rates outside the accepted range are refused", "[io][aud
     const std::string data(2000, '\0');
     CHECK(failureOf(folder, wavBytes({.channels = 65}, data)).message ==
           "has 65 channels, 1 to 64 are accepted; mix it down");
-    CHECK(failureOf(folder, wavBytes({.sampleRate = 7999}, data)).message ==
-          "has a sample rate of 7999 Hz, 8000 to 768000 Hz are accepted; resample it");
+    CHECK(failureOf(folder, wavBytes({.sampleRate = 999}, data)).message ==
+          "has a sample rate of 999 Hz, 1000 to 768000 Hz are accepted; resample it");
     CHECK(failureOf(folder, wavBytes({.sampleRate = 768001}, data)).code == ErrorCode::invalidData);
     const AudioReadOptions slow{.lowestSampleRate = 2000};
     CHECK(readAudio(put(folder / "slow", wavBytes({.sampleRate = 2000}, data)), slow)->sampleRate == 2000);
-    CHECK(failureOf(folder, wavBytes({.sampleRate = 1999}, data), slow).message ==
-          "has a sample rate of 1999 Hz, 2000 to 768000 Hz are accepted; resample it");
     CHECK(readAudio(put(folder / "ok", wavBytes({.channels = 64, .sampleRate = 768000}, data))).ok());
     for (std::uint16_t channels : {std::uint16_t(0), std::uint16_t(1025), std::uint16_t(65535)})
         CHECK(failureOf(folder, wavBytes({.channels = channels}, data)).code == ErrorCode::invalidData);
@@ -150,10 +148,10 @@ TEST_CASE("Memory does not follow what a header claims", "[io][audio]")
     const std::string data(2000, '\0');
     CHECK(failureOf(folder, auBytes(10'000'000, 2000, data)).code == ErrorCode::invalidData);
 
-    const auto huge = wavBytes({.bits = 8, .dataBytes = 0x80000000u}, data);
+    const auto huge = wavBytes({.bits = 8, .dataBytes = 0x81234567u}, data);
     const auto error = failureOf(folder, huge);
     CHECK(error.code == ErrorCode::truncated);
-    CHECK(error.message == "is truncated: it has 2000 frames of 2147483648; get a complete copy");
+    CHECK(error.message == "is cut off: 2000 frames are there, 2166572391 were promised; get a complete copy");
     const auto audio = readAudio(put(folder / "huge", huge), truncatedAllowed);
     REQUIRE(audio.ok());
     CHECK(audio->samples.size() == 2000);
@@ -213,7 +211,7 @@ TEST_CASE("Streamed files with an open length are read to their end", "[io][audi
 {
     const TempFolder folder;
     const auto data = pcm16(std::vector<int>(500, 1000));
-    for (std::uint32_t left : {0xFFFFFFFFu, 0x7FFFF000u, 0x7FFFFFFFu})
+    for (std::uint32_t left : {0xFFFFFFFFu, 0x7FFFF000u, 0x7FFFFFFFu, 0x80000000u, 2'000'000'000u, 0x7FFFFF00u})
     {
         CAPTURE(left);
         const auto audio = readAudio(put(folder / "x", wavBytes({.dataBytes = left}, data)));

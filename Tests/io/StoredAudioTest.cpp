@@ -103,7 +103,7 @@ TEST_CASE("Channels and their mean are read from anywhere, with silence around t
 
 TEST_CASE("An empty sound has no frames and reads as silence")
 {
-    const StoredAudio stored(AudioData{48000, 2, {}, 0});
+    const StoredAudio stored(AudioData{48000, 2, {}, 0, {}});
     std::vector<float> out(10, 1.0f);
     stored.readMean(-3, out);
     CHECK(out == std::vector<float>(10, 0.0f));

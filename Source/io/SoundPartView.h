@@ -1,0 +1,49 @@
+#pragma once
+
+// View of one part of a file, with the bytes that are put right.
+
+#include "io/FileHandle.h"
+#include "io/SoundParts.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <span>
+
+namespace pacini
+{
+
+/// One part of a file as libsndfile reads it. It never sees the file's name, so content alone decides the format, and a
+/// failing disk can be told from a damaged file.
+struct SoundPartView
+{
+    std::FILE* file = nullptr;
+    const SoundPart* part = nullptr;
+    std::uint64_t place = 0;
+    bool hidesEnd = false; ///< it cannot be gone to
+
+    [[nodiscard]] std::uint64_t size() const noexcept { return part->end - std::min(part->begin, part->end); }
+
+    bool goTo(std::uint64_t wanted)
+    {
+        place = wanted;
+        return seekStream(file, static_cast<std::int64_t>(part->begin + place), SEEK_SET);
+    }
+
+    std::size_t read(std::span<char> bytes)
+    {
+        const auto left = size() - std::min(place, size());
+        const auto from = part->begin + place;
+        const auto got =
+            std::fread(bytes.data(), 1, static_cast<std::size_t>(std::min<std::uint64_t>(bytes.size(), left)), file);
+        place += got;
+        for (const BytePatch& patch : part->patches)
+            for (std::size_t i = 0; i < patch.bytes.size(); ++i)
+                if (patch.offset + i >= from && patch.offset + i < from + got)
+                    bytes[static_cast<std::size_t>(patch.offset + i - from)] = patch.bytes[i];
+        return got;
+    }
+};
+
+} // namespace pacini

@@ -1,0 +1,363 @@
+#include "io/SoundParts.h"
+
+#include "io/AudioHeader.h"
+#include "io/ByteWindow.h"
+#include "io/MpegFrames.h"
+#include "io/SoundTags.h"
+
+#include <algorithm>
+#include <limits>
+#include <string_view>
+#include <utility>
+
+namespace pacini
+{
+
+namespace
+{
+constexpr std::uint64_t largest32 = std::numeric_limits<std::uint32_t>::max();
+constexpr std::size_t mostParts = 1000;
+
+std::string bytesOf(std::uint64_t value, std::size_t count, bool bigEndian)
+{
+    std::string bytes;
+    for (std::size_t i = 0; i < count; ++i)
+        bytes += static_cast<char>((value >> (8 * (bigEndian ? count - 1 - i : i))) & 0xFFu);
+    return bytes;
+}
+
+bool hasMpegSync(ByteWindow& file, std::uint64_t offset)
+{
+    const auto bytes = file.at(offset, 2);
+    return bytes.size() == 2 && bytes[0] == 0xFF && (bytes[1] & 0xE0u) == 0xE0u;
+}
+
+class Planner
+{
+public:
+    explicit Planner(std::FILE* opened) : file(opened), end(file.size()) {}
+
+    std::vector<SoundPart> run()
+    {
+        if (end == 0)
+            return {};
+        std::optional<std::uint64_t> begin = behindTags();
+        while (begin && parts.size() < mostParts)
+            begin = add(*begin);
+        if (begin && !parts.empty())
+            parts.back().leftOutBytes += end - *begin;
+        return std::move(parts);
+    }
+
+    SoundPart flac(std::uint64_t begin)
+    {
+        SoundPart part;
+        part.begin = begin;
+        part.end = endBeforeTags(file, begin, end);
+        // STREAMINFO comes first; the lowest 36 bits before its checksum count the frames, 0 if they are not known (RFC
+        // 9639, 8.2). libsndfile reads no more than they say, so it is not told.
+        const auto type = file.at(begin + 4, 1);
+        const auto count = file.at(begin + 21, 1);
+        if (type.empty() || count.empty() || (type[0] & 0x7Fu) != 0)
+            return part;
+        const unsigned char high = count[0];
+        const auto frames = (std::uint64_t{high & 0x0Fu} << 32u) | file.number(begin + 22, 4, true);
+        if (frames == 0)
+            return part;
+        part.promisedFrames = frames;
+        part.patches.push_back({begin + 21, static_cast<char>(high & 0xF0u) + std::string(4, '\0')});
+        return part;
+    }
+
+private:
+    /// Where the first sound begins. libsndfile skips tags only in front of some formats.
+    std::uint64_t behindTags()
+    {
+        std::uint64_t begin = 0;
+        for (;;)
+        {
+            const bool tagged = file.has(begin, "ID3") || file.has(begin, "APETAGEX");
+            const auto tag = tagged ? tagBytesAt(file, begin) : 0;
+            if (tag == 0)
+                break;
+            const auto next = begin + tag;
+            if (next < end && (startsSound(file, next) || hasMpegSync(file, next) || tagBytesAt(file, next) > 0))
+            {
+                begin = next;
+                continue;
+            }
+            return searched(begin);
+        }
+        return begin;
+    }
+
+    /// Where a sound begins in or behind a tag whose size is wrong.
+    std::uint64_t searched(std::uint64_t tag)
+    {
+        constexpr std::uint64_t reach = 16u << 20u;
+        const auto last = std::min(end, tag + reach);
+        auto first = last;
+        for (const std::string_view id :
+             {"RIFF", "RIFX", "RF64", "BW64", "FORM", "caff", "riff", ".snd", "fLaC", "OggS"})
+            for (auto place = file.find(id, tag, first); place < first; place = file.find(id, place + 1, first))
+                if (startsSound(file, place))
+                {
+                    first = place;
+                    break;
+                }
+        if (first < last)
+            return first;
+        const auto runs = mpegRuns(file, tag + 10, end);
+        return runs.empty() ? tag : runs.front().begin;
+    }
+
+    /// Adds what begins there; where the next begins, if one does.
+    std::optional<std::uint64_t> add(std::uint64_t begin)
+    {
+        if (file.has(begin, "fLaC"))
+        {
+            parts.push_back(flac(begin));
+            return {};
+        }
+        if (file.has(begin, "OggS"))
+            return addOgg(begin), std::nullopt;
+        if (hasMpegSync(file, begin) && addMpeg(begin))
+            return {};
+        return addChunked(begin);
+    }
+
+    /// A sound of chunks, or of a format that is not looked into.
+    std::optional<std::uint64_t> addChunked(std::uint64_t begin)
+    {
+        SoundPart& part = parts.emplace_back();
+        part.begin = begin;
+        part.end = end;
+        const auto found = findAudioChunk(file, begin, end);
+        if (!found)
+            return {};
+        const auto next = addAudio(part, *found);
+        // AIFF says how many bytes of its audio chunk lie before the first frame, to place it on a disc: hardly ever.
+        if (!found->layout || found->layout->fileId != "FORM")
+            return next;
+        constexpr std::uint64_t largestOffset = 4096;
+        const auto field = found->start - found->layout->headerOfData;
+        if (const auto offset = file.number(field, 4, true); offset > largestOffset)
+            part.patches.push_back({field, std::string(4, '\0')});
+        else
+            part.skippedBytes = offset;
+        return next;
+    }
+
+    std::optional<std::uint64_t> addAudio(SoundPart& part, const AudioChunk& chunk)
+    {
+        const auto soundEnd = endBeforeTags(file, std::min(chunk.start, end), end);
+        if (!chunk.promise)
+        {
+            setEnd(part, chunk, beforeLastChunks(chunk, soundEnd));
+            return {};
+        }
+        const auto promise = *chunk.promise;
+        if (promise > chunk.present(end))
+        {
+            part.promisedBytes = promise;
+            part.isWhole = isWholeAnyway(chunk, part.begin);
+            const auto audioEnd = part.isWhole ? beforeLastChunks(chunk, soundEnd) : end;
+            part.presentBytes = chunk.present(audioEnd);
+            if (part.isWhole || isRenamed(chunk))
+                setEnd(part, chunk, audioEnd);
+            return {};
+        }
+        const auto stop = chunk.start + promise;
+        if (isRenamed(chunk))
+            setEnd(part, chunk, stop);
+        return addBehind(part, chunk, stop, std::max(stop, soundEnd));
+    }
+
+    /// Looks at what lies between the stated end of a sound and that of the file.
+    std::optional<std::uint64_t> addBehind(SoundPart& part, const AudioChunk& chunk, std::uint64_t stop,
+                                           std::uint64_t soundEnd)
+    {
+        if (stop >= soundEnd)
+            return {};
+        // Odd sizes are followed by a byte of padding, which some writers leave out; W64 fills up to 8 bytes.
+        const std::uint64_t padding = chunk.layout ? chunk.layout->alignment : 1;
+        for (std::uint64_t pad = 0; pad < padding; ++pad)
+        {
+            const auto behind = std::min(stop + pad, soundEnd);
+            const auto next = chunk.layout ? endOfChunks(file, *chunk.layout, behind, soundEnd) : std::nullopt;
+            if (next && *next >= soundEnd)
+                return {};
+            if (next || startsSound(file, behind))
+            {
+                part.end = next.value_or(behind);
+                return part.end;
+            }
+        }
+        constexpr std::uint64_t mostPadding = 65536; // the largest blocks that discs are divided in
+        if (*chunk.promise > 0 && soundEnd - stop <= mostPadding && areZeros(file, stop, soundEnd))
+        {
+            part.leftOutBytes = soundEnd - stop;
+            return {};
+        }
+        const auto audioEnd = beforeLastChunks(chunk, soundEnd);
+        part.promisedBytes = chunk.promise;
+        part.presentBytes = chunk.present(audioEnd);
+        setEnd(part, chunk, audioEnd);
+        return {};
+    }
+
+    /// Whether a header that promises more than the file has is merely wrong: by its own length or a few bytes, by
+    /// twice, or because the size of the file that it states as well is right.
+    bool isWholeAnyway(const AudioChunk& chunk, std::uint64_t begin)
+    {
+        constexpr std::uint64_t fewBytes = 64;
+        const auto present = chunk.present(end);
+        const auto excess = *chunk.promise - present;
+        if (present == 0)
+            return false;
+        if (excess <= fewBytes || excess == chunk.start - begin ||
+            (*chunk.promise + fewBytes >= 2 * present && *chunk.promise <= 2 * present + fewBytes))
+            return true;
+        const auto* layout = chunk.layout;
+        if (!layout || layout->sizeBytes != 4 || layout->fileId == "RF64" || layout->fileId == "BW64")
+            return false;
+        const auto whole = file.number(begin + 4, 4, layout->bigEndian) + 8;
+        return whole == end - begin || whole + 1 == end - begin;
+    }
+
+    std::uint64_t beforeLastChunks(const AudioChunk& chunk, std::uint64_t soundEnd)
+    {
+        return chunk.layout ? startOfLastChunks(file, *chunk.layout, std::min(chunk.start, soundEnd), soundEnd)
+                            : soundEnd;
+    }
+
+    /// Whether libsndfile must be told of another format: it does not know BW64, and believes the wrong size of an RF64
+    /// that has two.
+    bool isRenamed(const AudioChunk& chunk)
+    {
+        return chunk.layout && chunk.layout->isWave() && chunk.layout->fileId != "RIFF" &&
+               (chunk.layout->fileId == "BW64" || file.number(chunk.sizeField, 4, false) != largest32);
+    }
+
+    /// Lets the audio, and the file with it, end at `audioEnd`.
+    void setEnd(SoundPart& part, const AudioChunk& chunk, std::uint64_t audioEnd)
+    {
+        part.end = audioEnd;
+        part.patches.clear();
+        auto size = chunk.present(audioEnd) + chunk.sizeExtra;
+        const bool fits = size < largest32;
+        const auto* layout = chunk.layout;
+        if (!layout)
+        {
+            part.patches.push_back({chunk.sizeField, bytesOf(std::min(size, largest32), 4, true)});
+            return;
+        }
+        if (layout->sizeBytes == 4 && layout->fileId != "FORM")
+        {
+            if (layout->isWave())
+                part.patches.push_back({part.begin, "RIFF"});
+            // libsndfile takes these two sizes for those of a file that was not closed, and reads it to its end.
+            if (!fits)
+            {
+                part.patches.push_back({part.begin + 4, bytesOf(8, 4, layout->bigEndian)});
+                size = 0;
+            }
+        }
+        else if (layout->sizeBytes == 4 && !fits)
+        {
+            part.leftOutBytes = size - largest32;
+            size = largest32;
+        }
+        part.patches.push_back({chunk.sizeField, bytesOf(size, layout->sizeBytes, layout->bigEndian)});
+    }
+
+    /// The streams of an Ogg file: each begins with one or more pages that say so (RFC 3533, 6).
+    void addOgg(std::uint64_t begin)
+    {
+        constexpr std::size_t headerBytes = 27;
+        constexpr unsigned beginsStream = 2;
+        bool headers = false;
+        std::uint64_t skipped = 0;
+        for (auto offset = begin; offset < end;)
+        {
+            const auto head = file.at(offset, headerBytes + 255);
+            if (!file.has(offset, "OggS") || head.size() < headerBytes || head.size() < headerBytes + head[26])
+            {
+                const auto tag = tagBytesAt(file, offset);
+                const auto next = tag > 0 ? std::min(end, offset + tag) : file.find("OggS", offset + 1, end);
+                if (tag == 0)
+                    skipped += next - offset;
+                offset = next;
+                continue;
+            }
+            const bool starts = (head[5] & beginsStream) != 0;
+            std::uint64_t bytes = headerBytes + head[26];
+            for (std::size_t i = 0; i < head[26]; ++i)
+                bytes += head[headerBytes + i];
+            if ((starts && !headers) || parts.empty())
+            {
+                if (parts.size() == mostParts)
+                {
+                    parts.back().leftOutBytes += end - offset;
+                    return;
+                }
+                parts.emplace_back().begin = offset;
+            }
+            headers = starts;
+            SoundPart& part = parts.back();
+            // The time at the end of the page; all ones where no packet ends on it.
+            if (const auto time = file.number(offset + 6, 8, false); time > 0 && time < std::uint64_t{1} << 62u)
+            {
+                part.firstTime = part.firstTime == 0 ? time : std::min(part.firstTime, time);
+                part.lastTime = std::max(part.lastTime, time);
+            }
+            part.skippedBytes += std::exchange(skipped, 0);
+            offset += bytes;
+            part.end = std::min(offset, end);
+        }
+        parts.back().skippedBytes += skipped;
+    }
+
+    bool addMpeg(std::uint64_t begin)
+    {
+        const auto runs = mpegRuns(file, begin, endBeforeTags(file, begin, end));
+        if (runs.empty() || runs.front().frames == 0)
+            return false;
+        for (const MpegRun& run : runs)
+        {
+            SoundPart& part = parts.emplace_back();
+            part.begin = run.begin;
+            part.end = run.end;
+            part.skippedBytes = run.skipped;
+            part.endsInFrame = run.rest > 0;
+            part.countedFrames = run.samples;
+            const auto perFrame = run.frames > 0 ? run.samples / run.frames : 0;
+            if (run.statedFrames)
+                part.promisedFrames = *run.statedFrames * perFrame;
+            if (run.frames == 0)
+                continue;
+            if (run.countField != 0 && run.statedFrames != run.frames)
+                part.patches.push_back({run.countField, bytesOf(run.frames, 4, true)});
+        }
+        return true;
+    }
+
+    ByteWindow file;
+    std::uint64_t end;
+    std::vector<SoundPart> parts;
+};
+} // namespace
+
+std::vector<SoundPart> soundParts(std::FILE* file)
+{
+    return Planner(file).run();
+}
+
+std::optional<SoundPart> nextFlac(std::FILE* file, std::uint64_t offset, std::uint64_t end)
+{
+    ByteWindow window(file);
+    const auto begin = window.find(std::string_view("fLaC\0\0\0\x22", 8), offset, end);
+    return begin < end ? std::optional(Planner(file).flac(begin)) : std::nullopt;
+}
+
+} // namespace pacini

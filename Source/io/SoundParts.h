@@ -1,0 +1,49 @@
+#pragma once
+
+// Sounds that lie one behind the other in a file, and what their headers say wrongly. What follows the stated end of a
+// sound is a chunk, a tag, padding, another sound, or more of it.
+
+#include <cstdint>
+#include <cstdio>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pacini
+{
+
+/// Bytes to be read in place of those that a file has at `offset`.
+struct BytePatch
+{
+    std::uint64_t offset = 0;
+    std::string bytes;
+};
+
+/// One sound of a file as libsndfile is to see it. Offsets and sizes are bytes of the file.
+struct SoundPart
+{
+    std::uint64_t begin = 0;
+    std::uint64_t end = 0;
+    std::vector<BytePatch> patches;
+
+    std::optional<std::uint64_t> promisedBytes; ///< of audio, where a header is wrong about them
+    std::uint64_t presentBytes = 0;             ///< of audio, if promisedBytes
+    bool isWhole = true;                        ///< fewer than promised are there, but nothing is missing
+    std::uint64_t leftOutBytes = 0;             ///< of what follows the sound and is not read
+    std::uint64_t skippedBytes = 0;             ///< before it, that are no sound and no tag
+
+    std::optional<std::uint64_t> promisedFrames; ///< what a header says, where it may be wrong
+    std::optional<std::uint64_t> countedFrames;  ///< what is there
+    std::uint64_t firstTime = 0;                 ///< of an Ogg stream: the earliest and latest of its pages' times, in
+    std::uint64_t lastTime = 0;                  ///< frames, those of Opus at 48 kHz
+    bool endsInFrame = false;                    ///< it ends within a frame of its codec
+};
+
+/// At least one unless it is empty: what libsndfile is to read of `file`, in order. Moves the stream's position; trusts
+/// no number.
+[[nodiscard]] std::vector<SoundPart> soundParts(std::FILE* file);
+
+/// The FLAC stream that begins between `offset` and `end`, where the decoder of another lost its way.
+[[nodiscard]] std::optional<SoundPart> nextFlac(std::FILE* file, std::uint64_t offset, std::uint64_t end);
+
+} // namespace pacini

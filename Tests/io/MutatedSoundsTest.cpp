@@ -1,0 +1,315 @@
+#include "io/AudioBytes.h"
+#include "io/AudioReader.h"
+#include "support/Catch.h"
+#include "support/Paths.h"
+#include "support/TempFolder.h"
+
+#include <pacini/foundation/Random.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+using namespace pacini;
+using namespace pacini::test;
+
+namespace
+{
+/// A sound whose number of frames is known, and where its file may be changed without becoming another sound.
+struct KnownSound
+{
+    std::string name;
+    std::string bytes;
+    std::uint64_t frames = 0;
+    std::size_t header = 0;                     ///< bytes that may be changed
+    std::pair<std::size_t, std::size_t> format; ///< of these, the first and the last but one that say how samples look
+    std::size_t size = 0;                       ///< where the size of the audio is; 0: nowhere
+    int sizeBytes = 4;
+    bool bigEndian = false;
+    std::uint64_t slack = 0; ///< frames that a codec may leave out
+};
+
+constexpr int rate = 8000;
+constexpr std::size_t knownFrames = 4000;
+
+/// Never the same twice and never zero, so that no part of it passes for chunks or padding.
+std::string tone(bool big)
+{
+    std::string data;
+    for (std::size_t i = 0; i < knownFrames; ++i)
+    {
+        const auto value =
+            static_cast<std::int16_t>(std::lround(12000.0 * std::sin(0.05 * static_cast<double>(i)))) | 1;
+        const auto bits = static_cast<std::uint16_t>(value);
+        data += big ? bigEndian(bits, 2) : littleEndian(bits, 2);
+    }
+    return data;
+}
+
+KnownSound waveFile(const std::string& id)
+{
+    const auto data = tone(false);
+    const bool isLong = id != "RIFF";
+    const std::string sizes = isLong
+                                  ? "ds64" + littleEndian(28, 4) + littleEndian(0, 8) + littleEndian(data.size(), 8) +
+                                        littleEndian(data.size() / 2, 8) + littleEndian(0, 4)
+                                  : "";
+    auto bytes = wavBytes({.sampleRate = rate, .dataBytes = isLong ? std::optional(0xFFFFFFFFu) : std::nullopt}, data);
+    bytes.replace(0, 4, id);
+    bytes.insert(12, sizes);
+    const auto shift = sizes.size();
+    return {id, bytes, knownFrames, 44 + shift, {20 + shift, 36 + shift}, isLong ? 28u : 40u, isLong ? 8 : 4};
+}
+
+KnownSound aiff()
+{
+    const auto data = tone(true);
+    const std::string head = "AIFFCOMM" + bigEndian(18, 4) + bigEndian(1, 2) + bigEndian(knownFrames, 4) +
+                             bigEndian(16, 2) + bigEndian(16383 + 12, 2) + bigEndian(std::uint64_t{rate} << 51u, 8) +
+                             "SSND" + bigEndian(data.size() + 8, 4) + std::string(8, '\0');
+    return {"AIFF", "FORM" + bigEndian(head.size() + data.size(), 4) + head + data, knownFrames, 54, {20, 38}, 42, 4,
+            true};
+}
+
+KnownSound caf()
+{
+    const auto data = tone(true);
+    const std::string head = "caff" + bigEndian(1, 2) + bigEndian(0, 2) + "desc" + bigEndian(32, 8) +
+                             bigEndian(0x40BF400000000000u, 8) + "lpcm" + bigEndian(0, 4) + bigEndian(2, 4) +
+                             bigEndian(1, 4) + bigEndian(1, 4) + bigEndian(16, 4) + "data" +
+                             bigEndian(data.size() + 4, 8) + bigEndian(0, 4);
+    return {"CAF", head + data, knownFrames, head.size(), {20, 52}, 56, 8, true};
+}
+
+KnownSound au()
+{
+    const auto data = tone(true);
+    return {"AU",
+            ".snd" + bigEndian(24, 4) + bigEndian(data.size(), 4) + bigEndian(3, 4) + bigEndian(rate, 4) +
+                bigEndian(1, 4) + data,
+            knownFrames,
+            24,
+            {12, 24},
+            8,
+            4,
+            true};
+}
+
+KnownSound wave64()
+{
+    const auto data = tone(false);
+    const std::string guid("\xF3\xAC\xD3\x11\x8C\xD1\x00\xC0\x4F\x8E\xDB\x8A", 12);
+    const std::string body = "wave" + guid + "fmt " + guid + littleEndian(40, 8) + littleEndian(1, 2) +
+                             littleEndian(1, 2) + littleEndian(rate, 4) + littleEndian(2 * rate, 4) +
+                             littleEndian(2, 2) + littleEndian(16, 2) + "data" + guid +
+                             littleEndian(data.size() + 24, 8) + data;
+    const std::string first("riff\x2E\x91\xCF\x11\xA5\xD6\x28\xDB\x04\xC1\x00\x00", 16);
+    return {"W64", first + littleEndian(body.size() + 24, 8) + body, knownFrames, 104, {64, 80}, 96, 8};
+}
+
+/// A file of the fixtures, which is read whole as it is.
+KnownSound fixture(const std::string& name, std::uint64_t slack)
+{
+    const auto path = testFolder() / "io/audio" / name;
+    KnownSound sound{name, bytesOf(path), 0, 0, {0, 0}, 0, 0, false, slack};
+    const auto whole = readAudio(path);
+    REQUIRE(whole.ok());
+    CHECK(whole->warnings.empty());
+    sound.frames = whole->samples.size() / static_cast<std::size_t>(whole->channels);
+    sound.header = std::min<std::size_t>(sound.bytes.size(), 200);
+    return sound;
+}
+
+std::vector<KnownSound> knownSounds()
+{
+    // Of a FLAC, what says how samples look is from the smallest block to the number of bits.
+    auto flac = fixture("ramp.flac", 0);
+    flac.header = 42;
+    flac.format = {8, 21};
+    return {
+        waveFile("RIFF"),       waveFile("RF64"),        waveFile("BW64"),         wave64(), aiff(), caf(), au(), flac,
+        fixture("tone.ogg", 0), fixture("tone.opus", 0), fixture("tone.mp3", 2304)};
+}
+
+/// Whether all of the sound came, or something was said.
+void checkNothingIsLostInSilence(const KnownSound& sound, const std::filesystem::path& path)
+{
+    const auto audio = readAudio(path, {}, 1'000'000);
+    if (!audio.ok() || !audio->warnings.empty())
+        return;
+    CHECK(audio->samples.size() / static_cast<std::size_t>(audio->channels) + sound.slack >= sound.frames);
+}
+
+/// Mutations of each kind of file: a few thousand in all; PACINI_MUTATIONS sets another number.
+int mutations()
+{
+    const char* wanted = std::getenv("PACINI_MUTATIONS");
+    return wanted ? std::atoi(wanted) : 300;
+}
+} // namespace
+
+TEST_CASE("No size that a header may state loses sound in silence", "[io][audio]")
+{
+    const TempFolder folder;
+    for (const KnownSound& sound : knownSounds())
+    {
+        if (sound.size == 0)
+            continue;
+        CAPTURE(sound.name);
+        const auto whole = readAudio(put(folder / "whole", sound.bytes));
+        REQUIRE(whole.ok());
+        CHECK(whole->warnings.empty());
+        REQUIRE(whole->samples.size() == sound.frames);
+        const std::uint64_t right = 2 * knownFrames;
+        for (const std::uint64_t stated :
+             {std::uint64_t{0}, std::uint64_t{8}, std::uint64_t{1}, right / 2, right - 2, right - 44, right + 1,
+              right + 44, 2 * right, std::uint64_t{0x80000000}, std::uint64_t{2'000'000'000}, std::uint64_t{0x7FFFFF00},
+              std::uint64_t{0xFFFFFFFF}, ~std::uint64_t{0}})
+        {
+            CAPTURE(stated);
+            auto bytes = sound.bytes;
+            const auto field =
+                sound.bigEndian ? bigEndian(stated, sound.sizeBytes) : littleEndian(stated, sound.sizeBytes);
+            bytes.replace(sound.size, field.size(), field);
+            const auto audio = readAudio(put(folder / "x", bytes));
+            if (!audio.ok() && sound.sizeBytes == 8 && stated >= 0x7FFFFF00u && stated <= 0xFFFFFFFFu)
+            {
+                // What 32 bits leave open is a size where there are 64.
+                CHECK(audio.error().code == ErrorCode::truncated);
+                continue;
+            }
+            REQUIRE(audio.ok());
+            CHECK(audio->samples == whole->samples);
+            if (stated < right - 24) // less than any of the formats counts besides
+                CHECK(audio->warnings.size() == 1);
+        }
+    }
+}
+
+TEST_CASE("Damaged headers of every kind lose no sound in silence", "[io][audio]")
+{
+    const TempFolder folder;
+    Random random(20261128);
+    for (const KnownSound& sound : knownSounds())
+        for (int round = 0; round < mutations(); ++round)
+        {
+            auto bytes = sound.bytes;
+            for (int i = 0; i <= round % 4; ++i)
+            {
+                const auto place = random.next() % sound.header;
+                if (place >= sound.format.first && place < sound.format.second)
+                    continue;
+                bytes[place] = static_cast<char>(random.next());
+            }
+            CAPTURE(sound.name, round);
+            checkNothingIsLostInSilence(sound, put(folder / "damaged", bytes));
+        }
+}
+
+TEST_CASE("What follows a sound is told from more of it", "[io][audio]")
+{
+    const TempFolder folder;
+    const auto read = [&](const std::string& bytes)
+    {
+        const auto audio = readAudio(put(folder / "x", bytes));
+        REQUIRE(audio.ok());
+        return *audio;
+    };
+    const std::string list = "LIST" + littleEndian(12, 4) + "INFOISFT" + littleEndian(0, 4);
+    const std::string id3v1 = "TAG" + std::string(125, 'x');
+    const std::string id3v2 = "ID3\x03" + std::string(5, '\0') + "\x40" + std::string(64, 'x');
+    const KnownSound wave = waveFile("RIFF");
+    for (const std::string& rest : {list, list + list, id3v1, list + id3v1})
+    {
+        const auto audio = read(wave.bytes + rest);
+        CHECK(audio.samples.size() == knownFrames);
+        CHECK(audio.warnings.empty());
+    }
+    CHECK(read(id3v2 + wave.bytes).samples.size() == knownFrames);
+    CHECK(read(id3v2 + wave.bytes).warnings.empty());
+    CHECK(read(wave.bytes + wave.bytes).samples.size() == 2 * knownFrames);
+    CHECK(read(wave.bytes + list + wave.bytes).samples.size() == 2 * knownFrames);
+    // A size that was left open, and chunks behind the sound.
+    auto open = wave.bytes;
+    open.replace(40, 4, "\xFF\xFF\xFF\xFF");
+    CHECK(read(open + list).samples.size() == knownFrames);
+    CHECK(read(wave.bytes + std::string(400, '\0')).warnings ==
+          std::vector<std::string>{"has 400 bytes behind its sound that are left out; as sound they would be 0.025 s"});
+
+    for (const char* name : {"ramp.flac", "tone.ogg", "tone.opus", "tone.mp3"})
+    {
+        CAPTURE(name);
+        const KnownSound sound = fixture(name, 0);
+        for (const std::string& bytes : {sound.bytes + id3v1, id3v2 + sound.bytes})
+        {
+            const auto audio = read(bytes);
+            CHECK(audio.samples.size() / static_cast<std::size_t>(audio.channels) == sound.frames);
+            CHECK(audio.warnings.empty());
+        }
+        const auto twice = read(sound.bytes + sound.bytes);
+        CHECK(twice.samples.size() / static_cast<std::size_t>(twice.channels) == 2 * sound.frames);
+    }
+    auto flac = bytesOf(testFolder() / "io/audio/ramp.flac");
+    flac.replace(22, 4, bigEndian(100, 4));
+    CHECK(read(flac).samples.size() == 800);
+    CHECK(read(flac).warnings == std::vector<std::string>{"has a header that states 0.013 s, but 0.050 s are there and "
+                                                          "all of them are read; save it anew"});
+}
+
+TEST_CASE("The frames of an MP3 are counted where no header does, or a wrong one", "[io][audio]")
+{
+    const TempFolder folder;
+    const KnownSound sound = fixture("tone.mp3", 0);
+    const auto header =
+        sound.bytes.find("Xing") != std::string::npos ? sound.bytes.find("Xing") : sound.bytes.find("Info");
+    REQUIRE(header != std::string::npos);
+    // Its first frame is that header; frames begin with the same two bytes.
+    const auto second = sound.bytes.find(sound.bytes.substr(0, 2), header);
+    const auto bare = readAudio(put(folder / "bare", sound.bytes.substr(second)));
+    REQUIRE(bare.ok());
+    CHECK(bare->samples.size() >= sound.frames);
+    CHECK(bare->samples.size() % 576 == 0);
+    auto few = sound.bytes;
+    few.replace(header + 8, 4, bigEndian(3, 4));
+    const auto counted = readAudio(put(folder / "few", few));
+    REQUIRE(counted.ok());
+    CHECK(counted->samples.size() >= sound.frames);
+    CHECK(counted->warnings.size() == 1);
+    // A hole is passed over, and said.
+    auto hole = sound.bytes;
+    hole.replace(hole.size() / 2, 700, std::string(700, '\0'));
+    const auto rest = readAudio(put(folder / "hole", hole), {.allowTruncated = true});
+    REQUIRE(rest.ok());
+    CHECK_FALSE(rest->warnings.empty());
+}
+
+TEST_CASE("Slow sounds are read at a multiple of their rate, which is said", "[io][audio]")
+{
+    const TempFolder folder;
+    std::vector<int> values;
+    for (int i = 0; i < 3000; ++i)
+        values.push_back(
+            static_cast<int>(std::lround(16384.0 * std::sin(2.0 * std::numbers::pi * 100.0 * i / 1000.0))));
+    const auto path = put(folder / "slow", wavBytes({.sampleRate = 1000}, pcm16(values)));
+    const auto audio = readAudio(path);
+    REQUIRE(audio.ok());
+    CHECK(audio->sampleRate == 8000);
+    REQUIRE(audio->samples.size() == 24000);
+    for (std::size_t i = 4000; i < 20000; ++i)
+        REQUIRE(std::abs(static_cast<double>(audio->samples[i]) -
+                         0.5 * std::sin(2.0 * std::numbers::pi * 100.0 * static_cast<double>(i) / 8000.0)) < 0.005);
+    CHECK(audio->warnings ==
+          std::vector<std::string>{"is sampled at 1000 Hz, so all above 500 Hz is missing; it is read at 8000 Hz"});
+    const auto asItIs = readAudio(path, {.lowestSampleRate = 1000});
+    REQUIRE(asItIs.ok());
+    CHECK(asItIs->sampleRate == 1000);
+    CHECK(asItIs->samples.size() == 3000);
+    CHECK(asItIs->warnings.empty());
+}
