@@ -9,6 +9,7 @@
 #include <nanobind/stl/filesystem.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
 
 #include <filesystem>
 #include <string>
@@ -25,7 +26,7 @@ Error inFile(const std::filesystem::path& path, Error error)
     return error;
 }
 
-/// (frames, channels) as the file has them, and the rate.
+/// (frames, channels) as the file has them, the rate, and what was let pass.
 nb::object readFile(const std::filesystem::path& path, bool allowNan, bool allowTruncated, bool keepNan)
 {
     AudioReadOptions options;
@@ -38,7 +39,7 @@ nb::object readFile(const std::filesystem::path& path, bool allowNan, bool allow
         raise(inFile(path, audio.error()));
     const auto channels = static_cast<std::size_t>(audio->channels);
     const std::size_t frames = audio->samples.size() / channels;
-    return nb::make_tuple(toArray(std::move(audio->samples), {frames, channels}), audio->sampleRate);
+    return nb::make_tuple(toArray(std::move(audio->samples), {frames, channels}), audio->sampleRate, audio->warnings);
 }
 
 /// The number of samples that were clipped.

@@ -132,16 +132,19 @@ public:
         };
         int rate = 0;
         if (params.method == Method::a2vt)
-            return handedOut(take(unlocked([&] { return read(std::ref(watch)); })).first);
+            return handedOut(ofSound(take(unlocked([&] { return read(std::ref(watch)); }))));
         auto made = take(abandonable([shared = encoder, settings = params, path]
                                      { return fromFile(*shared, settings, path, [](double) {}); }));
-        rate = made.second;
-        nb::object result = handedOut(std::move(made.first));
+        rate = made.rate;
+        nb::object result = handedOut(ofSound(std::move(made)));
         return methodInfo(params.method).output == MethodOutput::clip ? result : nb::make_tuple(result, rate);
     }
 
     /// What was let pass in the settings.
     [[nodiscard]] std::vector<std::string> doubts() const { return warnings.texts(); }
+
+    /// What was let pass in the file that was encoded last.
+    [[nodiscard]] std::vector<std::string> soundDoubts() const { return ofLastSound; }
 
     [[nodiscard]] bool makesClip() const { return methodInfo(params.method).output == MethodOutput::clip; }
 
@@ -158,10 +161,22 @@ private:
         return signal ? Result<Encoded>(std::move(*signal)) : signal.error();
     }
 
-    [[nodiscard]] static Result<std::pair<Encoded, int>> fromFile(SoundEncoder& encoder,
-                                                                  const SoundEncoderParams& params,
-                                                                  const std::filesystem::path& path,
-                                                                  const std::function<void(double)>& progress)
+    struct EncodedFile
+    {
+        Encoded made;
+        int rate = 0;
+        std::vector<std::string> warnings;
+    };
+
+    [[nodiscard]] Encoded ofSound(EncodedFile file)
+    {
+        ofLastSound = std::move(file.warnings);
+        return std::move(file.made);
+    }
+
+    [[nodiscard]] static Result<EncodedFile> fromFile(SoundEncoder& encoder, const SoundEncoderParams& params,
+                                                      const std::filesystem::path& path,
+                                                      const std::function<void(double)>& progress)
     {
         auto reader = AudioReader::open(path, params.reading);
         if (!reader)
@@ -176,7 +191,7 @@ private:
             });
         if (!made)
             return inFile(path, made.error());
-        return std::pair(std::move(*made), reader->sampleRate());
+        return EncodedFile{std::move(*made), reader->sampleRate(), reader->warnings()};
     }
 
     [[nodiscard]] static Error inFile(const std::filesystem::path& path, Error error)
@@ -193,6 +208,7 @@ private:
     }
 
     ReadWarnings warnings;
+    std::vector<std::string> ofLastSound;
     SoundEncoderParams params;
     std::shared_ptr<SoundEncoder> encoder;
 };
@@ -222,6 +238,7 @@ void bindEncode(nb::module_& module)
              "progress"_a.none())
         .def("encode_file", &EncoderHandle::encodeFile, "path"_a, "progress"_a.none())
         .def_prop_ro("doubts", &EncoderHandle::doubts)
+        .def_prop_ro("sound_doubts", &EncoderHandle::soundDoubts)
         .def_prop_ro("makes_clip", &EncoderHandle::makesClip);
     module.def("methods", &methodList);
     module.def("encode_parameters", [] { return translationDescriptionsJson().dump(); });

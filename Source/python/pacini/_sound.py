@@ -127,6 +127,8 @@ def _translated(
             raise Error("is for sounds in arrays; a file has its own", "sample_rate")
         with shown(progress, os.path.basename(os.fspath(sound))) as tell:  # type: ignore[arg-type]
             result = handle.encode_file(os.fspath(sound), tell)  # type: ignore[arg-type]
+        for doubt in handle.sound_doubts:
+            warnings.warn(f"{os.fspath(sound)}: {doubt}", stacklevel=4)  # type: ignore[arg-type]
     else:
         samples = as_sound(sound, axis)
         rate = as_rate(sample_rate)
@@ -471,11 +473,19 @@ class Comparison:
         return f"<pacini.Comparison match {match}, HTS {self.hts:.1f} of {self.ceiling:.1f}>"
 
 
+def _read_samples(path: PathLike, *allowed: bool) -> tuple[Any, int]:
+    """(frames, channels) of a file and its rate; what the reader lets pass of it is a warning."""
+    samples, rate, doubts = _native.read_audio(os.fspath(path), *allowed)
+    for doubt in doubts:
+        warnings.warn(f"{os.fspath(path)}: {doubt}", stacklevel=4)
+    return samples, rate
+
+
 def _read_for_comparison(
     sound: Sound, rate: Optional[float], axis: int, where: str, allow_truncated: bool
 ) -> tuple[Any, int]:
     if is_path(sound):
-        samples, own = _native.read_audio(os.fspath(sound), False, allow_truncated, True)  # type: ignore[arg-type]
+        samples, own = _read_samples(sound, False, allow_truncated, True)  # type: ignore[arg-type]
         return samples.T, own
     return as_sound(sound, axis), as_rate(rate, where)
 
@@ -531,7 +541,7 @@ def read_audio(
     path: PathLike, *, allow_nan: bool = False, allow_truncated: bool = False
 ) -> tuple[npt.NDArray[np.float32], int]:
     """The samples of an audio file as (frames,) or (channels, frames), full scale 1, and its rate in Hz."""
-    samples, rate = _native.read_audio(os.fspath(path), allow_nan, allow_truncated, False)
+    samples, rate = _read_samples(path, allow_nan, allow_truncated, False)
     return (samples[:, 0] if samples.shape[1] == 1 else samples.T), rate
 
 

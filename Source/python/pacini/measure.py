@@ -9,6 +9,7 @@
 from __future__ import annotations
 
 import os
+import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Optional, Union
@@ -95,7 +96,9 @@ class Recording:
 
     @classmethod
     def load(cls, path: PathLike) -> Recording:
-        samples, rate = _native.read_audio(os.fspath(path), False, False, False)
+        samples, rate, doubts = _native.read_audio(os.fspath(path), False, False, False)
+        for doubt in doubts:
+            warnings.warn(f"{os.fspath(path)}: {doubt}", stacklevel=2)
         return cls(samples.T, rate)
 
 
