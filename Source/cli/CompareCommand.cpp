@@ -104,6 +104,8 @@ void report(Console& console, const CompareTask& task)
         return;
     }
     const CompareResult& r = *task.result;
+    console.warnings(task.pair.reference.string(), r.referenceWarnings);
+    console.warnings(task.pair.candidate.string(), r.candidateWarnings);
     console.warnings(task.pair.events.string(), r.warnings);
     if (std::abs(r.duration - r.candidateDuration) > 0.05)
         console.warning(task.pair.candidate.string(),

@@ -22,6 +22,7 @@ struct MonoSound
 {
     int sampleRate = 0;
     std::vector<float> samples;
+    std::vector<std::string> warnings;
 
     [[nodiscard]] double duration() const { return static_cast<double>(samples.size()) / sampleRate; }
 };
@@ -61,6 +62,7 @@ Result<MonoSound> readMono(const fs::path& path, const AudioReadOptions& options
         return read.error();
     if (sound.duration() > limits::duration)
         return Error{ErrorCode::tooLarge, "", "is longer than 24 hours; cut it into parts"};
+    sound.warnings = reader->warnings();
     return sound;
 }
 
@@ -75,23 +77,24 @@ std::variant<CompareResult, InputFailure> CompareJob::run(const ComparePair& pai
     const AudioReadOptions reading{
         .allowTruncated = settings.allowTruncated, .keepNan = true, .lowestSampleRate = lowestResamplerRate};
     Stopwatch work;
-    const auto analyze = [&](const fs::path& path,
-                             Result<void> (Comparer::*set)(std::span<const float>, int)) -> std::optional<InputFailure>
+    const auto analyze = [&](const fs::path& path, Result<void> (Comparer::*set)(std::span<const float>, int),
+                             std::vector<std::string>& warnings) -> std::optional<InputFailure>
     {
         const auto sound = readMono(path, reading, work);
         if (!sound)
             return InputFailure{path, withAdvice(sound.error(), false)};
+        warnings = sound->warnings;
         Result<void> done;
         work.run([&] { done = (comparer.*set)(sound->samples, sound->sampleRate); });
         return done ? std::nullopt : std::optional(InputFailure{path, done.error()});
     };
-    if (auto failure = analyze(pair.reference, &Comparer::setReference))
+    CompareResult result;
+    if (auto failure = analyze(pair.reference, &Comparer::setReference, result.referenceWarnings))
         return *failure;
     progress(0.5);
-    if (auto failure = analyze(pair.candidate, &Comparer::setCandidate))
+    if (auto failure = analyze(pair.candidate, &Comparer::setCandidate, result.candidateWarnings))
         return *failure;
 
-    CompareResult result;
     std::vector<double> events = comparer.onsets();
     if (!pair.events.empty())
     {

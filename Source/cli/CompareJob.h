@@ -28,8 +28,10 @@ struct CompareSettings
 /// Result of the comparison of one pair.
 struct CompareResult : Comparison
 {
-    double seconds = 0.0;              ///< s of work, without access to files
-    std::vector<std::string> warnings; ///< of the clip whose events were compared
+    double seconds = 0.0;                       ///< s of work, without access to files
+    std::vector<std::string> warnings;          ///< of the clip whose events were compared
+    std::vector<std::string> referenceWarnings; ///< of the sounds
+    std::vector<std::string> candidateWarnings;
 };
 
 /// Compares pairs one after another; keeps transforms between them. One thread at a time.

@@ -84,6 +84,7 @@ Result<EncodeResult> EncodeJob::run(const fs::path& input, const fs::path& outpu
     result.bytes = *written;
     result.seconds = work.seconds();
     result.replacedSamples = reader->replacedSamples();
+    result.warnings = reader->warnings();
     return result;
 }
 

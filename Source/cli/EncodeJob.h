@@ -37,6 +37,7 @@ struct EncodeResult
     std::size_t breakpoints = 0;
     std::size_t transients = 0;
     std::uint64_t replacedSamples = 0; ///< NaN and infinite ones
+    std::vector<std::string> warnings; ///< of the sound
     std::filesystem::path stray;       ///< see strayCompanion()
     bool upToDate = false;             ///< nothing was done
 };

@@ -113,9 +113,9 @@ std::string text(const std::string& file, const Clip& clip, const ClipFormat& fo
 }
 
 /// Reads the whole sound, since only that finds out whether it is sound.
-Result<Json> describeAudio(const std::string& file)
+Result<Json> describeAudio(const std::string& file, std::vector<std::string>& warnings)
 {
-    auto reader = AudioReader::open(file);
+    auto reader = AudioReader::open(file, {.lowestSampleRate = limits::slowestSound});
     if (!reader)
         return reader.error();
     std::size_t samples = 0;
@@ -130,6 +130,7 @@ Result<Json> describeAudio(const std::string& file)
                                            });
     if (!read)
         return read.error();
+    warnings = reader->warnings();
     const std::size_t frames = samples / static_cast<std::size_t>(reader->channels());
     return Json{{"kind", "audio"},
                 {"duration", static_cast<double>(frames) / reader->sampleRate()},
@@ -210,13 +211,15 @@ Exit InfoCommand::run(Console& console)
             continue;
         }
         // A file that is no clip may be a sound; a broken clip should be reported as a clip.
-        const auto audio = looksLikeClip(file) ? Result<Json>(read.error()) : describeAudio(file);
+        std::vector<std::string> doubts;
+        const auto audio = looksLikeClip(file) ? Result<Json>(read.error()) : describeAudio(file, doubts);
         if (!audio)
         {
             console.error(file, audio.error());
             failed = true;
             continue;
         }
+        console.warnings(file, doubts);
         add(file, *audio);
         console.print(fmt::format("{}: sound, {}, {} Hz, {} channel{}, peak {:.3f}", printable(file),
                                   durationText((*audio)["duration"].get<double>()), (*audio)["sampleRate"].get<int>(),

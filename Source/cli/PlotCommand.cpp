@@ -61,7 +61,8 @@ std::optional<plot::PictureSize> parseSize(const std::string& text)
     return allowed(size.width) && allowed(size.height) ? std::optional(size) : std::nullopt;
 }
 
-Result<plot::NamedWaveform> soundWaveform(const std::filesystem::path& file, plot::TimeRange range, std::size_t columns)
+Result<plot::NamedWaveform> soundWaveform(const std::filesystem::path& file, plot::TimeRange range, std::size_t columns,
+                                          std::vector<std::string>& warnings)
 {
     auto reader = AudioReader::open(file);
     if (!reader)
@@ -72,6 +73,7 @@ Result<plot::NamedWaveform> soundWaveform(const std::filesystem::path& file, plo
         reader->forEachBlock(4096, [&](std::span<const float> block) { return waveform.push(block), true; });
     if (!read)
         return read.error();
+    warnings = reader->warnings();
     return plot::NamedWaveform{fmt::format("Sound: {}{}", file.filename().string(),
                                            channels > 1 ? fmt::format(" (mean of {} channels)", channels) : ""),
                                waveform.points()};
@@ -272,9 +274,11 @@ Exit PlotCommand::plotClip(Console& console, const std::filesystem::path& target
     std::vector<plot::NamedWaveform> waveforms;
     if (!heard.empty())
     {
-        auto waveform = soundWaveform(heard, *range, columns);
+        std::vector<std::string> doubts;
+        auto waveform = soundWaveform(heard, *range, columns, doubts);
         if (!waveform)
             return console.fail(heard, waveform.error());
+        console.warnings(heard, doubts);
         waveforms.push_back(std::move(waveform.value()));
     }
     if (heard.empty() || actuator)

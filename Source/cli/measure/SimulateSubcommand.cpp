@@ -121,6 +121,7 @@ Exit SimulateSubcommand::run(Console& console)
     const auto sound = readAudio(input, options);
     if (!sound)
         return console.fail(input, sound.error());
+    console.warnings(input, sound->warnings);
     if (sound->channels != 1)
         return console.fail(input, {ErrorCode::invalidData, "", "must have one channel"});
 
