@@ -233,6 +233,11 @@ struct AudioReader::State
                  secondsOf(*part().promisedBytes));
         else if (part().promisedBytes && part().isWhole)
             warnOfPromise(secondsOf(*part().promisedBytes), secondsOf(part().presentBytes));
+        // Where libsndfile takes other bytes for the audio.
+        const auto frameBytes = sampleBytes(info.format) * static_cast<std::uint64_t>(info.channels);
+        const auto there = frameBytes > 0 ? part().presentBytes / frameBytes : 0;
+        if (const auto frames = partFrames().value_or(there); !broken && frames + 1 < there)
+            warn("is damaged: {:.3f} s of {:.3f} s can be read", seconds(frames), seconds(there));
         return {};
     }
 

@@ -168,6 +168,7 @@ private:
             return {};
         }
         const auto stop = chunk.start + promise;
+        part.presentBytes = promise;
         if (isRenamed(chunk))
             setEnd(part, chunk, stop);
         return addBehind(part, chunk, stop, std::max(stop, soundEnd));
@@ -201,7 +202,6 @@ private:
         }
         const auto audioEnd = beforeLastChunks(chunk, soundEnd);
         part.promisedBytes = chunk.promise;
-        part.presentBytes = chunk.present(audioEnd);
         setEnd(part, chunk, audioEnd);
         return {};
     }
@@ -231,18 +231,18 @@ private:
                             : soundEnd;
     }
 
-    /// Whether libsndfile must be told of another format: it does not know BW64, and believes the wrong size of an RF64
-    /// that has two.
-    bool isRenamed(const AudioChunk& chunk)
+    /// Whether libsndfile must be told of another format: it does not know BW64, and not which of the sizes of an RF64
+    /// is right.
+    static bool isRenamed(const AudioChunk& chunk)
     {
-        return chunk.layout && chunk.layout->isWave() && chunk.layout->fileId != "RIFF" &&
-               (chunk.layout->fileId == "BW64" || file.number(chunk.sizeField, 4, false) != largest32);
+        return chunk.layout && chunk.layout->isWave() && chunk.layout->fileId != "RIFF";
     }
 
     /// Lets the audio, and the file with it, end at `audioEnd`.
     void setEnd(SoundPart& part, const AudioChunk& chunk, std::uint64_t audioEnd)
     {
         part.end = audioEnd;
+        part.presentBytes = chunk.present(audioEnd);
         part.patches.clear();
         auto size = chunk.present(audioEnd) + chunk.sizeExtra;
         const bool fits = size < largest32;

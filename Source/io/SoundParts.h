@@ -27,7 +27,7 @@ struct SoundPart
     std::vector<BytePatch> patches;
 
     std::optional<std::uint64_t> promisedBytes; ///< of audio, where a header is wrong about them
-    std::uint64_t presentBytes = 0;             ///< of audio, if promisedBytes
+    std::uint64_t presentBytes = 0;             ///< of audio; 0 where it is not known
     bool isWhole = true;                        ///< fewer than promised are there, but nothing is missing
     std::uint64_t leftOutBytes = 0;             ///< of what follows the sound and is not read
     std::uint64_t skippedBytes = 0;             ///< before it, that are no sound and no tag
