@@ -352,6 +352,7 @@ void EncodeCommand::tell(Console& console, const EncodeTask& task) const
     const EncodeResult& result = *task.result;
     if (!result.upToDate && !dryRun)
         console.wrote(task.output, bytesText(static_cast<double>(result.bytes)));
+    console.warnings(task.input.string(), result.warnings);
     if (result.replacedSamples > 0)
         console.warning(task.input.string(),
                         counted(result.replacedSamples, "sample is not finite or absurdly large and counts as 0",

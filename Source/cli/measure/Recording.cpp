@@ -54,6 +54,7 @@ struct Channels
 {
     int sampleRate = 0;
     std::vector<std::vector<float>> samples;
+    std::vector<std::string> warnings; ///< of the file
 };
 
 Result<Channels> readChannels(const std::string& file, const std::vector<int>& wanted)
@@ -72,7 +73,7 @@ Result<Channels> readChannels(const std::string& file, const std::vector<int>& w
             ErrorCode::invalidArgument, "--channels",
             fmt::format("must name one to three of the {} channels: the axes of the accelerometer, or the microphone",
                         audio->channels)};
-    Channels channels{audio->sampleRate, {}};
+    Channels channels{audio->sampleRate, {}, audio->warnings};
     const auto width = static_cast<std::size_t>(audio->channels);
     for (const int c : chosen)
     {
@@ -213,6 +214,8 @@ std::optional<AnalysedRecordings> analyseRecordings(Console& console, const Reco
         const std::string& file = options.recordings[i];
         console.progress(static_cast<double>(i) / static_cast<double>(options.recordings.size()), file);
         auto channels = readChannels(file, options.channels);
+        if (channels)
+            console.warnings(file, channels->warnings);
         auto measured = channels ? analyseSweeps(channels->samples, channels->sampleRate, result.sweep.sweep, params)
                                  : Result<SweepMeasurement>(channels.error());
         if (!measured)

@@ -215,6 +215,7 @@ Exit LatencySubcommand::measure(Console& console, const OpenedStudy& opened)
             recording, {ErrorCode::invalidArgument, "--touch", "must differ from the channel of --sound"}, Exit::usage);
     probe.sampleRate = reader->sampleRate();
     const auto latency = listen(console, *reader);
+    console.warnings(recording, reader->warnings());
     if (!latency)
         return console.fail(recording, latency.error());
     tell(console, *latency);
