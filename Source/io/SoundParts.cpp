@@ -134,7 +134,11 @@ private:
         part.end = end;
         const auto found = findAudioChunk(file, begin, end);
         if (!found)
+        {
+            if (startsSound(file, begin))
+                part.presentBytes = end - begin; // at most
             return {};
+        }
         const auto next = addAudio(part, *found);
         // AIFF says how many bytes of its audio chunk lie before the first frame, to place it on a disc: hardly ever.
         if (!found->layout || found->layout->fileId != "FORM")
