@@ -143,7 +143,7 @@ def plugin():
     added = float(blocks.group(2)) - float(blocks.group(1)) if blocks else 1e9
     check(f"the plugin itself {own} microseconds", added < own * SLACK, f"{added:.2f}")
     late, = stated(r"late by the ([\d.]+) ms that it reports")
-    check(f"the README says {late} ms too", stated(r"% of one core at 48 kHz, ([\d.]+) ms late") == [late])
+    check(f"the README says {late} ms too", stated(r"% of one core at 48 kHz, ([\d.]+) ms latency") == [late])
     latency = re.search(r"latency \d+ frames at 48 kHz, ([\d.]+) ms", done.stdout)
     check(f"late by {late} ms", latency and abs(float(latency.group(1)) - late) < 0.05, latency and latency.group(1))
 
