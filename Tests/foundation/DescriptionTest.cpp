@@ -116,7 +116,7 @@ TEST_CASE("Names have a form for each door", "[description]")
     CHECK(separatedName("attackTime", '-') == "attack-time");
     CHECK(separatedName("attackTime", '_') == "attack_time");
     CHECK(separatedName("count", '-') == "count");
-    CHECK(plainNumber(1000000.0) == "1000000");
-    CHECK(plainNumber(0.00001) == "0.00001");
-    CHECK(plainNumber(-120.0) == "-120");
+    CHECK(numberText(1000000.0, std::chars_format::fixed) == "1000000");
+    CHECK(numberText(0.00001, std::chars_format::fixed) == "0.00001");
+    CHECK(numberText(-120.0, std::chars_format::fixed) == "-120");
 }

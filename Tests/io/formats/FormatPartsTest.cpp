@@ -24,6 +24,7 @@
 #include "support/Catch.h"
 #include "support/Pinned.h"
 
+#include <pacini/foundation/NumberText.h>
 #include <pacini/synthesis/DecoderChoice.h>
 #include <pacini/synthesis/SingleVoice.h>
 
@@ -105,14 +106,14 @@ SingleVoice partsVoice()
 
 TEST_CASE("Decimals are rounded, without needless zeros and without a negative zero", "[formats]")
 {
-    CHECK(decimal(0.0, 3) == "0");
-    CHECK(decimal(-0.0001, 3) == "0");
-    CHECK(decimal(-0.25, 2) == "-0.25");
-    CHECK(decimal(1.5, 0) == "2");
-    CHECK(decimal(100.0, 0) == "100");
-    CHECK(decimal(100.0, 2) == "100");
-    CHECK(decimal(1.250, 3) == "1.25");
-    CHECK(decimal(0.1234567, 4) == "0.1235");
+    CHECK(shortDecimalText(0.0, 3) == "0");
+    CHECK(shortDecimalText(-0.0001, 3) == "0");
+    CHECK(shortDecimalText(-0.25, 2) == "-0.25");
+    CHECK(shortDecimalText(1.5, 0) == "2");
+    CHECK(shortDecimalText(100.0, 0) == "100");
+    CHECK(shortDecimalText(100.0, 2) == "100");
+    CHECK(shortDecimalText(1.250, 3) == "1.25");
+    CHECK(shortDecimalText(0.1234567, 4) == "0.1235");
 }
 
 TEST_CASE("Names in code are in snake case and never empty", "[formats]")
@@ -500,8 +501,8 @@ TEST_CASE("Emphases of voices and players have the numbers that they had", "[for
             const EmphasisPlayer player = isQuest ? EmphasisPlayer{{55.0, 165.0}, 0.0364, 0.0121, ducking}
                                                   : EmphasisPlayer{{90.0, 270.0}, 0.02, 0.005, ducking};
             const std::vector<double> numbers = partsNumbers(emphasesOf(events, amplitude, player));
-            checkPinned("formats/emphases, ducking " + decimal(ducking, 1) + (isQuest ? ", quest" : ", short"), numbers,
-                        1e-8);
+            checkPinned("formats/emphases, ducking " + shortDecimalText(ducking, 1) + (isQuest ? ", quest" : ", short"),
+                        numbers, 1e-8);
         }
 }
 
@@ -524,7 +525,8 @@ TEST_CASE("Steps of waveforms have the numbers that they had", "[formats]")
             LossList losses;
             addStepLosses(losses, partsVoice(), steps);
             const auto lost = test::numbersOf(std::move(losses).sorted());
-            const std::string name = "formats/waveform at " + decimal(rate, 0) + (keeps ? ", points kept" : "");
+            const std::string name =
+                "formats/waveform at " + shortDecimalText(rate, 0) + (keeps ? ", points kept" : "");
             checkPinned(name, numbers, 1e-9);
             checkPinned(name + ", losses", lost, 1e-8);
         }
@@ -641,7 +643,7 @@ TEST_CASE("Sums of bands are limited to the same numbers as ever", "[formats]")
         std::vector<double> numbers;
         for (const Band& band : bands)
             test::addCurve(numbers, band.amplitude, 1.0);
-        checkPinned("formats/sum limited to " + decimal(most, 1), numbers, 1e-9);
+        checkPinned("formats/sum limited to " + shortDecimalText(most, 1), numbers, 1e-9);
         for (double t = 0.0; t < 2.0; t += 0.003)
         {
             double sum = 0.0;
@@ -710,8 +712,8 @@ TEST_CASE("Fits of keyframes have the numbers that they had", "[formats]")
                 std::vector<double> numbers;
                 for (const Curve& curve : fit.curves(price, need))
                     test::addCurve(numbers, curve, 1.0);
-                checkPinned("formats/hjif fit, floor " + decimal(floor, 3) + ", price " + decimal(price, 0) +
-                                (joint ? ", together" : ""),
+                checkPinned("formats/hjif fit, floor " + shortDecimalText(floor, 3) + ", price " +
+                                shortDecimalText(price, 0) + (joint ? ", together" : ""),
                             numbers, joint ? 1e-5 : 1e-7);
             }
         }
