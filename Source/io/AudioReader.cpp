@@ -221,9 +221,9 @@ struct AudioReader::State
                                        info.channels < 1 ? "channels" : "sample rate"));
         if (info.channels > limits::channels)
             return invalid(
-                fmt::format("has {} channels, 1 to {} are accepted; mix it down", info.channels, limits::channels));
+                fmt::format("has {} channels, but only 1 to {} are supported; mix it down", info.channels, limits::channels));
         if (info.samplerate < limits::slowestSound || info.samplerate > limits::highestSampleRate)
-            return invalid(fmt::format("has a sample rate of {} Hz, {} to {} Hz are accepted; resample it",
+            return invalid(fmt::format("has a sample rate of {} Hz, but only {} to {} Hz are supported; resample it",
                                        info.samplerate, limits::slowestSound, limits::highestSampleRate));
         const auto broken = brokenPromise(part(), info);
         if (broken && !options.allowTruncated)

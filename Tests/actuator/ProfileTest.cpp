@@ -323,9 +323,9 @@ TEST_CASE("Sources of a profile are sorted, few enough and say something", "[act
     CHECK(text({{"a", "x"}, {"b", "y"}, {"b.c", "z"}}).empty());
     CHECK(text({{"", "x"}}) == "sources: has an entry without a path");
     CHECK(text({{"a", "x"}, {"b", ""}}) == "sources.b: must not be empty");
-    CHECK(text({{"b", "x"}, {"a", "y"}}) == "sources.a: is not in order, or is given twice");
-    CHECK(text({{"a", "x"}, {"a", "y"}}) == "sources.a: is not in order, or is given twice");
-    CHECK(text({{"a", "x"}, {"c", "y"}, {"b", "y"}}) == "sources.b: is not in order, or is given twice");
+    CHECK(text({{"b", "x"}, {"a", "y"}}) == "sources.a: is out of order or given twice");
+    CHECK(text({{"a", "x"}, {"a", "y"}}) == "sources.a: is out of order or given twice");
+    CHECK(text({{"a", "x"}, {"c", "y"}, {"b", "y"}}) == "sources.b: is out of order or given twice");
     ProfileSources many;
     for (int i = 0; i < 256; ++i)
         many.push_back({"p" + std::to_string(1000 + i), "x"});

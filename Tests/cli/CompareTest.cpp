@@ -162,7 +162,7 @@ TEST_CASE("A candidate of another length, a silent reference and samples that ar
 
     const Outcome shorter = compareIn(folder, "a.wav short.wav");
     CHECK(shorter.status == 0);
-    CHECK(shorter.messages.find("pacini: short.wav: warning: lasts 0.938 s and its reference 1.000 s") == 0);
+    CHECK(shorter.messages.find("pacini: short.wav: warning: lasts 0.938 s, its reference 1.000 s") == 0);
     const Outcome silent = compareIn(folder, "silent.wav a.wav --json");
     CHECK(silent.status == 0);
     CHECK(silent.messages.find("pacini: silent.wav: warning: is silent") == 0);

@@ -113,7 +113,7 @@ class AnyInput(CommandTest):
             "clips[1]": "is never played",
             "plays[1]": "is not played: it starts after the end of the scene",
             "plays[2]": "is not played: it is muted",
-            "plays[3]": "is cut by the end of the scene 0.300 s before its own",
+            "plays[3]": "is cut off by the end of the scene, 0.300 s before its own end",
             "changes[0]": "comes after plays[0], which ends at 0.500 s",
             "changes[1]": "comes after the end of the scene",
             "plays[4].pan": "has no effect: the scene has only one actuator",
@@ -157,7 +157,7 @@ class AnyInput(CommandTest):
         self.clip("typo.json", envelope=[{"time": 0, "amplitude": 0, "x": 1}] * 500)
         warnings = self.warned("info", "typo.json")
         self.assertEqual(len(warnings), 21)
-        self.assertEqual(warnings[-1], "typo.json: warning: and 480 more of these")
+        self.assertEqual(warnings[-1], "typo.json: warning: and 480 more of this kind")
 
     def test_a_sound_is_still_a_sound(self):
         self.put("tone.wav", wav(sine(100, 0.3)))

@@ -71,7 +71,7 @@ class Convert(CommandTest):
         report = self.report("convert", "clip.json", "x.bin", "--format", "packed", "--quantise", "16")
         self.assertEqual(report["bytes"], (self.folder / "x.bin").stat().st_size)
         self.assertEqual(report["duration"], 1.0)
-        self.fails(2, ["convert", "clip.json", "x.mid"], "x.mid: has neither the extension .json nor .pacb")
+        self.fails(2, ["convert", "clip.json", "x.mid"], "x.mid: has an unknown extension; use .json, .pacb")
         self.fails(2, ["convert", "clip.json"], "missing")
         self.fails(1, ["convert", "missing.json", "x.pacb"], "pacini: missing.json: does not exist")
         self.assertEqual(self.names(), ["clip.json", "x.bin"])

@@ -61,7 +61,7 @@ class Convert(CommandTest):
         kept = (self.folder / "a-transients.ahap").read_bytes()
         done = self.run_command("convert", "clip.json", "a.ahap", "--split", "-y")
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertIn("warning: a-transients.ahap: was there before", done.stderr.decode())
+        self.assertIn("warning: a-transients.ahap: exists already", done.stderr.decode())
         self.assertEqual((self.folder / "a-transients.ahap").read_bytes(), kept)
 
     def test_events_alone_are_one_file(self):

@@ -51,7 +51,7 @@ class Help(CommandTest):
 
     def test_ranges_defaults_and_choices_are_told_once(self):
         text = " ".join(self.succeeds("help", "encode").split())
-        self.assertIn("Other formats: --points X Most points of amplitude", text)
+        self.assertIn("Other formats: --points X Maximum number of amplitude points", text)
         self.assertIn("--bands N Number of frequency bands (1 to 32) [12]", text)
         self.assertIn("Spacing of the bands: log or linear [log]", text)
         self.assertIn("--low X Lower end of the bands (1 to 1700 Hz) [30]", text)
@@ -122,7 +122,7 @@ class Meant(CommandTest):
         self.fails(2, ["plot", "clip.json", "--from", "90000"], "'90000' is not a number from 0 to 86400 = 24 h")
         self.fails(2, ["render", "clip.json", "--felt"], "--felt needs --profile")
         self.fails(2, ["measure", "analyse", "a.wav"], "--sweep is missing")
-        self.fails(2, ["compare", "a.wav", "a.wav", "a.wav"], "'a.wav' is one argument too many")
+        self.fails(2, ["compare", "a.wav", "a.wav", "a.wav"], "unexpected argument 'a.wav'")
         self.fails(2, ["measure", "sweep", "--rate", "99999999999"], "from 2000 to 384000")
 
 

@@ -255,7 +255,7 @@ class EndToEnd(MeasureTest):
     def test_recordings_that_cannot_be_analysed_are_named(self):
         self.succeeds("measure", "sweep", "-o", "sweep.wav", "--duration", "2", "--rate", "8000")
         self.put("tone.wav", wav(sine(200, 8, 8000), 8000))
-        self.refused(r"tone\.wav: channels: hold no sweep", "measure", "analyse", "tone.wav", "--sweep", "sweep.json")
+        self.refused(r"tone\.wav: channels: contain no sweep", "measure", "analyse", "tone.wav", "--sweep", "sweep.json")
         self.put("short.wav", wav(sine(200, 1, 8000), 8000))
         self.refused(r"short\.wav: channels: ", "measure", "analyse", "short.wav", "--sweep", "sweep.json")
         self.put("slow.wav", wav(sine(200, 8, 2000), 2000))

@@ -88,7 +88,7 @@ class Pipes(CommandTest):
         self.assertEqual(self.run_command("encode", "a.wav", "-o", "-", "-q").stderr, b"")
         self.clip("c.json")
         for arguments in (["encode", "a.wav"], ["render", "c.json"], ["convert", "c.json", "--format", "packed"]):
-            self.fails(2, [*arguments, "-o", "-", "--json"], "-: is where --json prints")
+            self.fails(2, [*arguments, "-o", "-", "--json"], "-: is used by the report of --json")
         self.fails(2, ["encode", "-"], "name a file with -o")
         self.fails(2, ["render", "-"], "name a file with -o")
         self.fails(2, ["encode", "a.wav", "-", "-o", "-"], "is not a folder")

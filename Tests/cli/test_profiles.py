@@ -145,7 +145,7 @@ class Convert(CommandTest):
         self.put("bad.acf", "")
         self.fails(1, ["convert", "bad.acf", "x.json"], "bad.acf: ")
         self.fails(1, ["convert", "missing.acf", "x.json"], "pacini: missing.acf: does not exist")
-        self.fails(2, ["convert", "quest.acf", "x.pacb"], "x.pacb: has neither the extension .json nor .acf")
+        self.fails(2, ["convert", "quest.acf", "x.pacb"], "x.pacb: must have the extension .json or .acf")
         self.fails(2, ["convert", "quest.acf", "x.json", "--format", "json"], "quest.acf: is a profile")
         self.fails(1, ["convert", "quest.acf", "quest.acf"], "is both input and output")
         clip = self.clip()

@@ -109,7 +109,7 @@ class Render(CommandTest):
         self.assertAlmostEqual(max(map(abs, loud[24000:])), 5.0, delta=0.2)
         over = 20 * math.log10(max(map(abs, loud)))
         self.fails(0, ["render", "clip.json", "-o", "out.wav", "--gain", "20"],
-                   "warning: ", f"up to {over:.1f} of the 20.0 dB of --gain are taken away again")
+                   "warning: ", f"the limiter takes back up to {over:.1f} of the 20.0 dB of --gain")
         _, kept = read_float_wav(self.folder / "out.wav")
         self.assertLessEqual(max(map(abs, kept)), 1.0)
         self.assertGreater(level_at(kept[24000:], 48000, 100.0), 0.9)
@@ -189,7 +189,7 @@ class Render(CommandTest):
     def test_wrong_outputs_are_named(self):
         self.clip()
         self.fails(1, ["render", "clip.json", "-o", "out.mp3"], "pacini: clip.json: out.mp3: ", ".wav or .flac")
-        self.fails(1, ["render", "clip.json", "-o", "out.flac"], "out.flac: FLAC holds no float samples")
+        self.fails(1, ["render", "clip.json", "-o", "out.flac"], "out.flac: FLAC does not support float samples")
         self.fails(1, ["render", "clip.json", "-o", "clip.json"], "would be overwritten")
         self.assertEqual(self.names(), ["clip.json"])
 

@@ -152,7 +152,7 @@ class Scenes(CommandTest):
         play = {"clip": "tone.json"}
         for members, says in (
                 ({"clips": ["tone.json", "door.pacb"]}, "clips[1]: door.pacb: does not exist"),
-                ({"plays": [play, {"clip": 4}]}, "plays[1].clip: is 4; the scene lists 0 clips"),
+                ({"plays": [play, {"clip": 4}]}, "plays[1].clip: is 4, but the scene has 0 clips"),
                 ({"plays": [play, {**play, "loop": True}]}, "plays[1].passes: is needed"),
                 ({"plays": [{**play, "pan": 2}]}, "plays[0].pan: must be 0 to 1"),
                 ({"plays": [{**play, "gain": "loud"}]}, "plays[0].gain: is a text; a number is needed"),

@@ -14,7 +14,7 @@ namespace
 {
 StoredAudio twoTones(double second)
 {
-    AudioData audio{48000, 1, {}, 0};
+    AudioData audio{48000, 1, {}, 0, {}};
     for (int i = 0; i < 2 * 48000; ++i)
     {
         const double t = i / 48000.0;
@@ -69,7 +69,7 @@ TEST_CASE("A comparison that is cancelled says so, and one of silence no predict
     const auto none = compareWithSound(clip, audio, cancelled);
     REQUIRE_FALSE(none);
     CHECK(none.error().code == ErrorCode::cancelled);
-    AudioData silent{48000, 1, std::vector<float>(48000), 0};
+    AudioData silent{48000, 1, std::vector<float>(48000), 0, {}};
     const auto quiet = compareWithSound(clip, StoredAudio(silent), goesOn);
     REQUIRE(quiet);
     CHECK_FALSE(quiet->match);

@@ -175,7 +175,7 @@ TEST_CASE("A further output gets a channel that is free, or none, and plays wher
                                                                 juce::StringArray{"a", "b", "c", "d"}));
     auto& sheet = *bench.view.sheet();
     CHECK(get<juce::ComboBox>(sheet, "Channel of output 3").getText() == "7  not on this device");
-    CHECK(get<juce::Label>(sheet, "Note").getText().startsWith("Plays nowhere: output 3."));
+    CHECK(get<juce::Label>(sheet, "Note").getText().startsWith("Output 3 does not play."));
     get<juce::ComboBox>(sheet, "Channel of output 3").setSelectedItemIndex(2, juce::sendNotificationSync);
     CHECK(outputs.channelOf(2) == 1);
     CHECK(get<editor::LevelMeter>(bench.view, "Output 3").isEnabled());

@@ -129,9 +129,9 @@ TEST_CASE("Channels and rates outside the accepted range are refused", "[io][aud
     const TempFolder folder;
     const std::string data(2000, '\0');
     CHECK(failureOf(folder, wavBytes({.channels = 65}, data)).message ==
-          "has 65 channels, 1 to 64 are accepted; mix it down");
+          "has 65 channels, but only 1 to 64 are supported; mix it down");
     CHECK(failureOf(folder, wavBytes({.sampleRate = 999}, data)).message ==
-          "has a sample rate of 999 Hz, 1000 to 768000 Hz are accepted; resample it");
+          "has a sample rate of 999 Hz, but only 1000 to 768000 Hz are supported; resample it");
     CHECK(failureOf(folder, wavBytes({.sampleRate = 768001}, data)).code == ErrorCode::invalidData);
     const AudioReadOptions slow{.lowestSampleRate = 2000};
     CHECK(readAudio(put(folder / "slow", wavBytes({.sampleRate = 2000}, data)), slow)->sampleRate == 2000);
@@ -151,7 +151,7 @@ TEST_CASE("Memory does not follow what a header claims", "[io][audio]")
     const auto huge = wavBytes({.bits = 8, .dataBytes = 0x81234567u}, data);
     const auto error = failureOf(folder, huge);
     CHECK(error.code == ErrorCode::truncated);
-    CHECK(error.message == "is cut off: 2000 frames are there, 2166572391 were promised; get a complete copy");
+    CHECK(error.message == "is truncated: it has 2000 frames of 2166572391; get a complete copy");
     const auto audio = readAudio(put(folder / "huge", huge), truncatedAllowed);
     REQUIRE(audio.ok());
     CHECK(audio->samples.size() == 2000);

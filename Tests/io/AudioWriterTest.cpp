@@ -182,11 +182,11 @@ TEST_CASE("Parameters that no file can hold are refused before anything is writt
     CHECK(refused("x.mp3", {}) == "must have the extension .wav or .flac");
     CHECK(refused("x", {}) == "must have the extension .wav or .flac");
     CHECK(refused("x.flac", {}) == "FLAC does not support float samples; choose 16 or 24 bit, or write a .wav");
-    CHECK(refused("x.wav", {.channels = 0}) == "0 channels cannot be written, 1 to 64 can");
-    CHECK(refused("x.wav", {.channels = 65}) == "65 channels cannot be written, 1 to 64 can");
+    CHECK(refused("x.wav", {.channels = 0}) == "0 channels are not supported; write 1 to 64");
+    CHECK(refused("x.wav", {.channels = 65}) == "65 channels are not supported; write 1 to 64");
     CHECK(refused("x.flac", {.channels = 9, .encoding = SampleEncoding::pcm16}) ==
-          "9 channels cannot be written, 1 to 8 can");
-    CHECK(refused("x.wav", {.sampleRate = 0}) == "a sample rate of 0 Hz cannot be written, 2000 to 768000 Hz can");
+          "9 channels are not supported; write 1 to 8");
+    CHECK(refused("x.wav", {.sampleRate = 0}) == "a sample rate of 0 Hz is not supported; choose 2000 to 768000 Hz");
     refused("x.wav", {.sampleRate = 768001});
     CHECK(folder.entries() == 0);
     for (int channels : {1, 64})

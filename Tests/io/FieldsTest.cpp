@@ -316,12 +316,12 @@ TEST_CASE("A streamed document says what is wrong with a field and what is neede
     CHECK(streamError("\"version\": 2.5") ==
           "version: was written by a newer version (2.5) of the format; this program reads version 2");
     CHECK(streamError("\"version\": 2.5", true) ==
-          "version: is 2.5, which is no version of the format; this program reads version 2");
+          "version: is 2.5, which is not a version of the format; this program reads version 2");
     CHECK(streamError("\"version\": 3", true) ==
           "version: was written by a newer version (3) of the format; this program reads version 2");
-    CHECK(streamError("\"version\": 1") == "version: is 1, which is no version of the format");
+    CHECK(streamError("\"version\": 1") == "version: is 1, which is not a version of the format");
     CHECK(streamError("\"version\": 0", true) ==
-          "version: is 0, which is no version of the format; this program reads version 2");
+          "version: is 0, which is not a version of the format; this program reads version 2");
     CHECK(memberError("\"name\": 1") == "name: is a number; a text in quotes is needed");
     CHECK(memberError("\"name\": null") == "name: is null; a text in quotes is needed");
     CHECK(memberError("\"size\": true") == "size: is true or false; a number is needed");

@@ -383,12 +383,12 @@ TEST_CASE("A scene says which reference it cannot follow", "[io][scene]")
     };
     CHECK(play("0").empty());
     CHECK(play("3").empty());
-    CHECK(play("4") == "plays[0].clip: is 4; the scene lists 4 clips, counted from 0");
-    CHECK(play("-1") == "plays[0].clip: is -1; the scene lists 4 clips, counted from 0");
-    CHECK(play("0.5") == "plays[0].clip: is 0.5; the scene lists 4 clips, counted from 0");
+    CHECK(play("4") == "plays[0].clip: is 4, but the scene has 4 clips, counted from 0");
+    CHECK(play("-1") == "plays[0].clip: is -1, but the scene has 4 clips, counted from 0");
+    CHECK(play("0.5") == "plays[0].clip: is 0.5, but the scene has 4 clips, counted from 0");
     CHECK(play("\"a.pacb\"").empty());
     CHECK(play("\"dir/a.pacb\"").empty());
-    CHECK(play("\"twin\"") == "plays[0].clip: is \"twin\", which several clips are called; give the index of one");
+    CHECK(play("\"twin\"") == "plays[0].clip: is \"twin\", the name of several clips; give the index of one");
     CHECK(play("\"no.pacb\"") ==
           "plays[0].clip: no.pacb: is not one of the scene's clips, and as a file it is not there");
     CHECK(sceneError(R"("clips": ["no\u0001.pacb"])") == "clips[0]: no?.pacb: is not there");
@@ -405,7 +405,7 @@ TEST_CASE("A scene says which reference it cannot follow", "[io][scene]")
     };
     CHECK(change("2").empty());
     CHECK(change("\"p\"").empty());
-    CHECK(change("3") == "changes[0].play: is 3; the scene has 3 plays, counted from 0");
+    CHECK(change("3") == "changes[0].play: is 3, but the scene has 3 plays, counted from 0");
     CHECK(change("\"q\"") ==
           "changes[0].play: is \"q\", which several plays are called; give a play's name or its index");
     CHECK(change("\"r\"") == "changes[0].play: is \"r\", which no play is called; give a play's name or its index");
@@ -651,7 +651,7 @@ TEST_CASE("Files that are cut off within a frame or of packed codecs are judged 
           "is not audio in a supported format; convert it to WAV, AIFF, FLAC, Ogg or CAF");
     CHECK(error(wavBytes({.channels = 64}, std::string(128, '\0'))).empty());
     CHECK(error(wavBytes({.channels = 65}, std::string(130, '\0'))) ==
-          "has 65 channels, 1 to 64 are accepted; mix it down");
+          "has 65 channels, but only 1 to 64 are supported; mix it down");
 }
 
 TEST_CASE("Exports are named after the main file, and companions found by both ways of naming", "[io]")

@@ -89,8 +89,8 @@ TEST_CASE("Broken JSON5 is refused with line and column", "[io]")
     CHECK(errorOf("'\\uD800\\u0041'") == "line 1, column 3: is not a valid escape of a character");
     CHECK(errorOf("'\\uDC00'") == "line 1, column 3: is not a valid escape of a character");
     CHECK(errorOf("{a\\x: 1}") == "line 1, column 4: should be a letter of a name");
-    CHECK(errorOf("Infinity") == "line 1, column 1: Infinity is no number that can be used");
-    CHECK(errorOf("[-NaN]") == "line 1, column 2: NaN is no number that can be used");
+    CHECK(errorOf("Infinity") == "line 1, column 1: Infinity is not a number in the supported range");
+    CHECK(errorOf("[-NaN]") == "line 1, column 2: NaN is not a number in the supported range");
     for (const char* number : {"+", ".", "-.", "1e", "1e+", "1.e", "1x", "N", "--1", "+ 1", "1_0"})
         CHECK(errorOf(number) == "line 1, column 1: is not a number");
     CHECK(errorOf("01") == "line 1, column 1: starts with a zero; remove it");

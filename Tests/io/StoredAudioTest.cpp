@@ -21,7 +21,7 @@ constexpr std::size_t storedFrames = 100'000; // more than a piece, and no whole
 AudioData noiseOfSteps(int channels, double scale)
 {
     Random random(3);
-    AudioData audio{48000, channels, {}, 0};
+    AudioData audio{48000, channels, {}, 0, {}};
     for (std::size_t i = 0; i < storedFrames * static_cast<std::size_t>(channels); ++i)
         audio.samples.push_back(static_cast<float>(std::floor(random.uniform(-scale, scale)) / scale));
     audio.samples[0] = -1.0f;
@@ -68,7 +68,7 @@ TEST_CASE("A sound in memory is as compact as its samples allow and loses none o
         any.samples[6] = std::numeric_limits<float>::denorm_min();
         any.samples[7] = 2.5f;
         CHECK(sameBits(all(StoredAudio(any)), any.samples));
-        AudioData silent{48000, channels, std::vector<float>(values), 0};
+        AudioData silent{48000, channels, std::vector<float>(values), 0, {}};
         CHECK(StoredAudio(silent).bytes() == 0);
         CHECK(sameBits(all(StoredAudio(silent)), silent.samples));
         silent.samples[1] = -0.0f;

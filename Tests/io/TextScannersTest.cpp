@@ -266,7 +266,7 @@ TEST_CASE("Nearest keys follow the length of the word, other words and beginning
     warnings.add("at 20", "wrong");
     warnings.count();
     CHECK(warnings.texts().size() == 21);
-    CHECK(warnings.texts()[20] == "and 2 more of these");
+    CHECK(warnings.texts()[20] == "and 2 more of this kind");
 }
 
 TEST_CASE("SHA-256 of every length around its blocks is that of another implementation", "[io]")

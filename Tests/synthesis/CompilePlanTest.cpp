@@ -380,7 +380,7 @@ TEST_CASE("Of plays as important the stronger for its length keeps the voice", "
         REQUIRE(plan.ok());
         return adaptationsOf(*plan);
     };
-    const std::string none = ": plays of more priority or strength have them\n";
+    const std::string none = ": plays with higher priority or level use them\n";
     Scene scene = plannedScene(2);
     scene.plays[1].clip = 1; // half as long and 0.36 of the power
     CHECK(silenced(scene) == "plays[1]: has no voice for 500 ms" + none);

@@ -788,7 +788,7 @@ TEST_CASE("HJIF: numbers are taken up to the ends of their ranges", "[formats]")
         limitsRefused("hjif", with({{0, version}}), "version", year);
     CHECK(limitsTaken("hjif", with({{0, "2025-1"}})).warnings.empty());
     CHECK(limitsTaken("hjif", with({{0, "2026"}})).warnings ==
-          std::vector<std::string>{"version: 2026 is newer than what this program knows"});
+          std::vector<std::string>{"version: 2026 is newer than the versions that this program supports"});
     CHECK(limitsTaken("hjif", with({{1, "1"}})).clip.duration == 100.0);
     CHECK(limitsTaken("hjif", with({{1, "1e9"}})).clip.duration == Approx(1e-7));
     for (const char* ticks : {"0.5", "1000000001"})

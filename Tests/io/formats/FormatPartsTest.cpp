@@ -615,7 +615,7 @@ TEST_CASE("Envelopes of Android say what some devices do not play", "[formats]")
     CHECK(lossesOf(zigzag(16), LossKind::points, "envelopes: ").empty());
     const auto many = lossesOf(zigzag(17), LossKind::points, "envelopes: ");
     REQUIRE(many.size() == 1);
-    CHECK(many[0].message == "envelopes: 17 control points; devices need not play more than 16 at once, Android "
+    CHECK(many[0].message == "envelopes: 17 control points; devices may support only 16 at once, Android "
                              "splits the effect");
 
     const Curve hill{{0.0, 0.0}, {0.25, 1.0}, {0.5, 0.0}};

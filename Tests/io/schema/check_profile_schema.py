@@ -12,7 +12,7 @@ import check_schema as common
 from check_schema import Draft202012Validator, check
 
 # What the schema cannot say and only the reader checks.
-BEYOND_SCHEMA = ("must be above lowFrequency", "is too much", "must be above the one before")
+BEYOND_SCHEMA = ("must be above lowFrequency", "is too high", "must be above the one before")
 
 
 def check_written(tool, validator, schema, profiles):

@@ -14,7 +14,7 @@ import check_schema as common
 from check_schema import Draft202012Validator, check
 
 # What the schema cannot say and only the reader checks: what names and numbers refer to, and rules between members.
-BEYOND_SCHEMA = re.compile(r"does not exist|which (several|no) |the scene (lists|has) \d+ |is earlier than the|"
+BEYOND_SCHEMA = re.compile(r"does not exist|which (several|no) |the name of several |the scene (lists|has) \d+ |is earlier than the|"
                            r"is later than the clip's|is longer than the clip|is needed, or a duration|"
                            r"needs lowFrequency|digits of a larger one")
 
