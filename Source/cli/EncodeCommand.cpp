@@ -182,10 +182,11 @@ CLI::App* EncodeCommand::declare(CLI::App& app)
     for (const ClipFormat& known : clipFormats())
         if (known.isWritten())
             formats.emplace_back(known.name);
-    addOption(*command, "--format", format,
-              "Format to write: json (readable), packed (small), or a format of another program, see 'pacini lint "
-              "--targets' [by the extension of OUT, else json]",
-              oneOf(formats));
+    addOption(
+        *command, "--format", format,
+        "Format to write: json (readable), packed (small), or a format of another program; 'pacini lint --targets' "
+        "lists them [by the extension of OUT, else json]",
+        oneOf(formats));
     group("Other formats");
     exporting.declare(*command);
     group("Files");

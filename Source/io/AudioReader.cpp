@@ -220,8 +220,8 @@ struct AudioReader::State
             return invalid(fmt::format("has a damaged header, which names no {}; get a complete copy",
                                        info.channels < 1 ? "channels" : "sample rate"));
         if (info.channels > limits::channels)
-            return invalid(
-                fmt::format("has {} channels, but only 1 to {} are supported; mix it down", info.channels, limits::channels));
+            return invalid(fmt::format("has {} channels, but only 1 to {} are supported; mix it down", info.channels,
+                                       limits::channels));
         if (info.samplerate < limits::slowestSound || info.samplerate > limits::highestSampleRate)
             return invalid(fmt::format("has a sample rate of {} Hz, but only {} to {} Hz are supported; resample it",
                                        info.samplerate, limits::slowestSound, limits::highestSampleRate));
@@ -425,7 +425,7 @@ Result<AudioReader> AudioReader::open(const fs::path& path, AudioReadOptions opt
     state->options = options;
     state->parts = soundParts(state->file.get());
     if (state->parts.empty())
-        return invalid("is empty; it has no audio");
+        return invalid("is empty; choose a file with audio");
     if (const auto opened = state->openPart(); !opened)
         return opened.error();
     state->warnOfGap();

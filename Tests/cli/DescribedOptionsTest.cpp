@@ -105,7 +105,7 @@ TEST_CASE("Values that a description does not allow are usage errors", "[cli]")
           std::pair("--count -1", "'-1' is not a whole number from 1 to 8"),
           std::pair("--count 99999999999999999999", "is not a whole number from 1 to 8"),
           std::pair("--most 2", "--most: '2' is not a number from 0 to 1"),
-          std::pair("--shape sqare", "'sqare' is none of sine, square; did you mean square?")})
+          std::pair("--shape sqare", "'sqare' is not one of sine, square; did you mean square?")})
     {
         Program program;
         const std::string message = program.parse(arguments);

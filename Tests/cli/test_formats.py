@@ -145,7 +145,7 @@ class Formats(CommandTest):
         for options, part in ((["--max-points", "2", "--max-segment", "400"], "envelope.points"),
                               (["--min-segment", "600"], "envelope.longest")):
             self.fails(1, ["convert", "clip.json", "x.xml", "--format", "android-basic", *options], part)
-        self.fails(2, ["convert", "clip.json", "x.haptic", "--max-points", "16"], "changes nothing in haptic")
+        self.fails(2, ["convert", "clip.json", "x.haptic", "--max-points", "16"], "has no effect in haptic")
 
     def test_kotlin_and_java_have_the_steps_of_the_json_in_closed_brackets(self):
         [path] = self.converted("android")

@@ -87,7 +87,7 @@ class Meant(CommandTest):
                 (["render", "--profle", "erm-coin"], "did you mean --profile?"),
                 (["--qiuet", "info", "clip.json"], "unknown option --qiuet; did you mean --quiet?"),
                 (["measure", "fit", "--secions", "3"], "did you mean --sections?"),
-                (["encode", "a.wav", "--method", "tehsis"], ["--method: 'tehsis' is none of a2vt", "mean thesis?"]),
+                (["encode", "a.wav", "--method", "tehsis"], ["--method: 'tehsis' is not one of a2vt", "mean thesis?"]),
                 (["encode", "a.wav", "--format", "jsn"], "did you mean json?"),
                 (["lint", "clip.json", "--target", "hapic"], "did you mean haptic?"),
                 (["lint", "clip.json", "--target", "ahap", "--fail-on", "band"], "did you mean bands?"),

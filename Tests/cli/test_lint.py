@@ -156,7 +156,7 @@ class Lint(CommandTest):
         self.fails(2, ["lint", "clip.json"], "needs --target")
         self.fails(2, ["lint", "--target", "haptic"], "missing")
         self.fails(2, ["lint", "clip.json", "--target", "nothing"], "--target")
-        self.fails(2, ["lint", "clip.json", "--points", "9"], "--points: is for a format to check", "--target")
+        self.fails(2, ["lint", "clip.json", "--points", "9"], "--points: needs a format to check", "--target")
         self.fails(2, ["lint", "clip.json", "--target", "tact", "--points", "9"], "--points: changes nothing in tact")
         self.put("bad.haptic", "[]")
         self.fails(1, ["lint", "bad.haptic", "--target", "ahap"], "bad.haptic: ")

@@ -448,7 +448,7 @@ TEST_CASE("A streamed document fills all its fields, and is written in the same 
         CHECK(back.parameters == stream.parameters);
     }
     // What equals its default is left out where that is allowed, empty lists and objects are short.
-    CHECK(textOf({}, FieldsWriter::Layout::compact) == R"({
+    CHECK(textOf({}, FieldsWriter::Layout::compact) == std::string(R"({
   "format": "pacini.thing",
   "version": 2,
   "name": "",
@@ -459,7 +459,7 @@ TEST_CASE("A streamed document fills all its fields, and is written in the same 
   "times": [],
   "parameters": {}
 }
-)");
+)"));
 }
 
 TEST_CASE("A writer with a sink hands the text over in pieces that make the same whole", "[io][json]")

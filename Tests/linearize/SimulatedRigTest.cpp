@@ -251,7 +251,7 @@ TEST_CASE("An analysis that cannot be says which number is wrong", "[linearize]"
           "channels: contain no sweep above the noise; check cables, levels and the settings of the sweep");
     // From the first to the end of the last sweep 4.5 s are needed, 1 % less for the clocks.
     recording[0].resize(17820);
-    CHECK(failure(4000.0, sweep, {}).substr(0, 22) == "channels: hold no swee");
+    CHECK(failure(4000.0, sweep, {}).substr(0, 21) == "channels: contain no ");
     recording[0].resize(17819);
     CHECK(failure(4000.0, sweep, {}) == "channels: last 4.45 s, the sweeps last 4.50 s; record until the end");
 }

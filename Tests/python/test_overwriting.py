@@ -56,7 +56,7 @@ class Overwriting(FolderTest):
         clip = pacini.encode(path)
         for overwrite in (None, True):
             self.keeps(
-                path, "is the recording of this clip", clip.save, path, format="wav16",
+                path, "is the recording that this clip was made from", clip.save, path, format="wav16",
                 profile="lra-175", overwrite=overwrite,
             )  # fmt: skip
         os.mkdir(self.folder / "drives")
@@ -91,7 +91,7 @@ class Overwriting(FolderTest):
         notes = self.folder / "notes.json"
         notes.write_text('{"by": "hand"}')
         for thing in things.values():
-            self.keeps(notes, "was not made by that Pacini made it", thing.save, notes)
+            self.keeps(notes, "nothing in it says that Pacini made it", thing.save, notes)
         empty = self.folder / "empty.json"
         empty.touch()
         clip.save(empty)
@@ -104,7 +104,7 @@ class Overwriting(FolderTest):
         mine = self.folder / "door-transients.ahap"
         mine.write_text("a person's")
         clip = pacini.encode(knocks(), RATE)
-        self.keeps(mine, "was not made by", clip.save, self.folder / "door.ahap", split=True)
+        self.keeps(mine, "nothing in it says that Pacini made it", clip.save, self.folder / "door.ahap", split=True)
         clip.save(self.folder / "door.ahap", split=True, overwrite=True)
         clip.save(self.folder / "door.ahap", split=True)
 

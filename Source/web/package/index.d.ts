@@ -211,48 +211,48 @@ export interface RenderOptions extends Stoppable {
   // parameters: render
   /** Sample rate of the output (2000 to 768000 Hz) [48000] */
   sampleRate?: number
-  /** Gain; what would then exceed full drive (1), or a limit of the profile, is turned down while it does (-120 to 60 dB) [0] */
+  /** Gain; the limiter keeps the result within full drive (1) and the limits of the profile (-120 to 60 dB) [0] */
   gain?: number
-  /** Transposition; time stays (-96 to 96 semitones) [0] */
+  /** Transposition, without a change of length (-96 to 96 semitones) [0] */
   transpose?: number
-  /** Length factor; pitch stays (0.01 to 100) [1] */
+  /** Length factor, without a change of pitch (0.01 to 100) [1] */
   stretch?: number
   /** Silence before the start (0 to 3600 s) [0] */
   delay?: number
-  /** Start of the part to render; what came before is played unheard (0 to 86400 s) [0] */
+  /** Start of the part to render; earlier parts still shape its beginning (0 to 86400 s) [0] */
   start?: number
   /** End of the part to render (0 to 86400 s) [the end] */
   end?: number
-  /** Random variation of the bands; in a scene, of the plays that have none (0 to 1) [0] */
+  /** Random variation of the bands; in a scene, for plays without a variation of their own (0 to 1) [0] */
   variation?: number
-  /** One random factor per breakpoint or per band [breakpoint] */
+  /** Scope of the variation: one random factor per breakpoint or per band [breakpoint] */
   variationPer?: 'breakpoint' | 'band'
-  /** Sinusoids at fixed centres, on the pitch curves, or moving with the centroid [as the clip was made] */
+  /** Frequencies of the sinusoids: fixed centres, pitch curves, or moving with the centroid [as the clip was made] */
   carriers?: 'fixed' | 'pitch' | 'centroid'
-  /** Level the sum of the bands to the total envelope [as the clip was made] */
+  /** Match the sum of the bands to the total envelope [as the clip was made] */
   followEnvelope?: boolean
   /** Waveform of events [as the clip was made] */
-  pulse?: 'square' | 'sine' | 'adaptive'
+  pulse?: 'adaptive' | 'square' | 'sine'
   /** Frequency of square and sine pulses (1 to 2000 Hz) [the actuator's resonance] */
   pulseFrequency?: number
   /** Periods of square and sine pulses (0.1 to 100) [1] */
   pulseCycles?: number
-  /** Largest error that everything left out may cause together, relative to the whole (-300 to 0 dB) [-60] */
+  /** Largest total error from skipping inaudible and imperceptible parts, relative to the whole (-300 to 0 dB) [-60] */
   tolerance?: number
-  /** Frequencies outside the actuator's range: to the nearest end, spread over it, or by octaves into it [as the profile says] */
+  /** Mapping of frequencies outside the actuator's range: clamped to its ends, rescaled to fit, or folded by octaves [as the profile says] */
   mapping?: 'clamp' | 'rescale' | 'fold'
-  /** How far the drive may be raised to flatten the actuator's resonance; 0 leaves the resonance (0 to 40 dB) [6] */
+  /** Largest boost for flattening the actuator's resonance; 0 leaves the resonance as it is (0 to 40 dB) [6] */
   maxBoost?: number
-  /** Trade of likeness for strength on resonant actuators: 0 plays as flat as can be, 1 all of it on the resonance (0 to 1) [0.4] */
+  /** Balance of fidelity and felt level on resonant actuators: 0 plays as flat as possible, 1 plays everything on the resonance (0 to 1) [0.4] */
   strength?: number
   // end
 }
 export interface FeltOptions extends RenderOptions {
   profile: ProfileInput
   // parameters: felt
-  /** Acceleration that is felt at a sample of 1 (0.001 to 1000000 m/s^2) [100] */
+  /** Acceleration that a sample of 1 stands for (0.001 to 1000000 m/s^2) [100] */
   fullScale?: number
-  /** Whose skin feels it: 0 as in the profile, 1 to 14 simulated people whose skin has half to twice its mass, stiffness and damping (assumed) (0 to 14) [0] */
+  /** Wearer: 0 has the skin of the profile, 1 to 14 are simulated people with half to twice its mass, stiffness and damping (assumed) (0 to 14) [0] */
   wearer?: number
   // end
 }

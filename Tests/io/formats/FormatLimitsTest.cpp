@@ -294,7 +294,7 @@ TEST_CASE("Vibration effects have whole milliseconds, amplitudes of -1 to 255 an
     CHECK(limitsTaken("android", steps("10", "255", R"(, "repeat": -1)")).warnings.empty());
     CHECK(limitsTaken("android", steps("10", "0")).clip.bands.empty());
     CHECK(limitsTaken("android", steps("10", "51")).clip.bands.at(0).amplitude.at(0).value == 0.2);
-    limitsRefused("android", steps("10, 10", "1"), "waveform.amplitudes", "has 1 numbers beside 2 timings");
+    limitsRefused("android", steps("10, 10", "1"), "waveform.amplitudes", "has 1 numbers, but 2 timings");
     const std::string whole = "must be a whole number of milliseconds from 0 on";
     limitsRefused("android", steps("10, -1", "1, 1"), "waveform.timings[1]", whole);
     limitsRefused("android", steps("10, 1.5", "1, 1"), "waveform.timings[1]", whole);
@@ -363,7 +363,7 @@ TEST_CASE("A vibration effect has at most five million steps", "[formats]")
                                                            R"(], "amplitudes": [)" + amplitudes + "]}}");
         return read ? "" : read.error().text();
     };
-    CHECK(errorOf(many, "0") == "waveform.amplitudes: has 1 numbers beside 5000000 timings");
+    CHECK(errorOf(many, "0") == "waveform.amplitudes: has 1 numbers, but 5000000 timings");
     many += ",0";
     CHECK(errorOf(many, "0") == "waveform.timings: has more than 5000000 numbers");
     CHECK(errorOf("0", many) == "waveform.amplitudes: has more than 5000000 numbers");
@@ -419,7 +419,7 @@ TEST_CASE("A table is read by the names of its columns, up to as many as there m
     limitsRefused("csv", "time,amplitude 1 5 4\n", "line 1, column 2", "needs low <= centre <= high");
     limitsRefused("csv", "time,noise 3 2\n", "line 1, column 2", "needs low <= high");
     limitsRefused("csv", "time,event\n0,1,2\n", "line 2, column 3", "has more cells than columns");
-    limitsRefused("csv", "time,event\n0,1e\n", "line 2, column 2", "'1e' is no number");
+    limitsRefused("csv", "time,event\n0,1e\n", "line 2, column 2", "'1e' is not a number");
     limitsRefused("csv", "time,event\n0,inf\n", "line 2, column 2", "is not a finite number");
     limitsRefused("csv", "event,time\n1\n", "line 2, column 1", "the time is missing");
     limitsRefused("csv", "event,time\n1,0\n1\n", "line 3, column 2", "the time is missing");
