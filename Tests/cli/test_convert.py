@@ -184,7 +184,7 @@ class Convert(CommandTest):
             self.fails(2, ["convert", "clip.json", name, option] + ([value] if value else []),
                        f"pacini: {name}: {option}: has no effect in {name[2:]}", instead)
         self.fails(2, ["convert", "clip.json", "x.haptic", "--profile", "lra-175", "--strength", "0"],
-                   "--strength: changes nothing in haptic")
+                   "--strength: has no effect in haptic")
         self.fails(2, ["convert", "clip.json", "x.wav", "--strength", "0"], "--strength needs --profile")
 
     def test_strength_is_that_of_render_and_recorded(self):

@@ -157,7 +157,7 @@ class Lint(CommandTest):
         self.fails(2, ["lint", "--target", "haptic"], "missing")
         self.fails(2, ["lint", "clip.json", "--target", "nothing"], "--target")
         self.fails(2, ["lint", "clip.json", "--points", "9"], "--points: needs a format to check", "--target")
-        self.fails(2, ["lint", "clip.json", "--target", "tact", "--points", "9"], "--points: changes nothing in tact")
+        self.fails(2, ["lint", "clip.json", "--target", "tact", "--points", "9"], "--points: has no effect in tact")
         self.put("bad.haptic", "[]")
         self.fails(1, ["lint", "bad.haptic", "--target", "ahap"], "bad.haptic: ")
 

@@ -97,33 +97,33 @@ std::set<std::string> keysInSchema(const nlohmann::json& object)
 TEST_CASE("A key that is unknown is named with its place and the nearest known one", "[io][keys]")
 {
     CHECK(sceneWarnings(R"("plays": [{"clip": "a"}, {"clip": "b", "gian": -3}])") ==
-          Strings{R"(plays[1].gian: is not known; did you mean "gain"?)"});
+          Strings{R"(plays[1].gian: is unknown; did you mean "gain"?)"});
     CHECK(sceneWarnings(R"("plays": [{"clip": "a", "speed": 2, "pitch": [1, {"gian": 3}], "Volume": 3}])") ==
-          Strings{R"(plays[0].speed: is not known; did you mean "stretch"?)",
-                  R"(plays[0].pitch: is not known; did you mean "transposition"?)",
-                  R"(plays[0].Volume: is not known; did you mean "gain"?)"});
+          Strings{R"(plays[0].speed: is unknown; did you mean "stretch"?)",
+                  R"(plays[0].pitch: is unknown; did you mean "transposition"?)",
+                  R"(plays[0].Volume: is unknown; did you mean "gain"?)"});
     CHECK(sceneWarnings(R"("colour": "red")") == Strings{"colour: is unknown"});
     CHECK(sceneWarnings(R"("plays": [{"clip": "a", "name": "x", "variation": {"amount": 0.1, "sede": 3}}],
                           "changes": [{"time": 0, "play": 0, "parameter": "gain", "value": 1, "ramp": 2}])") ==
-          Strings{R"(plays[0].variation.sede: is not known; did you mean "seed"?)",
-                  R"(changes[0].ramp: is not known; did you mean "glide"?)"});
+          Strings{R"(plays[0].variation.sede: is unknown; did you mean "seed"?)",
+                  R"(changes[0].ramp: is unknown; did you mean "glide"?)"});
     CHECK(
         sceneWarnings(R"("clips": [{"clip": )" + clipStart + R"("bands": [], "event": 1}}], "plays": [{"clip": 0}])") ==
-        Strings{R"(clips[0].clip.event: is not known; did you mean "transients"?)"});
+        Strings{R"(clips[0].clip.event: is unknown; did you mean "transients"?)"});
     CHECK(clipWarnings(R"("bands": [], "transients": [{"time": 0, "amplitude": 1, "sharpness": 1, "sharpnes": 2}])") ==
-          Strings{R"(transients[0].sharpnes: is not known; did you mean "sharpness"?)"});
+          Strings{R"(transients[0].sharpnes: is unknown; did you mean "sharpness"?)"});
     CHECK(clipWarnings(R"("bands": [], "encoder": {"anything": 1})").empty());
     CHECK(clipWarnings(R"("bands": [], "envelop": [{"time": 0}])") ==
-          Strings{R"(envelop: is not known; did you mean "envelope"?)"});
+          Strings{R"(envelop: is unknown; did you mean "envelope"?)"});
 
     ReadWarnings warnings;
     REQUIRE(readProfileJson(R"({"format": "pacini.profile", "version": 1, "name": "x", "technology": "lra",
         "resonance": {"frequency": 175, "Q": 8}, "drive": {"maxVoltage": 2}, "eq": [], "sources": {"any": "text"}})",
                             &warnings)
                 .ok());
-    CHECK(warnings.texts() == Strings{R"(resonance.Q: is not known; did you mean "q"?)",
-                                      R"(drive.maxVoltage: is not known; did you mean "maxVoltageRms"?)",
-                                      R"(eq: is not known; did you mean "equalizer"?)"});
+    CHECK(warnings.texts() == Strings{R"(resonance.Q: is unknown; did you mean "q"?)",
+                                      R"(drive.maxVoltage: is unknown; did you mean "maxVoltageRms"?)",
+                                      R"(eq: is unknown; did you mean "equalizer"?)"});
 }
 
 TEST_CASE("Keys that are remarks are nobody's mistake", "[io][keys]")
@@ -138,7 +138,7 @@ TEST_CASE("A strict reader stops at the first key that is unknown", "[io][keys]"
         readSceneJson(R"({"format": "pacini.scene", "version": 1, "plays": [{"clip": "a", "gian": 1, "speed": 2}]})",
                       anyFile, &strict);
     REQUIRE_FALSE(scene.ok());
-    CHECK(scene.error().text() == R"(plays[0].gian: is not known; did you mean "gain"?)");
+    CHECK(scene.error().text() == R"(plays[0].gian: is unknown; did you mean "gain"?)");
     CHECK(scene.error().code == ErrorCode::invalidData);
     const auto clip = readClipJson(clipStart + R"("bands": [], "nam": "x"})", largestClipText, &strict);
     REQUIRE_FALSE(clip.ok());
@@ -147,7 +147,7 @@ TEST_CASE("A strict reader stops at the first key that is unknown", "[io][keys]"
         "technology": "lra", "resonance": {"frequency": 175, "quality": 8}})",
                                          &strict);
     REQUIRE_FALSE(profile.ok());
-    CHECK(profile.error().text() == R"(resonance.quality: is not known; did you mean "q"?)");
+    CHECK(profile.error().text() == R"(resonance.quality: is unknown; did you mean "q"?)");
     CHECK(strict.texts().empty());
 }
 
@@ -168,7 +168,7 @@ TEST_CASE("Of very many warnings the first are kept and the others counted, quic
     const double without = timed(nullptr), with = timed(&warnings);
     const Strings all = warnings.texts();
     REQUIRE(all.size() == ReadWarnings::maxKept + 1);
-    CHECK(all[1] == R"(envelope[1].volumen: is not known; did you mean "amplitude"?)");
+    CHECK(all[1] == R"(envelope[1].volumen: is unknown; did you mean "amplitude"?)");
     CHECK(all.back() == "and " + std::to_string(count - 20) + " more of this kind");
     CHECK(with < 3.0 * without + 0.5);
 }
@@ -233,7 +233,7 @@ TEST_CASE("Any reader of clips and scenes tells of keys, those of a scene's clip
         return folder / name;
     };
     const auto clip = put("a.json", clipStart + R"("bands": [], "tranients": []})");
-    CHECK(readClip(clip)->warnings == Strings{R"(tranients: is not known; did you mean "transients"?)"});
+    CHECK(readClip(clip)->warnings == Strings{R"(tranients: is unknown; did you mean "transients"?)"});
     CHECK_FALSE(readClip(clip, true).ok());
     CHECK(readClip(clip, true).error().where == "tranients");
     const auto scene =
@@ -241,8 +241,8 @@ TEST_CASE("Any reader of clips and scenes tells of keys, those of a scene's clip
     const auto read = readClipOrScene(scene);
     REQUIRE(read.ok());
     CHECK(read->formatName() == "scene");
-    CHECK(read->warnings == Strings{R"(plays[0].tempo: is not known; did you mean "stretch"?)",
-                                    R"(a.json: tranients: is not known; did you mean "transients"?)"});
+    CHECK(read->warnings == Strings{R"(plays[0].tempo: is unknown; did you mean "stretch"?)",
+                                    R"(a.json: tranients: is unknown; did you mean "transients"?)"});
     CHECK_FALSE(readClipOrScene(scene, {{}, true}).ok());
     CHECK(readClip(scene).error().message.starts_with("is a scene"));
     // A scene may name clips of other programs.
