@@ -278,8 +278,9 @@ struct AudioReader::State
 
     Result<void> explainMpegEnd(std::uint64_t here)
     {
-        // Encoders disagree on whether the padding of the first and last of the 1152-frame blocks counts.
-        constexpr std::uint64_t slack = 2 * 1152;
+        // Encoders disagree on whether the padding of the first and last block counts.
+        constexpr std::uint64_t block = 1152; // frames
+        constexpr std::uint64_t slack = 2 * block;
         const auto counted = part().countedFrames.value_or(here);
         if (const auto stated = part().promisedFrames.value_or(counted);
             counted + slack < stated || stated + slack < counted)
@@ -290,7 +291,7 @@ struct AudioReader::State
         if (here + slack < expected)
             return checkPromise(here, expected);
         // A decoder's delay and what fills up two blocks are less than this.
-        if (here + 3 * 1152 < counted)
+        if (here + 3 * block < counted)
             warn("has a header that leaves out {:.3f} s of {:.3f} s at its beginning and end", seconds(counted - here),
                  seconds(counted));
         return checkDecoder(here);
