@@ -25,6 +25,7 @@ struct ConvertSettings
 };
 
 /// Result of the conversion of one clip.
+// NOLINTNEXTLINE(bugprone-exception-escape): moving a json does not throw, which clang-tidy does not see.
 struct ConvertResult
 {
     ManifestEntry entry;
