@@ -4,9 +4,9 @@
 check_claims.py PACINI [--plugin-tests PROGRAM] [--write-sizes]   exit 1 when a claim does not hold
 
 Sizes are exact: those of the demo sounds stand in Tests/golden/demo_sizes.json and change only on purpose, by
---write-sizes. Times are processor times, so that other programs on the machine hardly matter, and may miss the figures
-of the pages by the factor SLACK: this is to find a build that has become slow, not a slow computer. Needs an optimised
-build.
+--write-sizes. Times are processor times of the program itself, without what the system takes for writing its files, so
+that other programs and the disk hardly matter, and may miss the figures of the pages by the factor SLACK: this is to
+find a build that has become slow, not a slow computer. Needs an optimised build.
 """
 import argparse
 import json
