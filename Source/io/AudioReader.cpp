@@ -332,6 +332,9 @@ struct AudioReader::State
         if (part().skippedBytes > 0)
             warn("is damaged: {} bytes are no sound, about {:.3f} s are missing", part().skippedBytes,
                  std::max(missing, 0.0));
+        else if (part().lostPages > 0)
+            warn("lacks {} of its pages, by their times about {:.3f} s", part().lostPages,
+                 std::max(static_cast<double>(part().lastTime) / unit - seconds(here), 0.0));
         else if (missing > 0.0)
             warn("is damaged: about {:.3f} s are missing", missing);
     }

@@ -282,6 +282,7 @@ private:
         constexpr unsigned beginsStream = 2;
         bool headers = false;
         std::uint64_t skipped = 0;
+        std::uint64_t stream = 0, nextPage = 0;
         for (auto offset = begin; offset < end;)
         {
             const auto head = file.at(offset, headerBytes + 255);
@@ -306,9 +307,17 @@ private:
                     return;
                 }
                 parts.emplace_back().begin = offset;
+                stream = file.number(offset + 14, 4, false);
+                nextPage = file.number(offset + 18, 4, false);
             }
             headers = starts;
             SoundPart& part = parts.back();
+            if (file.number(offset + 14, 4, false) == stream)
+            {
+                const auto page = file.number(offset + 18, 4, false);
+                part.lostPages += page > nextPage ? page - nextPage : 0;
+                nextPage = page + 1;
+            }
             // The time at the end of the page; all ones where no packet ends on it.
             if (const auto time = file.number(offset + 6, 8, false); time > 0 && time < std::uint64_t{1} << 62u)
             {

@@ -36,6 +36,7 @@ struct SoundPart
     std::optional<std::uint64_t> countedFrames;  ///< what is there
     std::uint64_t firstTime = 0;                 ///< of an Ogg stream: the earliest and latest of its pages' times, in
     std::uint64_t lastTime = 0;                  ///< frames, those of Opus at 48 kHz
+    std::uint64_t lostPages = 0;                 ///< of an Ogg stream, which counts them
     bool endsInFrame = false;                    ///< it ends within a frame of its codec
 };
 
