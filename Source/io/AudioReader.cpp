@@ -1,5 +1,6 @@
 #include "io/AudioReader.h"
 
+#include "io/ByteWindow.h"
 #include "io/InputFile.h"
 #include "io/RateRaiser.h"
 #include "io/SoundHandle.h"
@@ -14,6 +15,7 @@
 #include <cassert>
 #include <cerrno>
 #include <cmath>
+#include <cstdio>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -107,9 +109,23 @@ std::optional<Error> brokenPromise(const SoundPart& part, const SF_INFO& info)
     return truncated(std::min(part.presentBytes / frameBytes, delivers), *part.promisedBytes / frameBytes);
 }
 
-/// Why libsndfile could not open a file that exists.
-Error openingFailed(const SoundPart& part)
+/// Whether a file is of a kind that the program ffmpeg reads and libsndfile does not: MP4, MOV and M4A (ISO/IEC
+/// 14496-12), Matroska and WebM (RFC 9559), AVI, or AAC in frames (ISO/IEC 13818-7).
+bool isForFfmpeg(std::FILE* opened)
 {
+    using namespace std::string_view_literals;
+    ByteWindow file(opened);
+    const bool aac = file.has(0, "\xFF\xF1"sv) || file.has(0, "\xFF\xF9"sv);
+    return aac || file.has(4, "ftyp") || file.has(0, "\x1A\x45\xDF\xA3"sv) ||
+           (file.has(0, "RIFF") && file.has(8, "AVI "));
+}
+
+/// Why libsndfile could not open a file that exists.
+Error openingFailed(const SoundPart& part, std::FILE* file)
+{
+    if (sf_error(nullptr) == SF_ERR_UNRECOGNISED_FORMAT && isForFfmpeg(file))
+        return invalid(
+            "is video or AAC, which Pacini does not read; take its sound out with 'ffmpeg -i FILE sound.wav'");
     if (sf_error(nullptr) == SF_ERR_UNRECOGNISED_FORMAT)
         return invalid("is not audio in a supported format; convert it to WAV, AIFF, FLAC, Ogg or CAF");
     if (!part.isWhole && part.promisedBytes)
@@ -215,7 +231,7 @@ struct AudioReader::State
         if (!part().countedFrames || part().promisedFrames || !openView(true))
             openView(false);
         if (!sound)
-            return openingFailed(part());
+            return openingFailed(part(), file.get());
         if (info.channels < 1 || info.samplerate < 1)
             return invalid(fmt::format("has a damaged header, which names no {}; get a complete copy",
                                        info.channels < 1 ? "channels" : "sample rate"));

@@ -119,6 +119,15 @@ TEST_CASE("Files that are no audio are refused with one clear line", "[io][audio
     // A name does not make audio: headerless formats are not guessed from the extension.
     for (const char* name : {"words.vox", "words.gsm", "words.raw", "words.wav"})
         CHECK(readAudio(put(folder / name, std::string(1000, 'a'))).error().message == unknown);
+    using namespace std::string_literals;
+    for (const auto& start : {"\0\0\0\x20"
+                              "ftypisom"s,
+                              "\x1A\x45\xDF\xA3\xA3"s,
+                              "RIFF\0\x10\0\0"
+                              "AVI LIST"s,
+                              "\xFF\xF1\x50\x80"s})
+        CHECK(failureOf(folder, start + std::string(2000, '\0')).message ==
+              "is video or AAC, which Pacini does not read; take its sound out with 'ffmpeg -i FILE sound.wav'");
     const auto onlyStart = failureOf(folder, wavBytes({}, "").substr(0, 30));
     CHECK(onlyStart.code == ErrorCode::invalidData);
     CHECK(onlyStart.message.find('\n') == std::string::npos);
