@@ -54,6 +54,15 @@ struct RenderOptions : RenderParams
             wrong("end", "must be after start");
     }
 
+    /// What no table describes.
+    void set(bool protectIt, bool leaveOut, bool adapt, std::uint64_t seed)
+    {
+        protect = protectIt;
+        compile.leaveOut = leaveOut;
+        compile.adapt = adapt;
+        adjustment.variation.seed = seed;
+    }
+
     void feel(const nb::dict& options)
     {
         felt.emplace();
@@ -179,16 +188,7 @@ void bindRender(nb::module_& module)
     bindScene(module);
     nb::class_<RenderOptions>(module, "RenderOptions")
         .def(nb::init<const ProfileHandle*, const nb::dict&>(), "profile"_a.none(), "options"_a)
-        .def_prop_rw(
-            "leave_out", [](const RenderOptions& self) { return self.compile.leaveOut; },
-            [](RenderOptions& self, bool leaveOut) { self.compile.leaveOut = leaveOut; })
-        .def_prop_rw(
-            "adapt", [](const RenderOptions& self) { return self.compile.adapt; },
-            [](RenderOptions& self, bool adapt) { self.compile.adapt = adapt; })
-        .def_rw("protect", &RenderOptions::protect)
-        .def_prop_rw(
-            "seed", [](const RenderOptions& self) { return self.adjustment.variation.seed; },
-            [](RenderOptions& self, std::uint64_t seed) { self.adjustment.variation.seed = seed; })
+        .def("set", &RenderOptions::set, "protect"_a, "leave_out"_a, "adapt"_a, "seed"_a)
         .def("feel", &RenderOptions::feel, "options"_a);
     module.def(
         "render_clip",

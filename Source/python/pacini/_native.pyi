@@ -136,10 +136,7 @@ class EncoderHandle:
 
 class RenderOptions:
     def __init__(self, profile: ProfileHandle | None, options: dict[str, Any]) -> None: ...
-    leave_out: bool
-    adapt: bool
-    protect: bool
-    seed: int
+    def set(self, protect: bool, leave_out: bool, adapt: bool, seed: int) -> None: ...
     def feel(self, options: dict[str, Any]) -> None: ...
 
 class TranslatorHandle:

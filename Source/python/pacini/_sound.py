@@ -277,10 +277,7 @@ def _render_options(
     options = _native.RenderOptions(
         None if profile is None else as_profile(profile)._handle, {"sample_rate": as_rate(sample_rate), **described}
     )
-    options.protect = protect
-    options.leave_out = leave_out
-    options.adapt = adapt
-    options.seed = seed
+    options.set(protect, leave_out, adapt, seed)
     return options
 
 
