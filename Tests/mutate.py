@@ -28,7 +28,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parent / "mutation"))
-from changes import changes_of, in_place  # noqa: E402
+from changes import blamed, changes_of, in_place  # noqa: E402
 
 ROOT = Path(__file__).resolve().parent.parent
 WORK = ROOT / "build/mutate"
@@ -126,17 +126,12 @@ def build(chosen, targets, jobs):
                               capture_output=True, text=True)
         if done.returncode == 0:
             return
-        places = set()
-        for path, line in re.findall(r"(?:^|[ (])(?:\S*/)?(?:source|\.\./source)/((?:Core|Source)/\S+?):(\d+)(?=[:,])",
-                                     done.stdout, re.M):
-            places.add((path, int(line)))
-        errors = [(change.path, change.line) for change in chosen
-                  if not change.dropped and (change.path, change.line) in places]
+        errors = blamed(chosen, done.stdout)
         if not errors:
             sys.exit(done.stdout[-6000:] + "\nmutate: this does not compile, and no change is to blame")
         print(f"  {len(errors)} changes do not compile and are dropped", file=sys.stderr)
-        for change in chosen:
-            change.dropped = change.dropped or (change.path, change.line) in errors
+        for change in errors:
+            change.dropped = True
 
 
 def limited():

@@ -187,3 +187,12 @@ def in_place(text, changes):
         result += [text[position:start], new]
         position = end
     return "".join(result) + text[position:]
+
+
+def blamed(chosen, output):
+    """The changes that GCC's messages are about: by their line, or by their number where a statement has several lines."""
+    places = {(path, int(line)) for path, line in re.findall(
+        r"(?:^|[ (])(?:\S*/)?source/((?:Core|Source)/\S+?):(\d+)(?=[:,])", output, re.M)}
+    numbers = {int(number) for number in re.findall(r"mutants::[^\n]*\bint N = (\d+)", output)}
+    return [change for number, change in enumerate(chosen)
+            if not change.dropped and (number in numbers or (change.path, change.line) in places)]

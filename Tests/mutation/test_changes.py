@@ -9,7 +9,7 @@ from pathlib import Path
 HERE = Path(__file__).parent
 ROOT = HERE.parent.parent
 sys.path.insert(0, str(HERE))
-from changes import changes_of, in_place
+from changes import blamed, changes_of, in_place
 
 TEXT = """\
 #include <algorithm>
@@ -86,6 +86,40 @@ class Changes(unittest.TestCase):
             for one in ["std::max -> std::min", "`<` -> `<=`", "`!=` -> `==`", "`+` -> `-`", "`*` -> `/`", "no std::clamp",
                         "without this statement"]:
                 self.assertIn(one, seen)
+
+
+class Blame(unittest.TestCase):
+    TEXT = """\
+#include <string>
+std::string words(std::string name, int count)
+{
+    return "the name " + name +
+           " is long";
+}
+int twice(int count)
+{
+    return count + count;
+}
+"""
+
+    def test_changes_that_do_not_compile_are_found_and_no_others(self):
+        found = changes_of("Core/words.h", self.TEXT)
+        with tempfile.TemporaryDirectory() as folder:
+            header = Path(folder) / "source/Core/words.h"
+            header.parent.mkdir(parents=True)
+            (Path(folder) / "program.cpp").write_text('#include "source/Core/words.h"\nint main() {}\n')
+            compiled = False
+            for _ in range(3):
+                header.write_text(in_place(self.TEXT, [(n, change) for n, change in enumerate(found) if not change.dropped]))
+                done = subprocess.run(["c++", "-std=c++20", "-w", "-include", HERE / "Mutants.h", "-fsyntax-only", "program.cpp"],
+                                      cwd=folder, capture_output=True, text=True)
+                if compiled := done.returncode == 0:
+                    break
+                for change in blamed(found, done.stderr):
+                    change.dropped = True
+        self.assertTrue(compiled, done.stderr)
+        self.assertEqual({change.line for change in found if change.dropped}, {4})
+        self.assertTrue([change for change in found if not change.dropped and change.line == 9])
 
 
 class Reasons(unittest.TestCase):
