@@ -401,6 +401,117 @@ TEST_CASE("AHAP: nothing sounds before, between and after continuous events", "[
     }
 }
 
+namespace
+{
+/// A continuous event of full intensity, `members` are more of it.
+std::string shapedEvent(const std::string& parameters, const std::string& members = R"(, "EventDuration": 0.4)")
+{
+    return R"({"Event": {"EventType": "HapticContinuous", "Time": 0.5)" + members + R"(, "EventParameters": [)" +
+           parameters + "]}}";
+}
+
+std::string parameter(const std::string& id, const std::string& value)
+{
+    return R"({"ParameterID": ")" + id + R"(", "ParameterValue": )" + value + "}";
+}
+
+/// Checks that the root of the one band's amplitude, the intensity, is `wanted(time)`.
+template <typename Wanted>
+void checkIntensity(const Clip& clip, Wanted wanted)
+{
+    REQUIRE(clip.bands.size() == 1);
+    for (double time = 0.003; time < clip.duration; time += 0.01)
+    {
+        CAPTURE(time);
+        CHECK(std::sqrt(valueAt(clip.bands[0].amplitude, time)) == Approx(wanted(time)).margin(0.07));
+    }
+}
+
+double ramp(double time, double from, double to)
+{
+    return std::clamp((time - from) / (to - from), 0.0, 1.0);
+}
+
+const std::string inSeconds =
+    "Pattern: AttackTime, DecayTime and ReleaseTime are read as seconds, since Apple does not "
+    "say how long they are on a phone";
+} // namespace
+
+TEST_CASE("AHAP: an event that sustains rises for its attack, holds and falls after its end", "[io][formats]")
+{
+    const auto read =
+        readAhap(pattern(shapedEvent(parameter("AttackTime", "0.1") + "," + parameter("ReleaseTime", "0.3"))));
+    REQUIRE((read.ok() ? "" : read.error().text()) == "");
+    CHECK(read->clip.duration == Approx(1.2));
+    CHECK(read->warnings == std::vector<std::string>{inSeconds});
+    checkIntensity(read->clip, [](double t) { return ramp(t, 0.5, 0.6) * ramp(t, 1.2, 0.9); });
+
+    const auto late = readAhap(pattern(shapedEvent(parameter("AttackTime", "0.8"))));
+    REQUIRE(late.ok());
+    CHECK(late->clip.duration == Approx(0.9));
+    checkIntensity(late->clip, [](double t) { return t < 0.5 ? 0.0 : (t - 0.5) / 0.8; });
+}
+
+TEST_CASE("AHAP: an event that does not sustain is over after attack and decay", "[io][formats]")
+{
+    const auto read = readAhap(pattern(shapedEvent(parameter("AttackTime", "0.05") + "," +
+                                                   parameter("DecayTime", "0.2") + "," + parameter("Sustained", "0"))));
+    REQUIRE((read.ok() ? "" : read.error().text()) == "");
+    CHECK(read->clip.duration == Approx(0.9)); // as long as the file states
+    CHECK(read->warnings == std::vector<std::string>{inSeconds});
+    checkIntensity(read->clip, [](double t) { return ramp(t, 0.5, 0.55) * ramp(t, 0.75, 0.55); });
+
+    const auto unstated = readAhap(pattern(shapedEvent(parameter("Sustained", "0"), "")));
+    REQUIRE(unstated.ok());
+    CHECK(unstated->clip.duration == Approx(0.51)); // the shortest decay
+    CHECK(unstated->clip.bands[0].amplitude.back().value == 0.0);
+    CHECK(unstated->warnings.empty());
+}
+
+TEST_CASE("AHAP: curves go on through a release, and controls add to the times of envelopes", "[io][formats]")
+{
+    const std::string curve = R"(, {"ParameterCurve": {"ParameterID": "HapticIntensityControl", "Time": 0,
+        "ParameterCurveControlPoints": [{"Time": 0, "ParameterValue": 0}, {"Time": 2, "ParameterValue": 1}]}})";
+    const auto read = readAhap(pattern(shapedEvent(parameter("ReleaseTime", "1")) + curve));
+    REQUIRE(read.ok());
+    checkIntensity(read->clip, [](double t) { return t < 0.5 ? 0.0 : t / 2.0 * ramp(t, 1.9, 0.9); });
+
+    const auto control = [](const std::string& id, const std::string& time, const std::string& value)
+    {
+        return R"(, {"Parameter": {"ParameterID": ")" + id + R"(", "Time": )" + time + R"(, "ParameterValue": )" +
+               value + "}}";
+    };
+    const auto added = readAhap(
+        pattern(shapedEvent(parameter("ReleaseTime", "0.3")) + control("HapticReleaseTimeControl", "0.8", "-0.1") +
+                control("HapticAttackTimeControl", "0", "0.1") + control("HapticDecayTimeControl", "0", "0.1")));
+    REQUIRE(added.ok());
+    CHECK(added->clip.duration == Approx(1.1));
+    CHECK(added->warnings == std::vector<std::string>{inSeconds});
+    checkIntensity(added->clip, [](double t) { return ramp(t, 0.5, 0.6) * ramp(t, 1.1, 0.9); });
+}
+
+TEST_CASE("AHAP: parts of an envelope that have no effect, or no event to act on, are named", "[io][formats]")
+{
+    const std::string noEffect =
+        "Pattern: DecayTime of events that sustain and ReleaseTime of those that do not have no "
+        "effect in Core Haptics and are not kept";
+    const auto warningsOf = [](const std::string& event)
+    {
+        return readAhap(pattern(event))->warnings;
+    };
+    CHECK(warningsOf(shapedEvent(parameter("DecayTime", "0.2"))) == std::vector<std::string>{noEffect});
+    CHECK(warningsOf(shapedEvent(parameter("ReleaseTime", "0.2") + "," + parameter("Sustained", "0"))) ==
+          std::vector<std::string>{noEffect});
+    CHECK(warningsOf(shapedEvent(parameter("AttackTime", "0") + "," + parameter("Sustained", "1"))).empty());
+    CHECK(warningsOf(shapedEvent(parameter("AttackTime", "2"))) ==
+          std::vector<std::string>{"Pattern[0].Event.EventParameters[0].ParameterValue: is outside of 0 to 1 and is "
+                                   "limited to this range",
+                                   inSeconds});
+    CHECK(warningsOf(R"({"Event": {"EventType": "HapticTransient", "Time": 0, "EventParameters": [)" +
+                     parameter("DecayTime", "0.2") + "]}}") ==
+          std::vector<std::string>{"Pattern: the parameter DecayTime is not kept"});
+}
+
 TEST_CASE("AHAP: what Core Haptics mends is mended with a warning, the rest refused with its place", "[io][formats]")
 {
     const auto event = [](const std::string& members)

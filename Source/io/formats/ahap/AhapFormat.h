@@ -23,11 +23,12 @@ inline constexpr double longestAhapEvent = 30.0;
 /// their last point with the last value held; what starts later wins. As Core Haptics does, values outside of their
 /// range are moved to its end, missing ones have a default (intensity 1, sharpness 0.5), continuous events without a
 /// duration or with one of 0 go on until the pattern ends, at most 30 s, and those that sound together give no more
-/// than full drive (see limitSum); unknown keys are ignored. The clip lasts until its last event has sounded. Warnings
-/// name what was mended and what a clip does not keep: audio events, attack, decay and release. Errors: as in
-/// readJsonTree(), unsupportedVersion beyond 1, invalidData with its path for missing or mistyped entries, unknown
-/// types of events and times before 0; tooLarge for more than 24 hours, 256 continuous events at a time, or 4 million
-/// points of curves.
+/// than full drive (see limitSum); unknown keys are ignored. Continuous events rise for their AttackTime, and fall
+/// after their end for their ReleaseTime, or without Sustained at once for their DecayTime; these are read as seconds,
+/// which a warning says. The clip lasts until its last event has sounded. Warnings name what was mended and what a clip
+/// does not keep: audio events, and envelopes of transients. Errors: as in readJsonTree(), unsupportedVersion beyond 1,
+/// invalidData with its path for missing or mistyped entries, unknown types of events and times before 0; tooLarge for
+/// more than 24 hours, 256 continuous events at a time, or 4 million points of curves.
 [[nodiscard]] Result<ImportedClip> readAhap(std::string_view text);
 
 /// Writes one file, or with params.split two: the events alone in `NAME-transients.ahap`, which the curves then do not

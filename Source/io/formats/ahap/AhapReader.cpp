@@ -7,6 +7,7 @@
 #include "io/formats/ahap/SumLimit.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 #include <utility>
@@ -18,13 +19,91 @@ namespace
 {
 constexpr std::size_t maxPoints = 4'000'000;
 
+/// Time of a continuous event that does not sustain and states no decay, in s. Core Haptics has a shortest decay there
+/// but does not say how long it is.
+constexpr double shortestDecay = 0.01;
+
+/// Parameters of events that say how long a part of their envelope is. Those of the whole pattern have names such as
+/// HapticAttackTimeControl.
+enum EnvelopeTime : std::size_t
+{
+    attack,
+    decay,
+    release
+};
+constexpr std::array<std::string_view, 3> envelopeTimes{"AttackTime", "DecayTime", "ReleaseTime"};
+
 struct HapticEvent
 {
     double time = 0.0;
     double end = 0.0; ///< of a continuous one; at most its time: no end given
     double intensity = 1.0;
     double sharpness = 0.5;
+    std::array<double, 3> times{}; ///< of a continuous one's envelope, in s
+    bool sustains = true;
+
+    [[nodiscard]] bool isEndless() const { return sustains && end <= time; }
 };
+
+double roundedTime(double time)
+{
+    // Sums of decimals that are the same time as another event's must be it.
+    return std::min(std::round(time * 1e9) / 1e9, limits::duration);
+}
+
+/// The envelope of an event: it rises for the attack; then it holds until the event's end and falls for the release
+/// after it, or falls for the decay at once.
+Curve envelopeOf(const HapticEvent& event)
+{
+    const double top = roundedTime(event.time + event.times[attack]);
+    Curve envelope{{event.time, event.times[attack] > 0.0 ? 0.0 : 1.0}};
+    if (!event.sustains)
+    {
+        if (top > event.time)
+            envelope.push_back({top, 1.0});
+        envelope.push_back({roundedTime(top + std::max(event.times[decay], shortestDecay)), 0.0});
+        return envelope;
+    }
+    if (top > event.time && top < event.end)
+        envelope.push_back({top, 1.0});
+    const double reached = top > event.end ? (event.end - event.time) / (top - event.time) : 1.0;
+    envelope.push_back({event.end, reached});
+    if (event.times[release] > 0.0)
+        envelope.push_back({roundedTime(event.end + event.times[release]), 0.0});
+    return envelope;
+}
+
+/// `level` times `envelope`, which has no steps. Where both move, lines stand for the parabola between them.
+Curve shaped(Curve level, const Curve& envelope)
+{
+    for (const Breakpoint& corner : envelope)
+    {
+        const auto next = std::lower_bound(level.begin(), level.end(), corner.time,
+                                           [](const Breakpoint& point, double time) { return point.time < time; });
+        if (next != level.end() && next->time > corner.time)
+            level.insert(next, {corner.time, valueAt(level, corner.time)});
+    }
+    Curve result;
+    for (std::size_t i = 0; i < level.size(); ++i)
+    {
+        const Breakpoint to{level[i].time, valueAt(envelope, level[i].time)};
+        if (i > 0 && to.time > level[i - 1].time)
+        {
+            const Breakpoint from{level[i - 1].time, valueAt(envelope, level[i - 1].time)};
+            const bool bothMove = from.value != to.value && level[i - 1].value != level[i].value;
+            constexpr double pieces = 8.0; // off by 1/256 of the product of both changes
+            for (double k = 1.0; bothMove && k < pieces; k += 1.0)
+            {
+                const double part = k / pieces;
+                result.push_back(
+                    {from.time + part * (to.time - from.time),
+                     std::lerp(level[i - 1].value, level[i].value, part) * std::lerp(from.value, to.value, part)});
+            }
+        }
+        result.push_back({to.time, level[i].value * to.value});
+    }
+    return result;
+}
 
 /// All controls of one dynamic parameter, one after another, from the value it has without any.
 Curve joined(std::vector<Curve> controls, double initial)
@@ -141,8 +220,12 @@ private:
         event.end = checkedTime(duration, std::round((event.time + std::max(duration.number(), 0.0)) * 1e9) / 1e9);
         if (duration.number() < 0.0)
             duration.fail("is below 0");
+        const bool hasEnvelope = type == "HapticContinuous";
         entry.optional("EventParameters")
-            .forEach([&](const JsonEntry& parameter, std::size_t) { readParameter(parameter, event); });
+            .forEach([&](const JsonEntry& parameter, std::size_t) { readParameter(parameter, hasEnvelope, event); });
+        if (event.times[event.sustains ? decay : release] > 0.0)
+            ignored.insert("Pattern: DecayTime of events that sustain and ReleaseTime of those that do not have no "
+                           "effect in Core Haptics and are not kept");
         if (type == "HapticTransient")
             transients.push_back(event);
         else if (type == "HapticContinuous")
@@ -153,7 +236,7 @@ private:
             entry.optional("EventType").fail("is no type of event: '" + shownText(type) + "'");
     }
 
-    void readParameter(const JsonEntry& parameter, HapticEvent& event)
+    void readParameter(const JsonEntry& parameter, bool hasEnvelope, HapticEvent& event)
     {
         const JsonEntry value = parameter.required("ParameterValue");
         const std::string id = parameter.required("ParameterID").text();
@@ -161,6 +244,11 @@ private:
             event.intensity = limited(value, 0.0, 1.0);
         else if (id == "HapticSharpness")
             event.sharpness = limited(value, 0.0, 1.0);
+        else if (const auto part = std::find(envelopeTimes.begin(), envelopeTimes.end(), id);
+                 hasEnvelope && part != envelopeTimes.end())
+            event.times[static_cast<std::size_t>(part - envelopeTimes.begin())] = limited(value, 0.0, 1.0);
+        else if (hasEnvelope && id == "Sustained")
+            event.sustains = limited(value, 0.0, 1.0) >= 0.5;
         else if (!id.empty() && (value.number() != 0.0 || id == "Sustained") &&
                  !(id == "Sustained" && value.number() == 1.0))
             ignored.insert(fmt::format("Pattern: the parameter {} is not kept", shownText(id)));
@@ -181,9 +269,7 @@ private:
                     if (relative < before)
                         offset.fail("is earlier than the point before it");
                     before = relative;
-                    // Sums of decimals that are the same time as an event's must be it.
-                    const double time = std::round((start + relative) * 1e9) / 1e9;
-                    points.push_back({time, point.required("ParameterValue").number()});
+                    points.push_back({roundedTime(start + relative), point.required("ParameterValue").number()});
                 });
         if (points.empty() && !error)
             return entry.optional("ParameterCurveControlPoints").fail("has no point");
@@ -197,7 +283,10 @@ private:
         if (error)
             return;
         const bool intensity = id == "HapticIntensityControl";
-        if (!intensity && id != "HapticSharpnessControl")
+        std::vector<Curve>* const controls = intensity                        ? &intensityControls
+                                             : id == "HapticSharpnessControl" ? &sharpnessControls
+                                                                              : timeControlsOf(id);
+        if (controls == nullptr)
         {
             ignored.insert(fmt::format("Pattern: the parameter {} is not kept", shownText(id)));
             return;
@@ -213,7 +302,16 @@ private:
         pointCount += points.size();
         if (pointCount > maxPoints)
             return entry.fail("is beyond 4 million points", ErrorCode::tooLarge);
-        (intensity ? intensityControls : sharpnessControls).push_back(std::move(points));
+        controls->push_back(std::move(points));
+    }
+
+    /// The controls of the envelopes' part that `id` names; null when it names none.
+    std::vector<Curve>* timeControlsOf(std::string_view id)
+    {
+        for (std::size_t part = 0; part < envelopeTimes.size(); ++part)
+            if (id == fmt::format("Haptic{}Control", envelopeTimes[part]))
+                return &timeControls[part];
+        return nullptr;
     }
 
     void finish()
@@ -234,20 +332,24 @@ private:
                 {event.time, strength * strength, std::clamp(event.sharpness + shift.at(event.time), 0.0, 1.0)});
             clip.duration = std::max(clip.duration, event.time);
         }
-        for (const HapticEvent& event : continuous)
-            clip.duration = std::max(clip.duration, event.end);
+        std::array<Curve, 3> times;
+        for (std::size_t part = 0; part < times.size(); ++part)
+            times[part] = joined(std::move(timeControls[part]), 0.0);
+        for (HapticEvent& event : continuous)
+            if (!event.isEndless())
+                finishEnvelope(event, times);
         clip.duration = std::max({clip.duration, intensity.back().time, sharpness.back().time});
         lastUntilSounded(clip);
         const double patternEnd = clip.duration;
         for (HapticEvent& event : continuous)
         {
-            if (event.end <= event.time)
+            if (event.isEndless())
             {
                 ignored.insert("Pattern: continuous events without a duration last to the end of the pattern, but at "
                                "most 30 s");
                 const double latest = std::min(event.time + longestAhapEvent, limits::duration);
                 event.end = event.time < patternEnd ? std::min(patternEnd, latest) : latest;
-                clip.duration = std::max(clip.duration, event.end);
+                finishEnvelope(event, times);
             }
             addContinuous(event, intensity, sharpness);
             if (error)
@@ -262,6 +364,20 @@ private:
         if (*limited)
             ignored.insert("Pattern: continuous events that sound together are weaker where they add up to more than "
                            "full drive");
+    }
+
+    /// Adds what the controls say to the times of the envelope, and lets the clip last until the event has sounded.
+    void finishEnvelope(HapticEvent& event, const std::array<Curve, 3>& controls)
+    {
+        for (std::size_t part = 0; part < controls.size(); ++part)
+        {
+            const double when = part == release ? event.end : event.time;
+            event.times[part] = std::clamp(event.times[part] + valueAt(controls[part], when), 0.0, 1.0);
+        }
+        if (event.times[attack] > 0.0 || event.times[event.sustains ? release : decay] > 0.0)
+            ignored.insert("Pattern: AttackTime, DecayTime and ReleaseTime are read as seconds, since Apple does not "
+                           "say how long they are on a phone");
+        clip.duration = std::max({clip.duration, event.end, envelopeOf(event).back().time});
     }
 
     /// The first band that is silent by then goes on with the event.
@@ -280,8 +396,9 @@ private:
                 {range.low, range.hertzOf(0.5), range.high, static_cast<int>(clip.bands.size()), {}, {}});
             band = std::prev(clip.bands.end());
         }
-        Curve level = part(intensity, event.time, event.end);
-        Curve pitch = part(sharpness, event.time, event.end);
+        const Curve envelope = envelopeOf(event);
+        Curve level = shaped(part(intensity, event.time, envelope.back().time), envelope);
+        Curve pitch = part(sharpness, event.time, envelope.back().time);
         for (Breakpoint& point : level)
             point.value *= event.intensity;
         for (Breakpoint& point : pitch)
@@ -320,6 +437,7 @@ private:
     Clip clip;
     std::vector<HapticEvent> transients, continuous;
     std::vector<Curve> intensityControls, sharpnessControls;
+    std::array<std::vector<Curve>, 3> timeControls;
     std::size_t pointCount = 0;
     std::set<std::string> ignored; ///< warnings that are given once
     std::vector<std::string> warnings;
