@@ -2,6 +2,7 @@
 
 #include "io/Json5Cursor.h"
 #include "io/JsonText.h"
+#include "io/TextMark.h"
 
 #include <fmt/format.h>
 
@@ -208,7 +209,10 @@ Result<std::string> jsonFromJson5(std::string_view text, std::size_t maximumByte
 {
     if (text.size() > maximumBytes)
         return Error{ErrorCode::tooLarge, "", "is longer than the longest supported text"};
-    Converter converter(text);
+    const auto unmarked = utf8Text(text);
+    if (!unmarked)
+        return unmarked.error();
+    Converter converter(*unmarked);
     if (!converter.document())
         return converter.error;
     return std::move(converter.json);

@@ -1,6 +1,7 @@
 #include "io/JsonText.h"
 
 #include "io/JsonSource.h"
+#include "io/TextMark.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -204,14 +205,12 @@ static Result<void> parseText(std::string_view text, JsonHandler& handler, std::
 {
     if (text.size() > maximumBytes)
         return Error{ErrorCode::tooLarge, "", "is longer than the longest supported text"};
-    JsonSource source(text);
+    const auto unmarked = utf8Text(text);
+    if (!unmarked)
+        return unmarked.error();
+    JsonSource source(*unmarked);
     if (source.atEnd())
         return Error{ErrorCode::invalidData, "", "is empty"};
-    if (source.startsWith("\xEF\xBB\xBF"))
-        return Error{ErrorCode::invalidData, source.place(1),
-                     "starts with a byte order mark; save it as UTF-8 without one"};
-    if (source.startsWith("\xFE\xFF") || source.startsWith("\xFF\xFE"))
-        return Error{ErrorCode::invalidData, source.place(1), "is UTF-16 text; save it as UTF-8"};
     Events events(handler, source, warnings);
     if (!nlohmann::json::sax_parse(JsonCursor(source), JsonCursor(), &events))
         return events.error;

@@ -85,8 +85,8 @@ private:
 
 /// Feeds one JSON document to `handler`. Errors: what the handler stops with, at a path such as
 /// `bands[2].amplitude[7].time`; notFinite with a path for numbers beyond the range of double; invalidData with
-/// `line 3, column 17` (columns count characters) for wrong syntax, ill-formed UTF-8, text after the end, a byte order
-/// mark, a NUL byte; tooLarge for more than `maximumBytes` or deeper than deepestJson.
+/// `line 3, column 17` (columns count characters) for wrong syntax, ill-formed UTF-8, UTF-16, text after the end, a NUL
+/// byte; tooLarge for more than `maximumBytes` or deeper than deepestJson.
 /// Memory beyond the handler's is bounded by the longest string or number in the text. What the handler doubts goes to
 /// `warnings` with its path, or is an error (invalidData) where these are strict.
 [[nodiscard]] Result<void> parseJson(std::string_view text, JsonHandler& handler, std::size_t maximumBytes,

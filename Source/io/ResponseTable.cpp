@@ -2,6 +2,7 @@
 
 #include "io/InputFile.h"
 #include "io/JsonText.h"
+#include "io/TextMark.h"
 
 #include <pacini/foundation/ParseNumber.h>
 
@@ -89,12 +90,14 @@ Error atLine(Error error, const std::vector<std::size_t>& lines)
 }
 } // namespace
 
-Result<FrequencyResponse> readResponseTable(std::string_view text)
+Result<FrequencyResponse> readResponseTable(std::string_view bytes)
 {
+    const auto unmarked = utf8Text(bytes);
+    if (!unmarked)
+        return unmarked.error();
+    std::string_view text = *unmarked;
     FrequencyResponse response;
     std::vector<std::size_t> lines;
-    if (text.starts_with("\xEF\xBB\xBF"))
-        text.remove_prefix(3);
     bool headingSeen = false;
     for (std::size_t number = 1; !text.empty(); ++number)
     {

@@ -5,6 +5,7 @@
 #include "io/InputFile.h"
 #include "io/JsonText.h"
 #include "io/SceneJson.h"
+#include "io/TextMark.h"
 #include "io/formats/json/ClipJson.h"
 
 #include <system_error>
@@ -84,8 +85,12 @@ Result<Scene> readScene(const fs::path& path, const fs::path& clipFolder, ReadWa
     return sceneOfText(*text, clipFolder.empty() ? path.parent_path() : clipFolder, warnings);
 }
 
-bool isSceneText(std::string_view text)
+bool isSceneText(std::string_view bytes)
 {
+    const auto unmarked = utf8Text(bytes);
+    if (!unmarked)
+        return false;
+    const std::string_view text = *unmarked;
     const auto first = text.find_first_not_of(" \t\r\n");
     if (first == std::string_view::npos || text[first] != '{' || text.find(sceneFormatName) == std::string_view::npos)
         return false;

@@ -1,5 +1,6 @@
 #include "study/Words.h"
 
+#include "io/TextMark.h"
 #include "io/Utf8.h"
 
 #include <fmt/format.h>
@@ -85,8 +86,12 @@ std::vector<std::string> wordsOf(std::string_view given)
     return words;
 }
 
-Result<WordCategories> WordCategories::ofCsv(std::string_view text)
+Result<WordCategories> WordCategories::ofCsv(std::string_view bytes)
 {
+    const auto unmarked = utf8Text(bytes);
+    if (!unmarked)
+        return unmarked.error();
+    const std::string_view text = *unmarked;
     WordCategories categories;
     std::size_t number = 0;
     for (std::size_t start = 0; start < text.size();)
@@ -97,9 +102,10 @@ Result<WordCategories> WordCategories::ofCsv(std::string_view text)
         start = end + 1;
         if (line.ends_with('\r'))
             line.remove_suffix(1);
-        if (line.empty() || (number == 1 && line == "category,word"))
+        if (line.empty() ||
+            (number == 1 && (line == "category,word" || line == "category;word" || line == "category\tword")))
             continue;
-        const std::size_t comma = line.find_first_of(",;");
+        const std::size_t comma = line.find_first_of(",;\t");
         if (comma == std::string_view::npos || comma == 0 || comma + 1 == line.size())
             return Error{ErrorCode::invalidData, fmt::format("line {}", number),
                          "is not a category and a word with a comma between"};

@@ -32,7 +32,7 @@ class WordCategories
 {
 public:
     /// Of a table with lines `category,word`; the first may be such names. Errors (invalidData) at `line 3`.
-    [[nodiscard]] static Result<WordCategories> ofCsv(std::string_view text);
+    [[nodiscard]] static Result<WordCategories> ofCsv(std::string_view bytes);
 
     /// Empty for none. Of beginnings the longest counts.
     [[nodiscard]] std::string categoryOf(std::string_view word) const;

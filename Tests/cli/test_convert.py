@@ -212,7 +212,7 @@ class Convert(CommandTest):
         broken["signals"]["continuous"]["envelopes"]["amplitude"][1]["amplitude"] = 2
         for name, content, says in (
                 ("a.haptic", json.dumps(broken), "signals.continuous.envelopes.amplitude[1].amplitude: is outside"),
-                ("b.haptic", "\ufeff" + json.dumps(HAPTIC), "byte order mark"),
+                ("b.haptic", "\ufeff{" + json.dumps(HAPTIC), "line 1, column 2"),
                 ("c.haptic", json.dumps(HAPTIC).encode("utf-16"), "UTF-16"),
                 ("d.ahap", '{"Pattern": [{"Event": {"Time": -1, "EventType": "HapticTransient"}}]}',
                  "Pattern[0].Event.Time: is before 0"),

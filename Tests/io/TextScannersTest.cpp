@@ -303,8 +303,8 @@ TEST_CASE("FNV-1a gives the hashes that its authors print", "[io]")
 TEST_CASE("Texts that are no JSON say where and why", "[io][json]")
 {
     CHECK(scannerError("") == "is empty");
-    CHECK(scannerError("\xEF\xBB\xBF{}") ==
-          "line 1, column 1: starts with a byte order mark; save it as UTF-8 without one");
+    CHECK(scannerError("\xEF\xBB\xBF") == "is empty");
+    CHECK(scannerError("\xEF\xBB\xBF{1").starts_with("line 1, column 2: is not valid JSON"));
     CHECK(scannerError("\xFE\xFF{}") == "line 1, column 1: is UTF-16 text; save it as UTF-8");
     CHECK(scannerError("\xFF\xFE{}") == "line 1, column 1: is UTF-16 text; save it as UTF-8");
     CHECK(scannerError("[1, 1e999]") == "[1]: is beyond the range of numbers");

@@ -1,6 +1,7 @@
 #include "io/formats/ForeignText.h"
 
 #include "io/JsonTree.h"
+#include "io/TextMark.h"
 
 #include <fmt/format.h>
 
@@ -12,19 +13,12 @@ namespace pacini
 
 Result<std::string_view> foreignText(std::string_view bytes, std::vector<std::string>& warnings)
 {
-    using namespace std::string_view_literals;
     if (bytes.size() > largestForeignText)
         return Error{ErrorCode::tooLarge, "", "is longer than 64 MiB"};
-    // The first character of all these texts is ASCII: with a zero beside it the text is UTF-16 (or -32).
-    const bool hasMark = bytes.starts_with("\xFF\xFE"sv) || bytes.starts_with("\xFE\xFF"sv);
-    if (hasMark || (bytes.size() >= 2 && (bytes[0] == '\0') != (bytes[1] == '\0')))
-        return Error{ErrorCode::invalidData, "line 1, column 1", "is UTF-16; save the file as UTF-8"};
-    if (bytes.starts_with("\xEF\xBB\xBF"sv))
-    {
+    auto text = utf8Text(bytes);
+    if (text && text->size() < bytes.size())
         warnings.push_back("line 1, column 1: the byte order mark is ignored");
-        bytes.remove_prefix(3);
-    }
-    return bytes;
+    return text;
 }
 
 Result<nlohmann::json> readForeignTree(std::string_view bytes, std::vector<std::string>& warnings)

@@ -169,7 +169,7 @@ TEST_CASE("UTF-16 is told from text with one character or none", "[formats]")
         const auto read = foreignText(text, warnings);
         REQUIRE_FALSE(read.ok());
         CHECK(read.error().where == "line 1, column 1");
-        CHECK(read.error().message == "is UTF-16; save the file as UTF-8");
+        CHECK(read.error().message == "is UTF-16 text; save it as UTF-8");
     }
     CHECK(*foreignText("\xEF\xBB\xBFx", warnings) == "x");
     CHECK(warnings == std::vector<std::string>{"line 1, column 1: the byte order mark is ignored"});

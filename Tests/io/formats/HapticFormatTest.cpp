@@ -214,7 +214,8 @@ TEST_CASE(".haptic: texts that are no JSON are refused where they go wrong", "[i
     };
     REQUIRE_FALSE(refused(good));
     CHECK(refused(""));
-    CHECK(refused("\xEF\xBB\xBF" + good));
+    CHECK_FALSE(refused("\xEF\xBB\xBF" + good)); // as some editors on Windows save it
+    CHECK(refused("{\xEF\xBB\xBF" + good.substr(1)));
     CHECK(refused(std::string("\xFF\xFE{\0", 4)));
     CHECK(refused(good.substr(0, good.size() / 2)));
     CHECK(refused(std::string(good).replace(good.find("}]"), 2, "},]")));
