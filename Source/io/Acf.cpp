@@ -36,7 +36,7 @@ public:
         {
             const auto end = std::min(path.find('.', start), path.size());
             const auto entry = found->find(std::string(path.substr(start, end - start)));
-            if (entry == found->end())
+            if (entry == found->end() || (!required && entry->is_null()))
             {
                 if (required)
                     fail(std::string(path.substr(0, end)), "is missing");
@@ -102,11 +102,10 @@ private:
         if (parent == nullptr)
             return nullptr;
         const auto entry = parent->find(name);
-        if (entry != parent->end())
-            return &*entry;
-        if (required)
+        if (entry == parent->end() && required)
             fail(fmt::format("{}.{}", path, name), "is missing");
-        return nullptr;
+        const bool counts = entry != parent->end() && (required || !entry->is_null());
+        return counts ? &*entry : nullptr;
     }
 
     const Json& root;

@@ -292,7 +292,8 @@ public:
     bool number(double value) override { return scalar(value); }
     bool text(std::string& value) override { return scalar(&value); }
     bool truth(bool value) override { return scalar(value); }
-    bool null() override { return scalar(std::monostate()); }
+    /// What may be missing may have null.
+    bool null() override { return (mayBeNull && !inList() && !ignores()) || scalar(std::monostate()); }
 
 private:
     using Visit = void (*)(void*, FieldsHandler&);
@@ -477,6 +478,7 @@ private:
         {
             requiredBits |= need == Need::required ? bit : 0;
             foundBit |= name == wanted ? bit : 0;
+            mayBeNull = name == wanted ? need != Need::required : mayBeNull;
             return name == wanted;
         }
         if (purpose == Purpose::list)
@@ -494,6 +496,7 @@ private:
             return twice();
         auto& values = *static_cast<std::vector<EncoderParameter>*>(levels.back().object);
         values.push_back({std::string(name), 0.0});
+        mayBeNull = false;
         entry = {.kind = &kind, .target = &values.back().value, .needed = "a number, a text, true or false"};
         return true;
     }
@@ -557,6 +560,7 @@ private:
     std::uint32_t field = 0; ///< at which the list of fields is
     std::string_view wanted;
     std::uint32_t foundBit = 0, requiredBits = 0; ///< what Level::seen and ::required become
+    bool mayBeNull = false;                       ///< the entry of the last key, which may be missing
     std::string_view missing;
     std::optional<Error> broken;
     std::vector<std::string_view> names;

@@ -102,7 +102,7 @@ public:
     {
         bool read = false;
         truth(name, read);
-        if (current->contains(name))
+        if (find(name, Need::optional) != nullptr)
             value = read ? 1.0 : 0.0;
     }
 
@@ -280,16 +280,16 @@ private:
         return where.empty() ? std::string(name) : fmt::format("{}.{}", where, name);
     }
 
+    /// The entry; null where it is missing, or is not needed and has null.
     const nlohmann::json* find(const char* name, Need need)
     {
         if (warnings != nullptr && std::find(asked.begin(), asked.end(), std::string_view(name)) == asked.end())
             asked.emplace_back(name);
         const auto entry = current->find(name);
-        if (entry != current->end())
-            return &*entry;
-        if (need == Need::required)
+        if (entry == current->end() && need == Need::required)
             fail(name, "is missing");
-        return nullptr;
+        const bool counts = entry != current->end() && (need == Need::required || !entry->is_null());
+        return counts ? &*entry : nullptr;
     }
 
     template <typename List>

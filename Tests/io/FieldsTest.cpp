@@ -5,6 +5,7 @@
 #include "io/JsonTree.h"
 #include "support/Catch.h"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <array>
@@ -323,7 +324,9 @@ TEST_CASE("A streamed document says what is wrong with a field and what is neede
     CHECK(streamError("\"version\": 0", true) ==
           "version: is 0, which is not a version of the format; this program reads version 2");
     CHECK(memberError("\"name\": 1") == "name: is a number; a text in quotes is needed");
-    CHECK(memberError("\"name\": null") == "name: is null; a text in quotes is needed");
+    CHECK(streamError("\"format\": null") == "format: is null; a text in quotes is needed");
+    CHECK(memberError("\"point\": {\"time\": null}") == "point.time: is null; a number is needed");
+    CHECK(memberError("\"points\": [null]") == "points[0]: is null; an object in braces is needed");
     CHECK(memberError("\"size\": true") == "size: is true or false; a number is needed");
     CHECK(memberError("\"size\": \"1\"") == "size: is a text; a number is needed");
     CHECK(memberError("\"size\": []") == "size: is a list; a number is needed");
@@ -367,6 +370,33 @@ TEST_CASE("A streamed document says what is wrong with a field and what is neede
     CHECK(FieldsHandler::keysOf<FieldsStream>(FieldsOfStream<fieldsFormat>{}) ==
           std::vector<std::string_view>{"format", "version", "name", "size", "count", "shape", "point", "other",
                                         "points", "rows", "times", "parameters"});
+}
+
+TEST_CASE("Null stands for what may be missing", "[io][json]")
+{
+    const FieldsRead least = readFields({{"name", "x"}, {"numbers", {2.0}}});
+    nlohmann::json document = {{"name", "x"}, {"numbers", {2.0}}};
+    for (const char* name :
+         {"size", "count", "ready", "shape", "point", "other", "maybe", "remark", "points", "texts", "unknown"})
+        document[name] = nullptr;
+    const FieldsRead read = readFields(document);
+    CHECK(read.error.empty());
+    CHECK(read.warnings == std::vector<std::string>{"unknown: is unknown"});
+    CHECK(read.thing.size == least.thing.size);
+    CHECK(read.thing.shape == least.thing.shape);
+    CHECK_FALSE(read.thing.other);
+    CHECK_FALSE(read.thing.maybe);
+    CHECK_FALSE(read.thing.remark);
+    CHECK(read.thing.points.empty());
+    CHECK(readFields({{"name", nullptr}, {"numbers", {2.0}}}).error == "name: must be a text in quotes");
+    CHECK(readFields({{"name", "x"}, {"numbers", nullptr}}).error == "numbers: must be a list of numbers");
+
+    std::string members;
+    for (const char* name :
+         {"name", "size", "count", "shape", "point", "other", "points", "rows", "times", "parameters"})
+        members += fmt::format("{}\"{}\": null", members.empty() ? "" : ", ", name);
+    CHECK(memberError(members) == "");
+    CHECK(memberError("\"size\": null, \"size\": 1") == "size: is given twice; remove one of the two");
 }
 
 TEST_CASE("A streamed document fills all its fields, and is written in the same order and layout", "[io][json]")

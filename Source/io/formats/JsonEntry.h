@@ -4,11 +4,13 @@
 
 #include "io/JsonText.h"
 
+#include <pacini/foundation/ParseNumber.h>
 #include <pacini/foundation/Result.h>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <cmath>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -27,7 +29,6 @@ public:
     }
 
     [[nodiscard]] bool exists() const noexcept { return value != nullptr; }
-    [[nodiscard]] bool isNull() const noexcept { return value != nullptr && value->is_null(); }
     [[nodiscard]] const std::string& path() const noexcept { return where; }
 
     void fail(std::string message, ErrorCode code = ErrorCode::invalidData) const
@@ -36,25 +37,19 @@ public:
             *error = Error{code, where, std::move(message)};
     }
 
-    /// The member of an object; missing ones are empty entries.
+    /// The member of an object; missing ones and null are empty entries.
     [[nodiscard]] JsonEntry optional(std::string_view name) const
     {
-        const std::string path = where.empty() ? std::string(name) : fmt::format("{}.{}", where, name);
-        if (value == nullptr)
-            return {nullptr, path, *error};
-        if (!value->is_object())
-        {
-            fail("must be an object in braces");
-            return {nullptr, path, *error};
-        }
-        const auto found = value->find(name);
-        return {found == value->end() ? nullptr : &*found, path, *error};
+        JsonEntry entry = member(name);
+        if (entry.value != nullptr && entry.value->is_null())
+            entry.value = nullptr;
+        return entry;
     }
 
     /// The member of an object, which must be there.
     [[nodiscard]] JsonEntry required(std::string_view name) const
     {
-        const JsonEntry entry = optional(name);
+        JsonEntry entry = member(name);
         if (!entry.exists())
             entry.fail("is missing");
         return entry;
@@ -88,6 +83,17 @@ public:
         return otherwise;
     }
 
+    /// The same, also of a number in quotes.
+    [[nodiscard]] double numberOrText() const
+    {
+        if (value == nullptr || !value->is_string())
+            return number();
+        const auto read = parseNumber(value->get_ref<const std::string&>());
+        if (!read || !std::isfinite(*read))
+            fail("must be a number");
+        return read.value_or(0.0);
+    }
+
     [[nodiscard]] std::string text() const
     {
         if (value == nullptr)
@@ -99,6 +105,20 @@ public:
     }
 
 private:
+    [[nodiscard]] JsonEntry member(std::string_view name) const
+    {
+        const std::string path = where.empty() ? std::string(name) : fmt::format("{}.{}", where, name);
+        if (value == nullptr)
+            return {nullptr, path, *error};
+        if (!value->is_object())
+        {
+            fail("must be an object in braces");
+            return {nullptr, path, *error};
+        }
+        const auto found = value->find(name);
+        return {found == value->end() ? nullptr : &*found, path, *error};
+    }
+
     const nlohmann::json* value;
     std::string where;
     std::optional<Error>* error;

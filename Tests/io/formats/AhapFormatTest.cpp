@@ -512,6 +512,23 @@ TEST_CASE("AHAP: parts of an envelope that have no effect, or no event to act on
           std::vector<std::string>{"Pattern: the parameter DecayTime is not kept"});
 }
 
+TEST_CASE("AHAP: a version in quotes, null for a name, and any audio event are read", "[io][formats]")
+{
+    const auto versioned = [](const std::string& version)
+    {
+        return R"({"Version": )" + version + R"(, "Metadata": {"Project": null}, "Pattern": []})";
+    };
+    for (const char* version : {"1", "1.0", "\"1.0\"", "\"1\"", "null"})
+        CHECK(errorOf(versioned(version)) == "");
+    CHECK(errorOf(versioned("\"2.0\"")).starts_with("Version: is 2, but only version 1"));
+    CHECK(errorOf(versioned("\"one\"")) == "Version: must be a number");
+    CHECK(errorOf(R"({"Metadata": null, "Pattern": []})") == "");
+    const auto audio = readAhap(pattern(R"({"Event": {"EventType": "AudioCustom", "EventWaveformPath": 3,
+        "EventWaveformUseVolumeEnvelope": false, "EventWaveformID": {"a": []}, "EventParameters": [{"AudioVolume": 1}]}})"));
+    REQUIRE((audio.ok() ? "" : audio.error().text()) == "");
+    CHECK(audio->warnings == std::vector<std::string>{"Pattern: audio events are not kept"});
+}
+
 TEST_CASE("AHAP: what Core Haptics mends is mended with a warning, the rest refused with its place", "[io][formats]")
 {
     const auto event = [](const std::string& members)

@@ -1,12 +1,19 @@
 // Broken files of other formats: each is refused with the place of what is wrong.
 
 #include "io/formats/FormatSamples.h"
+#include "io/formats/json/ClipJson.h"
 #include "support/Catch.h"
+#include "support/Paths.h"
 
+#include <nlohmann/json.hpp>
+
+#include <fstream>
+#include <iterator>
 #include <string>
 #include <vector>
 
 using namespace pacini;
+using namespace pacini::test;
 
 namespace
 {
@@ -69,6 +76,77 @@ void checkBrokenJson(const ClipFormat& format, const std::string& sample)
 }
 } // namespace
 
+namespace
+{
+using Json = nlohmann::json;
+
+std::string fuzzed(const char* path)
+{
+    std::ifstream file(sourceFolder() / "Tests/fuzz/corpus" / path);
+    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+/// The clip that `document` is read as, as text; empty if it is refused.
+std::string readText(const ClipFormat& format, const Json& document)
+{
+    const auto read = format.read(document.dump());
+    return read ? writeClipJson(read->clip) : std::string();
+}
+
+/// Calls visit(place) with each member of an object in `part`, whose place is `place`.
+template <typename Visit>
+void forEachMember(const Json& part, const Json::json_pointer& place, Visit visit)
+{
+    if (!part.is_structured())
+        return;
+    for (const auto& [name, value] : part.items())
+    {
+        const auto inner = part.is_array() ? place / static_cast<std::size_t>(std::stoul(name)) : place / name;
+        if (part.is_object())
+            visit(inner);
+        forEachMember(value, inner, visit);
+    }
+}
+} // namespace
+
+TEST_CASE("Null stands for what may be missing, in every JSON format", "[formats]")
+{
+    const std::vector<std::pair<std::string, std::string>> samples{
+        {"hjif", hjifSample()},
+        {"haps", hapsSample()},
+        {"tact", tactSample()},
+        {"android", androidWaveformSample()},
+        {"android", androidEnvelopeSample(true)},
+        {"android", androidEnvelopeSample(false)},
+        {"ahap", fuzzed("ahap/plain.ahap")},
+        {"haptic", fuzzed("haptic/plain.haptic")},
+        {"vij", fuzzed("vij/everything")},
+        {"json", R"({"format": "pacini.clip", "version": 1, "name": "n", "duration": 1, "source": {"file": "f",
+            "sampleRate": 48000, "channels": 1}, "envelope": [], "centroid": [], "bands": [{"lowFrequency": 10,
+            "centreFrequency": 20, "highFrequency": 30, "priority": 0, "amplitude": [{"time": 0, "amplitude": 1}],
+            "pitch": []}], "transients": [], "noise": [], "markers": []})"}};
+    for (const auto& [name, text] : samples)
+    {
+        const ClipFormat& format = *clipFormatNamed(name);
+        const Json document = Json::parse(text);
+        REQUIRE(readText(format, document) != "");
+        int optional = 0;
+        forEachMember(document, Json::json_pointer(),
+                      [&](const Json::json_pointer& place)
+                      {
+                          Json missing = document, null = document;
+                          missing.at(place.parent_pointer()).erase(place.back());
+                          null.at(place) = nullptr;
+                          const std::string without = readText(format, missing);
+                          CAPTURE(name, place.to_string());
+                          CHECK((without.empty() || readText(format, null) == without));
+                          optional += without.empty() ? 0 : 1;
+                      });
+        CAPTURE(name);
+        CHECK(optional > 0);
+    }
+}
+
 TEST_CASE("Broken HJIF is refused with its place", "[formats]")
 {
     const std::string channel = "perceptions[0].channels[0]";
@@ -97,7 +175,7 @@ TEST_CASE("Broken HJIF is refused with its place", "[formats]")
                   channel + ".bands[0].effects[0].keyframes[2].relative_position"},
                  {R"("amplitude_modulation": 0.8)", R"("amplitude_modulation": 80000)",
                   channel + ".bands[0].effects[0].keyframes[1].amplitude_modulation"},
-                 {R"("amplitude_modulation": 0.8)", R"("amplitude_modulation": null)",
+                 {R"("amplitude_modulation": 0.8)", R"("amplitude_modulation": true)",
                   channel + ".bands[0].effects[0].keyframes[1].amplitude_modulation"},
                  {R"("position": 1000, "id": 7)", R"("position": 1000)", channel + ".bands[0].effects[2].id"}});
 }

@@ -149,7 +149,8 @@ TEST_CASE(".haptic: what all readers refuse is an error with its place", "[io][f
     CHECK(starts(errorAfter([](Json& f) { f["version"] = "1.0.0"; }), "version: "));
     CHECK(starts(errorAfter([](Json& f) { f["version"]["major"] = 2; }), "version.major: is 2"));
     CHECK(starts(errorAfter([](Json& f) { f["version"]["major"] = 1.5; }), "version.major: "));
-    CHECK(starts(errorAfter([](Json& f) { f["metadata"] = nullptr; }), "metadata"));
+    CHECK(starts(errorAfter([](Json& f) { f["metadata"] = 3; }), "metadata"));
+    CHECK(starts(errorAfter([](Json& f) { f["signals"] = nullptr; }), "signals"));
     CHECK(starts(errorAfter([](Json& f) { f["metadata"]["tags"] = {1}; }), "metadata.tags[0]: "));
     CHECK(starts(errorAfter([](Json& f) { f.erase("signals"); }), "signals: is missing"));
     CHECK(starts(errorAfter([](Json& f) { amplitude(f) = Json::array(); }), envelopes + "amplitude: has no point"));

@@ -151,12 +151,10 @@ public:
 
     Result<ImportedClip> read()
     {
-        if (const JsonEntry version = root.optional("Version"); version.exists() && version.number() > 1.0)
-            version.fail(fmt::format("is {}, but only version 1 is read", version.number()),
+        if (const JsonEntry version = root.optional("Version"); version.numberOrText() > 1.0)
+            version.fail(fmt::format("is {}, but only version 1 is read", version.numberOrText()),
                          ErrorCode::unsupportedVersion);
-        if (const JsonEntry metadata = root.optional("Metadata"); metadata.exists())
-            if (const JsonEntry project = metadata.optional("Project"); project.exists())
-                clip.name = project.text();
+        clip.name = root.optional("Metadata").optional("Project").text();
         root.required("Pattern").forEach([&](const JsonEntry& entry, std::size_t) { readEntry(entry); });
         if (!error)
             finish();
@@ -214,6 +212,11 @@ private:
     void readEvent(const JsonEntry& entry)
     {
         const std::string type = entry.required("EventType").text();
+        if (type == "AudioContinuous" || type == "AudioCustom")
+        {
+            ignored.insert("Pattern: audio events are not kept");
+            return;
+        }
         HapticEvent event;
         event.time = timeOf(entry);
         const JsonEntry duration = entry.optional("EventDuration");
@@ -230,8 +233,6 @@ private:
             transients.push_back(event);
         else if (type == "HapticContinuous")
             continuous.push_back(event);
-        else if (type == "AudioContinuous" || type == "AudioCustom")
-            ignored.insert("Pattern: audio events are not kept");
         else if (!type.empty())
             entry.optional("EventType").fail("is no type of event: '" + shownText(type) + "'");
     }

@@ -124,11 +124,16 @@ std::optional<Error> readEffect(const nlohmann::json& tree, ImportedClip& import
     AndroidReader reader{FieldsReader(tree), imported.warnings};
     reader.reader.optionalText("name", imported.clip.name);
     std::string name = importedName(imported.clip.name);
-    if (tree.contains("waveformEnvelope"))
+    const auto has = [&](const char* kind)
+    {
+        const auto entry = tree.find(kind);
+        return entry != tree.end() && !entry->is_null();
+    };
+    if (has("waveformEnvelope"))
         imported.clip = reader.envelope(false);
-    else if (tree.contains("basicEnvelope"))
+    else if (has("basicEnvelope"))
         imported.clip = reader.envelope(true);
-    else if (tree.contains("waveform"))
+    else if (has("waveform"))
         imported.clip = reader.waveform();
     else
         reader.reader.fail("waveformEnvelope", "is missing, and so are basicEnvelope and waveform");

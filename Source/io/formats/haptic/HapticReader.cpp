@@ -30,7 +30,7 @@ public:
         if (!error)
             readMetadata(root.optional("metadata"));
         readAmplitude(envelopes.required("amplitude"));
-        if (const JsonEntry frequency = envelopes.optional("frequency"); frequency.exists() && !frequency.isNull())
+        if (const JsonEntry frequency = envelopes.optional("frequency"); frequency.exists())
             readFrequency(frequency);
         if (error)
             return *error;
@@ -108,7 +108,7 @@ private:
                 const double value = unitValue(point.required("amplitude"));
                 band.amplitude.push_back({time, value});
                 const JsonEntry emphasis = point.optional("emphasis");
-                if (!emphasis.exists() || emphasis.isNull())
+                if (!emphasis.exists())
                     return;
                 const JsonEntry strength = emphasis.required("amplitude");
                 const Transient event{time, unitValue(strength), unitValue(emphasis.required("frequency"))};

@@ -85,7 +85,12 @@ Result<HjifFile> readHjifFile(const nlohmann::json& tree, std::vector<std::strin
     reader.number("timescale", file.ticks, Need::optional);
     if (!(file.ticks >= 1.0 && file.ticks <= 1e9))
         reader.fail("timescale", "must be 1 to 1000000000 ticks per second");
-    if (!tree.contains("perceptions"))
+    const auto isMissing = [&](const char* name)
+    {
+        const auto entry = tree.find(name);
+        return entry == tree.end() || entry->is_null();
+    };
+    if (isMissing("perceptions"))
         reader.fail("perceptions", "is missing");
     reader.list("perceptions", file.perceptions, 65535, "perceptions",
                 [&](HjifPerception& perception) { readPerception(reader, perception); });
@@ -94,7 +99,7 @@ Result<HjifFile> readHjifFile(const nlohmann::json& tree, std::vector<std::strin
     if (auto error = checkVersion(version, warnings))
         return *error;
     for (const char* name : {"profile", "level", "date", "avatars", "syncs"})
-        if (!tree.contains(name))
+        if (isMissing(name))
             warnings.push_back(fmt::format("{}: is missing; other players refuse the file", name));
     return file;
 }

@@ -83,7 +83,7 @@ private:
                       [&](int&)
                       {
                           for (const std::string& position : reader.names())
-                              reader.object(position.c_str(), unused, Need::required,
+                              reader.object(position.c_str(), unused, Need::optional,
                                             [&](int&) { readMode(start, enabled); });
                       });
         if (enabled && !reader.error)
