@@ -265,7 +265,6 @@ TEST_CASE("A broken .haps file is refused with its place", "[formats]")
                  {R"("m_version": "5", )", "", "m_version"},
                  {R"("m_vibration")", R"("vibration")", "m_vibration"},
                  {R"("m_startingPoint": 0,)", R"("m_startingPoint": -1,)", note + ".m_startingPoint"},
-                 {R"("m_startingPoint": 0, )", "", note + ".m_startingPoint"},
                  {R"("m_length": 1.5)", R"("m_length": 1e9)", note + ".m_length"},
                  {R"("m_gain": 1.109)", R"("m_gain": -1)", "m_vibration.m_melodies[0].m_notes[0].m_gain"},
                  {R"("m_time": 0.4)", R"("m_time": -0.4)",

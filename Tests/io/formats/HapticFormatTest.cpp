@@ -164,13 +164,38 @@ TEST_CASE(".haptic: what all readers refuse is an error with its place", "[io][f
                  envelopes + "amplitude[1].amplitude: "));
     CHECK(starts(errorAfter([](Json& f) { amplitude(f)[0]["emphasis"]["amplitude"] = 0.4999; }),
                  envelopes + "amplitude[0].emphasis.amplitude: is below"));
-    CHECK(starts(errorAfter([](Json& f) { amplitude(f)[0]["emphasis"].erase("frequency"); }),
-                 envelopes + "amplitude[0].emphasis.frequency: is missing"));
+    CHECK(starts(errorAfter([](Json& f) { amplitude(f)[0]["emphasis"]["frequency"] = "0.5"; }),
+                 envelopes + "amplitude[0].emphasis.frequency: must be"));
     CHECK(starts(errorAfter([](Json& f) { frequency(f)[0]["time"] = 2.0; }),
                  envelopes + "frequency[1].time: is earlier"));
     CHECK(starts(errorAfter([](Json& f) { frequency(f)[0]["frequency"] = -0.1; }),
                  envelopes + "frequency[0].frequency: "));
     CHECK(starts(errorAfter([](Json& f) { amplitude(f)[1]["time"] = 1e30; }), envelopes + "amplitude[1].time: "));
+}
+
+TEST_CASE(".haptic: an emphasis that lacks a number is completed or left out, with a warning", "[io][formats]")
+{
+    const std::string place = "signals.continuous.envelopes.amplitude[0].emphasis";
+    const auto readAfter = [](auto change)
+    {
+        Json file = plain();
+        change(amplitude(file));
+        auto read = readHaptic(file.dump());
+        REQUIRE((read.ok() ? "" : read.error().text()) == "");
+        return std::move(*read);
+    };
+    const auto empty = readAfter([](Json& points) { points[0]["emphasis"] = Json::object(); });
+    CHECK(empty.clip.transients.empty());
+    CHECK(empty.warnings == std::vector<std::string>{place + ": has neither amplitude nor frequency and is left out"});
+    const auto both = readAfter([](Json& points) { points[0]["emphasis"] = points[1]["emphasis"] = Json::object(); });
+    CHECK(both.warnings ==
+          std::vector<std::string>{place + ": has neither amplitude nor frequency and is left out, like 1 more"});
+    const auto weak = readAfter([](Json& points) { points[0]["emphasis"] = {{"frequency", 0.25}}; });
+    CHECK(weak.clip.transients == std::vector<Transient>{{0.0, 0.5, 0.25}});
+    CHECK(weak.warnings == std::vector<std::string>{place + ".amplitude: is missing; that of its point is taken"});
+    const auto dull = readAfter([](Json& points) { points[0]["emphasis"] = {{"amplitude", 0.75}}; });
+    CHECK(dull.clip.transients == std::vector<Transient>{{0.0, 0.75, 0.5}});
+    CHECK(dull.warnings == std::vector<std::string>{place + ".frequency: is missing; 0.5 is taken"});
 }
 
 TEST_CASE(".haptic: what some reader takes is taken", "[io][formats]")

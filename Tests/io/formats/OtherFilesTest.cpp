@@ -84,6 +84,34 @@ TEST_CASE(".haps: keyframes out of order are put into it with a warning", "[io][
               .find("m_keyframes[1].m_time: is negative") != std::string::npos);
 }
 
+TEST_CASE(".haps: what a writer leaves out is its default, with a warning", "[io][formats]")
+{
+    const std::string where = "m_vibration.m_melodies[0].m_notes[0]";
+    std::string text = haps(R"({"m_value": 0.5}, {"m_time": 1})");
+    text.replace(text.find("\"m_startingPoint\": 0,"), 21, "");
+    const auto read = readAs("haps", text);
+    const std::string keyframes = where + ".m_hapticEffect.m_amplitudeModulation.m_keyframes";
+    CHECK(read.warnings ==
+          std::vector<std::string>{where + ".m_startingPoint: is missing; the note is read as starting at 0",
+                                   keyframes + "[0].m_time: is missing and read as 0",
+                                   keyframes + "[1].m_value: is missing and read as 0"});
+    CHECK(read.clip.duration == Approx(1.0));
+    CHECK(valueAt(read.clip.bands[0].amplitude, 0.5) == Approx(0.25));
+    text = haps(R"({"m_time": 0, "m_value": 0.5}, {"m_time": 0.25, "m_value": 1})");
+    text.replace(text.find("\"m_length\": 1,"), 14, "");
+    const auto open = readAs("haps", text);
+    CHECK(open.warnings ==
+          std::vector<std::string>{where + ".m_length: is missing; the note lasts until its last keyframe"});
+    CHECK(open.clip.duration == Approx(0.25));
+    const auto tap = readAs("haps", R"({"m_version": "5", "m_vibration": {"m_melodies": [{"m_notes": [{}]}]},
+        "m_stiffness": [{"m_melodies": []}], "m_texture": [{"m_melodies": []}, {"m_melodies": [{}]}]})");
+    CHECK(tap.clip.transients.size() == 1);
+    CHECK(tap.warnings ==
+          std::vector<std::string>{"m_texture: is not read",
+                                   where + ".m_startingPoint: is missing; the note is read as starting at 0",
+                                   where + ": has neither a type nor an amplitude and is read as a transient"});
+}
+
 TEST_CASE(".tact: numbers in quotes are taken as what they say, with a warning", "[io][formats]")
 {
     const auto read = readAs("tact", tact("\"100\"", "\"0.75\""));

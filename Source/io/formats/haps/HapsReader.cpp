@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 namespace pacini
 {
@@ -16,9 +17,10 @@ namespace
 {
 constexpr std::size_t maxElements = 5'000'000;
 
+/// Numbers that some writer leaves out are told from 0.
 struct Keyframe
 {
-    double time = 0.0, value = 0.0;
+    std::optional<double> time, value;
 };
 
 struct HapticEffect
@@ -29,6 +31,7 @@ struct HapticEffect
 
 struct Note
 {
+    std::optional<double> statedStart, statedLength;
     double start = 0.0, length = 0.0, gain = 1.0;
     HapticEffect effect;
 };
@@ -53,8 +56,8 @@ void readModulation(FieldsReader& reader, const char* name, std::vector<Keyframe
                       reader.list("m_keyframes", points, maxElements, "keyframes",
                                   [&](Keyframe& keyframe)
                                   {
-                                      reader.number("m_time", keyframe.time, Need::required);
-                                      reader.number("m_value", keyframe.value, Need::required);
+                                      reader.optionalNumber("m_time", keyframe.time);
+                                      reader.optionalNumber("m_value", keyframe.value);
                                   });
                   });
 }
@@ -70,10 +73,12 @@ void readVibration(FieldsReader& reader, Vibration& vibration)
                     reader.list("m_notes", melody.notes, maxElements, "notes",
                                 [&](Note& note)
                                 {
-                                    reader.number("m_startingPoint", note.start, Need::required);
-                                    reader.number("m_length", note.length, Need::optional);
+                                    reader.optionalNumber("m_startingPoint", note.statedStart);
+                                    note.start = note.statedStart.value_or(0.0);
+                                    reader.optionalNumber("m_length", note.statedLength);
+                                    note.length = note.statedLength.value_or(0.0);
                                     reader.number("m_gain", note.gain, Need::optional);
-                                    reader.object("m_hapticEffect", note.effect, Need::required,
+                                    reader.object("m_hapticEffect", note.effect, Need::optional,
                                                   [&](HapticEffect& effect)
                                                   {
                                                       reader.optionalNumber("m_type", effect.type);
@@ -116,6 +121,8 @@ public:
 private:
     void addNote(const Note& note, double outerGain, ImportLanes& lanes, const std::string& where)
     {
+        if (!note.statedStart)
+            report.warn(where + ".m_startingPoint", "is missing; the note is read as starting at 0");
         if (!(note.start >= 0.0 && note.start <= limits::duration))
             return report.fail(where + ".m_startingPoint", "must be 0 to 24 hours");
         if (!(note.length >= 0.0 && note.start + note.length <= limits::duration))
@@ -147,13 +154,18 @@ private:
         for (std::size_t i = 0; i < keyframes.size(); ++i)
         {
             const std::string place = fmt::format("{}.m_keyframes[{}]", where, i);
-            const double time = note.start + keyframes[i].time;
-            if (!(keyframes[i].time >= 0.0 && time <= limits::duration))
+            for (const auto& [name, number] :
+                 {std::pair(".m_time", keyframes[i].time), std::pair(".m_value", keyframes[i].value)})
+                if (!number)
+                    report.warn(place + name, "is missing and read as 0");
+            const double offset = keyframes[i].time.value_or(0.0);
+            const double time = note.start + offset;
+            if (!(offset >= 0.0 && time <= limits::duration))
             {
-                report.fail(place + ".m_time", keyframes[i].time < 0.0 ? "is negative" : "is later than 24 hours");
+                report.fail(place + ".m_time", offset < 0.0 ? "is negative" : "is later than 24 hours");
                 return curve;
             }
-            double value = keyframes[i].value;
+            double value = keyframes[i].value.value_or(0.0);
             if (!(value >= low && value <= high))
             {
                 report.warn(place + ".m_value",
@@ -184,7 +196,9 @@ private:
             return;
         double end = std::max(note.start, amplitude.back().time);
         const double stated = note.start + note.length;
-        if (end > stated + 1e-3)
+        if (!note.statedLength)
+            report.warn(where + ".m_length", "is missing; the note lasts until its last keyframe");
+        else if (end > stated + 1e-3)
             report.warn(where + ".m_length", "ends before its keyframes; they are kept");
         else if (end < stated)
             amplitude.push_back({end = stated, amplitude.back().value});
@@ -228,6 +242,15 @@ private:
     }
 };
 
+/// Whether a perception, or one of a list of them, has melodies.
+bool hasMelodies(const nlohmann::json& perception)
+{
+    if (perception.is_array())
+        return std::any_of(perception.begin(), perception.end(), hasMelodies);
+    const auto melodies = perception.find("m_melodies"); // nothing in what is no object
+    return melodies != perception.end() && melodies->is_array() && !melodies->empty();
+}
+
 std::optional<Error> readHapsEffect(const nlohmann::json& tree, ImportedClip& imported)
 {
     FieldsReader reader(tree);
@@ -251,11 +274,7 @@ std::optional<Error> readHapsEffect(const nlohmann::json& tree, ImportedClip& im
         return reader.error;
     for (const char* name : {"m_texture", "m_stiffness"})
     {
-        const auto other = tree.find(name);
-        if (other == tree.end() || !other->is_object())
-            continue;
-        const auto melodies = other->find("m_melodies");
-        if (melodies != other->end() && melodies->is_array() && !melodies->empty())
+        if (const auto other = tree.find(name); other != tree.end() && hasMelodies(*other))
             imported.warnings.push_back(fmt::format("{}: is not read", name));
     }
     HapsImporter importer(imported.warnings);

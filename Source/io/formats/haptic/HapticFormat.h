@@ -17,8 +17,9 @@ inline constexpr std::size_t largestHapticText = std::size_t(32) << 20;
 
 /// Reads what any of the format's readers takes: single points, clips without duration, steps, a first point after 0,
 /// frequencies beyond the amplitudes (cut), and no frequencies (the middle of the range). A clip that ends with an
-/// emphasis lasts until that has sounded. Warnings name what a strict
-/// reader refuses and what a clip does not keep. Numbers are compared as 32-bit floats. Errors: as in readJsonTree(),
+/// emphasis lasts until that has sounded. An emphasis without amplitude has that of its point, one without frequency
+/// 0.5; one that has neither is left out. Warnings name these, what a strict reader refuses and what a clip does not
+/// keep. Numbers are compared as 32-bit floats. Errors: as in readJsonTree(),
 /// unsupportedVersion, and invalidData with its path for what all readers refuse: missing or mistyped entries, no
 /// amplitude point, times below 0 or going back, values outside of 0 to 1, an emphasis below its point.
 [[nodiscard]] Result<ImportedClip> readHaptic(std::string_view text);

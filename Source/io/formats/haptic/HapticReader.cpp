@@ -98,6 +98,27 @@ private:
         return value;
     }
 
+    /// An emphasis of a point at `time` of amplitude `value`.
+    void readEmphasis(const JsonEntry& emphasis, double time, double value)
+    {
+        constexpr double plain = 0.5;
+        const JsonEntry strength = emphasis.optional("amplitude"), frequency = emphasis.optional("frequency");
+        if (!strength.exists() && !frequency.exists())
+        {
+            firstEmpty = emptyEmphases++ == 0 ? emphasis.path() : firstEmpty;
+            return;
+        }
+        if (!strength.exists())
+            report.warn(strength.path(), "is missing; that of its point is taken");
+        if (!frequency.exists())
+            report.warn(frequency.path(), "is missing; 0.5 is taken");
+        const Transient event{time, strength.exists() ? unitValue(strength) : value,
+                              frequency.exists() ? unitValue(frequency) : plain};
+        if (event.amplitude < value)
+            strength.fail("is below the amplitude of its point");
+        clip.transients.push_back(event);
+    }
+
     void readAmplitude(const JsonEntry& amplitude)
     {
         double before = 0.0;
@@ -107,15 +128,12 @@ private:
                 const double time = before = timeOf(point, before);
                 const double value = unitValue(point.required("amplitude"));
                 band.amplitude.push_back({time, value});
-                const JsonEntry emphasis = point.optional("emphasis");
-                if (!emphasis.exists())
-                    return;
-                const JsonEntry strength = emphasis.required("amplitude");
-                const Transient event{time, unitValue(strength), unitValue(emphasis.required("frequency"))};
-                if (event.amplitude < value)
-                    strength.fail("is below the amplitude of its point");
-                clip.transients.push_back(event);
+                if (const JsonEntry emphasis = point.optional("emphasis"); emphasis.exists())
+                    readEmphasis(emphasis, time, value);
             });
+        if (emptyEmphases > 0)
+            warnings.push_back(fmt::format("{}: has neither amplitude nor frequency and is left out{}", firstEmpty,
+                                           emptyEmphases > 1 ? fmt::format(", like {} more", emptyEmphases - 1) : ""));
         if (!error && band.amplitude.empty())
             amplitude.fail("has no point");
     }
@@ -157,6 +175,9 @@ private:
     Band band;
     NormalisedRange range = questRange;
     std::vector<std::string> warnings;
+    ImportReport report{warnings};
+    std::size_t emptyEmphases = 0;
+    std::string firstEmpty; ///< place of the first of them
 };
 } // namespace
 
