@@ -2,12 +2,14 @@
 
 #include "io/InputFile.h"
 #include "io/JsonText.h"
+#include "io/TextMark.h"
+
+#include <pacini/foundation/ParseNumber.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <locale>
 #include <sstream>
 #include <utility>
 
@@ -75,25 +77,59 @@ private:
     std::vector<double>* times = nullptr; // of the list that is open
 };
 
+/// The first field of a line of times. A comma in it stands for the decimal point where digits are on both sides and
+/// fields end otherwise: in lines with tabs or semicolons, and in files whose times have no points.
+std::string firstField(std::string_view line, bool timesHavePoints)
+{
+    const auto isNumber = [](std::string_view part)
+    {
+        return !part.empty() && part.find_first_not_of("0123456789") == std::string_view::npos;
+    };
+    std::string field(line.substr(0, line.find_first_of(" \t\r;")));
+    const auto comma = field.find(',');
+    std::string_view whole = std::string_view(field).substr(0, comma);
+    whole.remove_prefix(whole.starts_with('+') || whole.starts_with('-') ? 1 : 0);
+    if (comma == std::string::npos)
+        return field;
+    const std::string_view rest = std::string_view(field).substr(comma + 1);
+    const bool otherEnds = line.find_first_of("\t;") != std::string_view::npos;
+    if (!isNumber(whole) || !isNumber(rest.substr(0, rest.find(','))) || (timesHavePoints && !otherEnds))
+        field.resize(comma);
+    else if (isNumber(rest))
+        field[comma] = '.';
+    return field; // `0,5,1,25` may be two times or four, and is no number
+}
+
+bool hasPoint(std::string_view line)
+{
+    return line.substr(0, line.find_first_of(" \t\r,;")).find('.') != std::string_view::npos;
+}
+
 Result<Onsets> readLines(std::string_view text)
 {
     Onsets onsets;
-    std::istringstream lines{std::string(text)};
-    std::string line;
-    for (std::size_t count = 1; std::getline(lines, line); ++count)
+    std::vector<std::string> lines;
+    std::istringstream stream{std::string(text)};
+    bool timesHavePoints = false;
+    for (std::string line; std::getline(stream, line);)
     {
-        const auto begin = line.find_first_not_of(" \t\r");
-        if (begin == std::string::npos || line[begin] == '#')
+        line.erase(0, line.find_first_not_of(" \t\r"));
+        // A line that begins with a backslash holds the frequencies of Audacity's label before it.
+        if (line.starts_with('#') || line.starts_with('\\'))
+            line.clear();
+        timesHavePoints = timesHavePoints || hasPoint(line);
+        lines.push_back(std::move(line));
+    }
+    for (std::size_t i = 0; i < lines.size(); ++i)
+    {
+        if (lines[i].empty())
             continue;
-        const auto end = line.find_first_of(" \t\r,;", begin);
-        std::istringstream field(line.substr(begin, end == std::string::npos ? end : end - begin));
-        field.imbue(std::locale::classic());
-        double time = 0.0;
-        if (!(field >> time) || field.peek() != std::istringstream::traits_type::eof() || !std::isfinite(time) ||
-            time < 0.0)
-            return Error{ErrorCode::invalidData, fmt::format("line {}", count),
-                         fmt::format("\"{}\" is not a time in seconds, 0 or more", shownText(field.str()))};
-        onsets.ofAny.push_back(time);
+        const std::string field = firstField(lines[i], timesHavePoints);
+        const auto time = parseNumber(std::string_view(field).substr(field.starts_with('+') ? 1 : 0));
+        if (!time || !std::isfinite(*time) || *time < 0.0)
+            return Error{ErrorCode::invalidData, fmt::format("line {}", i + 1),
+                         fmt::format("\"{}\" is not a time in seconds, 0 or more", shownText(field))};
+        onsets.ofAny.push_back(*time);
     }
     return onsets;
 }
@@ -111,8 +147,10 @@ const std::vector<double>* Onsets::find(const std::filesystem::path& sound) cons
 
 Result<Onsets> readOnsetText(std::string_view text)
 {
-    if (text.starts_with("\xEF\xBB\xBF"))
-        text.remove_prefix(3);
+    const auto unmarked = utf8Text(text);
+    if (!unmarked)
+        return unmarked.error();
+    text = *unmarked;
     const auto first = text.find_first_not_of(" \t\r\n");
     const bool isJson = first != std::string_view::npos && (text[first] == '{' || text[first] == '[');
     Onsets onsets;

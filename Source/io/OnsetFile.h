@@ -25,8 +25,10 @@ struct Onsets
 };
 
 /// Reads `{"door.wav": [0.12, 0.8], ...}`, a list `[0.12, 0.8]`, or text with one time per line (what follows it after
-/// a blank, a tab, a comma or a semicolon is a label; empty lines and lines that begin with # are passed over). Errors:
-/// invalidData for other content, with its place, and for times below 0; those of parseJson.
+/// a blank, a tab, a comma or a semicolon is a label; empty lines and lines that begin with # or, as Audacity's
+/// frequencies do, with a backslash are passed over). A comma between digits is a decimal one in lines with tabs or
+/// semicolons, and in files without any point. Errors: invalidData for other content, with its place, for times below
+/// 0 and for UTF-16; those of parseJson.
 [[nodiscard]] Result<Onsets> readOnsetText(std::string_view text);
 
 /// The same from a file of at most 64 MB. Errors also: io.

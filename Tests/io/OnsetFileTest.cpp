@@ -37,8 +37,11 @@ TEST_CASE("Onsets of several sounds are found by file name or by stem", "[io]")
 
 TEST_CASE("A list or lines of times are the onsets of any sound", "[io]")
 {
-    for (const char* text : {"[0.12, 0.8]", " \n[ 0.8,0.12 ]\n", "0.12\n0.8\n",
-                             "\xEF\xBB\xBF# by hand\r\n\r\n  0.8\r\n0.12", "0.120000\t0.130000\tknock\n8e-1,second\n"})
+    for (const char* text :
+         {"[0.12, 0.8]", " \n[ 0.8,0.12 ]\n", "0.12\n0.8\n",
+          "0,120000\t0,130000\tknock\n\\\t100,5\t2000\n0,8\t0,9\t2 knocks\n", "0,12\n0,8\n",
+          "0,12;0,13;knock\n0.8;0.9;knock", "0,12 knock\n+0,8 knock", "0.12,1,2\n.8,7,knock", "0,12\t0,13\n0.8\t0.9",
+          "\xEF\xBB\xBF# by hand\r\n\r\n  0.8\r\n0.12", "0.120000\t0.130000\tknock\n8e-1,second\n"})
     {
         CAPTURE(text);
         const auto onsets = readOnsetText(text);
@@ -63,6 +66,10 @@ TEST_CASE("What is no list of times is refused at its place", "[io]")
     CHECK(failureText("{\"a\": [], \"a\": []}") == "a: is given twice");
     CHECK(failureText("0.1\n\n-2") == "line 3: \"-2\" is not a time in seconds, 0 or more");
     CHECK(failureText("0.1\nnan") == "line 2: \"nan\" is not a time in seconds, 0 or more");
+    CHECK(failureText("0,5\n0,5,1,25") == "line 2: \"0,5,1,25\" is not a time in seconds, 0 or more");
+    CHECK(failureText("0,5,knock") == "line 1: \"0,5,knock\" is not a time in seconds, 0 or more");
+    CHECK(failureText("-0,5\tknock") == "line 1: \"-0.5\" is not a time in seconds, 0 or more");
+    CHECK(failureText(std::string("0\0.\0005\0", 6)) == "line 1, column 1: is UTF-16 text; save it as UTF-8");
     CHECK(failureText("knock 0.1") == "line 1: \"knock\" is not a time in seconds, 0 or more");
     CHECK(failureText("0.1x") == "line 1: \"0.1x\" is not a time in seconds, 0 or more");
     CHECK_FALSE(readOnsetText("[0.1, 0.2").ok());
