@@ -1,13 +1,16 @@
 #include "study/Ratings.h"
 
 #include "io/InputFile.h"
+#include "io/JsonText.h"
 #include "io/TableText.h"
+#include "io/TextMark.h"
 
 #include <pacini/foundation/ParseNumber.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <optional>
@@ -62,65 +65,193 @@ private:
     std::size_t nextLine = 1;
 };
 
-constexpr std::string_view byteOrderMark = "\xEF\xBB\xBF";
 constexpr std::size_t largestTable = 64'000'000; // bytes
-} // namespace
 
-Result<std::vector<Rating>> ratingsOfCsv(std::string_view text)
+std::string_view trimmed(std::string_view text)
 {
-    if (text.starts_with(byteOrderMark))
-        text.remove_prefix(byteOrderMark.size());
-    const std::string_view first = text.substr(0, text.find('\n'));
-    CsvLines lines(text, first.find(';') != std::string_view::npos ? ';' : ',');
-    const auto names = lines.next();
-    const auto column = [&](std::string_view wanted) -> std::optional<std::size_t>
+    const auto first = text.find_first_not_of(" \t");
+    return first == std::string_view::npos ? std::string_view()
+                                           : text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+std::string inSmallLetters(std::string_view text)
+{
+    std::string small(trimmed(text));
+    std::transform(small.begin(), small.end(), small.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return small;
+}
+
+/// What a column holds, and how it is called: by the first line of names of which the table has one.
+struct Role
+{
+    std::string_view name;
+    std::string RatingColumns::*given;
+    std::vector<std::vector<std::string_view>> titles; ///< Pacini's own, then those of webMUSHRA, jsPsych and others
+};
+
+const std::vector<Role>& roles()
+{
+    static const std::vector<Role> all{
+        {"group", &RatingColumns::group, {{"group"}}},
+        {"participant",
+         &RatingColumns::participant,
+         {{"participant"},
+          {"participant_id", "participantid", "subject", "subject_id", "subjectid", "prolific_pid"},
+          {"session_uuid"},
+          {"email"}}},
+        {"block", &RatingColumns::block, {{"block"}, {"trial_id"}}},
+        {"stimulus", &RatingColumns::stimulus, {{"stimulus"}, {"rating_stimulus"}}},
+        {"rating", &RatingColumns::rating, {{"rating"}, {"rating_score"}, {"response", "score"}}}};
+    return all;
+}
+
+/// The columns with one of these names.
+std::vector<std::size_t> columnsNamed(const std::vector<std::string>& heading,
+                                      const std::vector<std::string_view>& titles)
+{
+    std::vector<std::size_t> found;
+    for (std::size_t i = 0; i < heading.size(); ++i)
+        if (std::find(titles.begin(), titles.end(), inSmallLetters(heading[i])) != titles.end())
+            found.push_back(i);
+    return found;
+}
+
+/// The column of a role, if there is one. Errors: several that could be it, or none that is called as it was said.
+Result<std::optional<std::size_t>> columnOf(const Role& role, const std::vector<std::string>& heading,
+                                            const RatingColumns& columns)
+{
+    auto titles = role.titles;
+    const std::string given = inSmallLetters(columns.*(role.given));
+    if (!given.empty())
+        titles = {{given}};
+    for (const auto& names : titles)
     {
-        for (std::size_t i = 0; names && i < names->size(); ++i)
-        {
-            std::string name = (*names)[i];
-            std::transform(name.begin(), name.end(), name.begin(),
-                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-            if (name == wanted)
-                return i;
-        }
-        return std::nullopt;
-    };
-    const auto group = column("group"), participant = column("participant"), block = column("block"),
-               stimulus = column("stimulus"), rating = column("rating");
-    for (const auto& [name, found] : {std::pair("stimulus", stimulus), std::pair("rating", rating)})
-        if (!found)
+        const auto found = columnsNamed(heading, names);
+        if (found.size() > 1)
+            return Error{ErrorCode::invalidData, "line 1",
+                         fmt::format("has the columns '{}' and '{}', which may both be the {}; name it with --columns "
+                                     "{}=NAME",
+                                     shownText(heading[found[0]]), shownText(heading[found[1]]), role.name, role.name)};
+        if (found.size() == 1)
+            return std::optional(found[0]);
+    }
+    if (!given.empty())
+        return Error{ErrorCode::invalidData, "line 1", fmt::format("has no column '{}'", shownText(given))};
+    return std::optional<std::size_t>();
+}
+
+/// What programs write for no answer.
+bool isMissing(std::string_view field)
+{
+    const std::string small = inSmallLetters(field);
+    constexpr std::array<std::string_view, 7> nothing{"", "na", "n/a", "nan", "null", "none", "-"};
+    return std::find(nothing.begin(), nothing.end(), small) != nothing.end();
+}
+
+/// A finite number; a comma may stand for its point.
+std::optional<double> ratingIn(std::string_view field)
+{
+    std::string text(trimmed(field));
+    const auto comma = text.find(',');
+    if (comma != std::string::npos && text.find('.') == std::string::npos)
+        text[comma] = '.';
+    const auto value = parseNumber(std::string_view(text).substr(text.starts_with('+') ? 1 : 0));
+    return value && std::isfinite(*value) ? value : std::nullopt;
+}
+
+char separatorOf(std::string_view heading)
+{
+    for (const char separator : {'\t', ';'})
+        if (heading.find(separator) != std::string_view::npos)
+            return separator;
+    return ',';
+}
+
+/// The places of the roles in a heading, in the order of roles(). Errors also: no stimulus or no rating.
+Result<std::vector<std::optional<std::size_t>>> placesIn(const std::vector<std::string>& heading,
+                                                         const RatingColumns& columns)
+{
+    std::vector<std::optional<std::size_t>> places;
+    for (const Role& role : roles())
+    {
+        const auto place = columnOf(role, heading, columns);
+        if (!place)
+            return place.error();
+        if (!*place && (role.name == "stimulus" || role.name == "rating"))
             return Error{ErrorCode::invalidData, "line 1",
                          fmt::format("has no column '{}'; a table of ratings has stimulus and rating, and where there "
-                                     "are any group, participant and block",
-                                     name)};
+                                     "are any group, participant and block; name others with --columns {}=NAME",
+                                     role.name, role.name)};
+        places.push_back(*place);
+    }
+    return places;
+}
+
+/// Whether a line has more fields than the heading that say something.
+bool isTooLong(const std::vector<std::string>& fields, std::size_t columns)
+{
+    return fields.size() > columns && std::any_of(fields.begin() + static_cast<std::ptrdiff_t>(columns), fields.end(),
+                                                  [](const std::string& field) { return !trimmed(field).empty(); });
+}
+} // namespace
+
+Result<std::vector<Rating>> ratingsOfCsv(std::string_view bytes, const RatingColumns& columns,
+                                         std::vector<std::string>* warnings)
+{
+    const auto text = utf8Text(bytes);
+    if (!text)
+        return text.error();
+    CsvLines lines(*text, separatorOf(text->substr(0, text->find('\n'))));
+    const auto heading = lines.next().value_or(std::vector<std::string>());
+    const auto places = placesIn(heading, columns);
+    if (!places)
+        return places.error();
     std::vector<Rating> ratings;
+    std::size_t missing = 0;
+    std::string firstMissing;
     while (const auto fields = lines.next())
     {
         if (fields->size() == 1 && fields->front().empty())
             continue;
-        const auto field = [&](const std::optional<std::size_t>& i)
+        if (isTooLong(*fields, heading.size()))
+            return Error{ErrorCode::invalidData, lines.place(),
+                         fmt::format("has {} fields where the first line has {}; put texts and numbers with a "
+                                     "separator in quotes",
+                                     fields->size(), heading.size())};
+        const auto field = [&](std::size_t role)
         {
-            return i && *i < fields->size() ? (*fields)[*i] : std::string();
+            const auto& place = (*places)[role];
+            return place && *place < fields->size() ? (*fields)[*place] : std::string();
         };
-        const std::string number = field(rating);
-        const auto value = parseNumber(number);
-        if (!value || !std::isfinite(*value))
-            return Error{ErrorCode::invalidData, lines.place(), fmt::format("'{}' is not a rating", number)};
+        const std::string number = field(4);
+        if (isMissing(number))
+        {
+            firstMissing = missing++ == 0 ? lines.place() : firstMissing;
+            continue;
+        }
+        const auto value = ratingIn(number);
+        if (!value)
+            return Error{ErrorCode::invalidData, lines.place(), fmt::format("'{}' is not a rating", shownText(number))};
         if (ratings.size() == mostRatings)
             return Error{ErrorCode::tooLarge, lines.place(), fmt::format("has more than {} ratings", mostRatings)};
-        ratings.push_back({field(group), field(participant), field(block), field(stimulus), *value});
+        ratings.push_back({field(0), field(1), field(2), field(3), *value});
     }
     if (ratings.empty())
-        return Error{ErrorCode::invalidData, "", "has no rating"};
+        return Error{ErrorCode::invalidData, firstMissing, "has no rating"};
+    if (missing > 0 && warnings != nullptr)
+        warnings->push_back(fmt::format("{}: has no rating; {} of {} lines have none and are left out", firstMissing,
+                                        missing, missing + ratings.size()));
     return ratings;
 }
 
-Result<std::vector<Rating>> readRatings(const std::filesystem::path& path)
+Result<std::vector<Rating>> readRatings(const std::filesystem::path& path, const RatingColumns& columns,
+                                        std::vector<std::string>* warnings)
 {
     const auto text = readWholeFile(path, largestTable);
     if (!text)
         return text.error();
-    return ratingsOfCsv(*text);
+    return ratingsOfCsv(*text, columns, warnings);
 }
 
 std::string ratingsCsv(const std::vector<Rating>& ratings)

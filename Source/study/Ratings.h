@@ -26,13 +26,25 @@ struct Rating
 /// More are no study of people.
 inline constexpr std::size_t mostRatings = 1'000'000;
 
+/// Names of a table's columns, whatever the case of their letters; empty: the usual ones.
+struct RatingColumns
+{
+    std::string group, participant, block, stimulus, rating;
+};
+
 /// Ratings of a table with a first line of names: stimulus and rating, and where there are any group, participant and
-/// block. Fields are apart by commas or semicolons, texts may stand in quotes (RFC 4180). Errors (invalidData) at a
-/// line such as `line 3`: a column that is missing, a rating that is no finite number, no rating at all.
-[[nodiscard]] Result<std::vector<Rating>> ratingsOfCsv(std::string_view text);
+/// block; or those of webMUSHRA (session_uuid, trial_id, rating_stimulus, rating_score), of jsPsych (stimulus,
+/// response) and the like. Fields are apart by tabs, semicolons or commas, as the first line has them; texts may stand
+/// in quotes (RFC 4180), and numbers may have a decimal comma. Lines without a rating (empty, NA, NaN, null) are left
+/// out and counted in `warnings`. Errors (invalidData) at a line such as `line 3`: UTF-16, a column that is missing or
+/// of which there are several, a line that is too long, a rating that is no finite number, no rating at all.
+[[nodiscard]] Result<std::vector<Rating>> ratingsOfCsv(std::string_view bytes, const RatingColumns& columns = {},
+                                                       std::vector<std::string>* warnings = nullptr);
 
 /// The same of a file. Errors also as in readWholeFile.
-[[nodiscard]] Result<std::vector<Rating>> readRatings(const std::filesystem::path& path);
+[[nodiscard]] Result<std::vector<Rating>> readRatings(const std::filesystem::path& path,
+                                                      const RatingColumns& columns = {},
+                                                      std::vector<std::string>* warnings = nullptr);
 
 /// The table of `ratings` as ratingsOfCsv() reads it.
 [[nodiscard]] std::string ratingsCsv(const std::vector<Rating>& ratings);

@@ -67,6 +67,24 @@ class Steps(StudyTest):
         self.assertEqual(set(report["categories"]["A"]), {"spectral", "motion", ""})
         self.assertNotIn("<script>", (self.folder / "simulated/report/report.html").read_text())
 
+    def test_tables_of_ratings_of_other_programs(self):
+        rows = [(person, group, stimulus, 3.5 + index % 3 + 0.5 * person)
+                for index, (person, group) in enumerate([(1, "A"), (2, "A"), (3, "B"), (4, "B")]) for stimulus in "st"]
+        comma = [f"P{p};{g};{s};{str(r).replace('.', ',')}" for p, g, s, r in rows]
+        self.put("semi.csv", "\ufeff" + "\r\n".join(["participant;group;stimulus;rating", *comma]))
+        self.put("tabs.tsv", "\n".join(["participant\tgroup\tstimulus\trating", *(c.replace(";", "\t") for c in comma)]))
+        own = ["participant,group,stimulus,slider", *(f"P{p},{g},{s},{r}" for p, g, s, r in rows)]
+        self.put("named.csv", "\n".join(own))
+        reports = [self.report("study", "report", *arguments) for arguments in
+                   (["semi.csv"], ["tabs.tsv"], ["named.csv", "--columns", "rating=slider"])]
+        self.assertEqual(reports[0]["ratings"], reports[1]["ratings"])
+        self.assertEqual(reports[0]["ratings"], reports[2]["ratings"])
+        self.fails(1, ["study", "report", "named.csv"], "line 1: has no column 'rating'", "--columns rating=NAME")
+        self.fails(2, ["study", "report", "named.csv", "--columns", "slider"], "--columns: 'slider' does not name a column")
+        self.put("missing.csv", "\n".join([*own[:3], "P9,B,s,", "P9,B,t,NA", *own[3:]]))
+        self.warns("study", "report", "missing.csv", "--columns", "rating=slider",
+                   says="line 4: has no rating; 2 of 10 lines have none and are left out")
+
     def test_a_report_of_ratings_of_others(self):
         rows = [f"{group};{stimulus};{person};{5 + (person + stimulus) % 3 + (2 if group == 'C' else 0)}"
                 for group in "ABC" for stimulus in range(1, 11) for person in range(6)]

@@ -59,3 +59,58 @@ TEST_CASE("Ratings come back from their table, and bad lines are named")
     CHECK_FALSE(ratingsOfCsv("stimulus,rating\n"));
     CHECK_FALSE(ratingsOfCsv(""));
 }
+
+TEST_CASE("Tables of ratings of other programs are read as they are")
+{
+    const auto valuesOf = [](std::string_view text)
+    {
+        std::vector<double> values;
+        const auto read = ratingsOfCsv(text);
+        INFO((read.ok() ? "" : read.error().text()));
+        REQUIRE(read.ok());
+        for (const Rating& rating : *read)
+            values.push_back(rating.value);
+        return values;
+    };
+    const std::vector<double> wanted{7.5, -3.0};
+    CHECK(valuesOf("\xEF\xBB\xBFstimulus;rating\r\na;7,5\r\nb;-3\r\n") == wanted);
+    CHECK(valuesOf("Stimulus\tRating \na, b\t 7,5\nb\t-3.0") == wanted);
+    CHECK(valuesOf("stimulus,rating\na,\"7,5\"\nb,+7\nb,-3,\n").size() == 3);
+    const auto listener = ratingsOfCsv("\"session_test_id\",\"email\",\"age\",\"session_uuid\",\"trial_id\","
+                                       "\"rating_stimulus\",\"rating_score\",\"rating_time\",\"rating_comment\"\n"
+                                       "mushra,a@b.c,30,u-1,trial1,C2,80,1234,\n");
+    REQUIRE(listener.ok());
+    CHECK(listener->front().participant == "u-1");
+    CHECK(listener->front().block == "trial1");
+    CHECK(listener->front().stimulus == "C2");
+    CHECK(listener->front().value == 80.0);
+    const auto trial = ratingsOfCsv("rt,stimulus,response,trial_type,trial_index,subject_id\n"
+                                    "null,hello.html,null,instructions,0,s7\n812,a.wav,4,audio-slider-response,1,s7\n");
+    REQUIRE(trial.ok());
+    CHECK(trial->size() == 1);
+    CHECK(trial->front().participant == "s7");
+    CHECK(trial->front().value == 4.0);
+}
+
+TEST_CASE("Missing ratings are counted and told, and columns that may be one or the other are asked for")
+{
+    std::vector<std::string> warnings;
+    const auto read = ratingsOfCsv("stimulus,rating\na,1\nb,\nc,NA\nd,NaN\ne,2\nf\n", {}, &warnings);
+    REQUIRE(read.ok());
+    CHECK(read->size() == 2);
+    CHECK(warnings == std::vector<std::string>{"line 3: has no rating; 4 of 6 lines have none and are left out"});
+    CHECK(ratingsOfCsv("stimulus,rating\na,inf\n").error().where == "line 2");
+    CHECK(ratingsOfCsv("stimulus,rating\na,7,5\n").error().text() ==
+          "line 2: has 3 fields where the first line has 2; put texts and numbers with a separator in quotes");
+    CHECK(ratingsOfCsv("stimulus,rating\na,1.2.3\n").error().text() == "line 2: '1.2.3' is not a rating");
+    const std::string both = "stimulus,response,score\na,1,2\n";
+    CHECK(ratingsOfCsv(both).error().text() == "line 1: has the columns 'response' and 'score', which may both be the "
+                                               "rating; name it with --columns rating=NAME");
+    RatingColumns columns;
+    columns.rating = "Score";
+    CHECK(ratingsOfCsv(both, columns)->front().value == 2.0);
+    columns.rating = "other";
+    CHECK(ratingsOfCsv(both, columns).error().text() == "line 1: has no column 'other'");
+    CHECK(ratingsOfCsv(std::string("s\0t\0", 4)).error().text() ==
+          "line 1, column 1: is UTF-16 text; save it as UTF-8");
+}

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <map>
 #include <system_error>
 #include <utility>
 
@@ -35,14 +36,20 @@ public:
         addOption(*command, "--categories", categories,
                   "Table of word categories (lines of category,word; word* matches all words with this beginning)",
                   "CSV");
+        addOption(*command, "--columns", columns,
+                  "Name a column of a table of ratings: its role (group, participant, block, stimulus or rating), =, "
+                  "and its name; repeat for several",
+                  "ROLE=NAME")
+            ->allow_extra_args(false);
         command->add_flag("--mixed", mixed, "Also fit mixed models of the ratings, with Python's statsmodels");
         overwriting.declare(*command);
         command->footer(
             "Means, SDs and intervals; box plots; t-tests (pooled, Welch, paired), Mann-Whitney, effect sizes, Holm\n"
             "and Bonferroni; ICC, Kendall's W, Friedman; thresholds; choices; words; maps of similarity; mixed "
             "models.\n"
-            "A table of ratings has the columns stimulus and rating, and optionally group, participant and "
-            "block.\n\nExamples:\n  pacini study report coherence\n"
+            "A table of ratings (.csv, .tsv or .txt) has the columns stimulus and rating, and optionally group, "
+            "participant and\nblock; those of webMUSHRA and jsPsych are read as they are.\n\nExamples:\n  pacini study "
+            "report coherence\n"
             "  pacini study report ratings.csv --combine A+B");
         return command;
     }
@@ -67,6 +74,9 @@ public:
                                     Exit::usage);
             params.unions.push_back(std::move(members));
         }
+        study::RatingColumns names;
+        if (const auto wrong = takeColumns(names))
+            return console.fail("", *wrong, Exit::usage);
         if (!categories.empty())
         {
             const auto text = readWholeFile(categories, 10'000'000);
@@ -76,8 +86,8 @@ public:
             params.categories = std::move(*table);
         }
         const fs::path path(named);
-        const bool isTable = path.extension() == ".csv";
-        auto report = isTable ? ofTable(path, params) : ofStudy(console, path, params);
+        const bool isTable = path.extension() == ".csv" || path.extension() == ".tsv" || path.extension() == ".txt";
+        auto report = isTable ? ofTable(console, path, names, params) : ofStudy(console, path, params);
         if (!report)
             return console.fail(named, report.error());
         const fs::path beside =
@@ -86,11 +96,35 @@ public:
     }
 
 private:
-    static Result<StudyReport> ofTable(const fs::path& path, const StudyReportParams& params)
+    /// What --columns says; an error if that is no role and a name.
+    [[nodiscard]] std::optional<Error> takeColumns(study::RatingColumns& names) const
     {
-        const auto ratings = study::readRatings(path);
+        const std::map<std::string_view, std::string*> roles{{"group", &names.group},
+                                                             {"participant", &names.participant},
+                                                             {"block", &names.block},
+                                                             {"stimulus", &names.stimulus},
+                                                             {"rating", &names.rating}};
+        for (const std::string& text : columns)
+        {
+            const auto role = roles.find(std::string_view(text).substr(0, text.find('=')));
+            if (role == roles.end() || text.find('=') + 1 >= text.size() || text.find('=') == std::string::npos)
+                return Error{ErrorCode::invalidArgument, "--columns",
+                             fmt::format("'{}' does not name a column, such as rating=score; there are group, "
+                                         "participant, block, stimulus and rating",
+                                         text)};
+            *role->second = text.substr(text.find('=') + 1);
+        }
+        return std::nullopt;
+    }
+
+    static Result<StudyReport> ofTable(Console& console, const fs::path& path, const study::RatingColumns& names,
+                                       const StudyReportParams& params)
+    {
+        std::vector<std::string> warnings;
+        const auto ratings = study::readRatings(path, names, &warnings);
         if (!ratings)
             return ratings.error();
+        console.warnings(path.string(), warnings);
         return reportOfRatings(*ratings, path.stem().string(), params);
     }
 
@@ -136,7 +170,7 @@ private:
     }
 
     std::string named, output, categories;
-    std::vector<std::string> combined;
+    std::vector<std::string> combined, columns;
     bool mixed = false;
     OverwriteOptions overwriting;
 };
