@@ -79,6 +79,8 @@ Result<ConvertResult> convertClip(const std::filesystem::path& input, const std:
     auto exported = settings.format->write(read->clip, settings.params);
     if (!exported)
         return exported.error();
+    if (const auto fits = checkStream(output, *exported); !fits)
+        return fits.error();
     const auto existing = mayConvertTo(output, *exported, replaceable, settings.folder, before);
     if (!existing)
         return existing.error();

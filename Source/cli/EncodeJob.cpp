@@ -112,6 +112,8 @@ Result<std::size_t> EncodeJob::write(Clip clip, const Target& target, Stopwatch&
     work.run([&] { exported = settings.format->write(clip, settings.exporting); });
     if (!*exported)
         return exported->error();
+    if (const auto fits = checkStream(target.output, **exported); !fits)
+        return fits.error();
     const auto allowed = mayReplace(target.output, **exported, target.replaceable);
     if (!allowed)
         return allowed.error();

@@ -1,5 +1,7 @@
 #include "cli/Overwrite.h"
 
+#include "io/AtomicFile.h"
+
 #include <fmt/format.h>
 
 namespace pacini::cli
@@ -20,6 +22,15 @@ void OverwriteOptions::declare(CLI::App& command)
 Replaceable OverwriteOptions::of(bool named) const noexcept
 {
     return replace ? Replaceable::any : named ? Replaceable::named : Replaceable::own;
+}
+
+Result<void> checkStream(const fs::path& output, const ExportedClip& exported)
+{
+    if (exported.files.size() < 2 || !isStream(output))
+        return {};
+    return Error{ErrorCode::invalidArgument, output.string(),
+                 fmt::format("takes one file, but this clip becomes {}; name a file with -o, or leave out --split",
+                             exported.files.size())};
 }
 
 Error notReplaced(const fs::path& output, const std::string& reason)

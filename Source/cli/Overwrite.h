@@ -37,6 +37,9 @@ private:
 /// Why the file at `output` is not replaced: "exists and `reason`; ...", with what to do.
 [[nodiscard]] Error notReplaced(const std::filesystem::path& output, const std::string& reason);
 
+/// That a stream such as standard output gets one file at most. Errors: invalidArgument, with what to do.
+[[nodiscard]] Result<void> checkStream(const std::filesystem::path& output, const ExportedClip& exported);
+
 /// See mayOverwrite(); the error also suggests a remedy.
 template <typename Made>
 [[nodiscard]] Result<Existing> mayReplace(const std::filesystem::path& output, const Made& made, Replaceable allowed)

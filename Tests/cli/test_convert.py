@@ -221,6 +221,22 @@ class Convert(CommandTest):
             self.fails(1, ["convert", name, "out.json"], f"pacini: {name}: ", says)
             self.fails(1, ["info", name], f"pacini: {name}: ")
 
+    def test_several_files_do_not_go_to_standard_output(self):
+        self.clip("hit.json", transients=[{"time": 0.25, "amplitude": 1, "sharpness": 0.5}])
+        self.put("knock.wav", wav([0.0] * 4800 + [(1 - i / 480) * x for i, x in enumerate(noise(480, level=0.9))]
+                                  + [0.0] * 19200))
+        before = self.names()
+        for arguments in (["convert", "hit.json", "-o", "-", "--format", "ahap"],
+                          ["convert", "hit.json", "-o", "/dev/stdout", "--format", "ahap"],
+                          ["convert", "hit.json", "-o", "-", "--format", "android-xml"],
+                          ["encode", "knock.wav", "-o", "-", "--format", "ahap", "--audible", "0", "-q"]):
+            with self.subTest(arguments=arguments):
+                done = self.fails(1, [*arguments, "--split"], ": takes one file, but this clip becomes ",
+                                  "; name a file with -o, or leave out --split")
+                self.assertEqual(done.stdout, b"")
+        self.assertEqual(self.names(), before)
+        self.assertEqual(json.loads(self.succeeds("convert", "hit.json", "-o", "-", "--format", "haptic"))["version"]["major"], 1)
+
     def test_a_sound_goes_straight_to_a_format_of_others(self):
         self.put("tone.wav", wav(sine(120, 1.0)))
         self.succeeds("encode", "tone.wav", "-o", "tone.haptic")

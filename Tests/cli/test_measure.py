@@ -94,6 +94,11 @@ class Fit(MeasureTest):
 
 
 class EndToEnd(MeasureTest):
+    def test_several_files_do_not_go_to_standard_output(self):
+        self.fails(2, ["measure", "sweep", "-o", "-"], "-: takes one file, but a sweep is a sound and its description")
+        self.fails(2, ["measure", "simulate", "sweep.wav", "-o", "-", "--wearers", "2"], "-: takes one file, but --wearers")
+        self.assertEqual(self.names(), [])
+
     def test_one_wearer_and_several_exclude_each_other(self):
         self.fails(2, ["measure", "simulate", "sweep.wav", "-o", "rec.wav", "--wearers", "2", "--wearer", "1"],
                    "--wearers", " excludes ")

@@ -5,6 +5,7 @@
 #include "cli/Options.h"
 #include "cli/Overwrite.h"
 #include "cli/ProfileInput.h"
+#include "io/AtomicFile.h"
 #include "io/AudioFile.h"
 #include "io/Fingerprint.h"
 
@@ -50,6 +51,8 @@ public:
     Exit run(Console& console) override;
 
 private:
+    Exit record(Console& console) const;
+
     std::string input;
     std::string output;
     std::string profile = "l5-wristband";
@@ -108,6 +111,16 @@ CLI::App* SimulateSubcommand::declare(CLI::App& app)
 }
 
 Exit SimulateSubcommand::run(Console& console)
+{
+    if (wearers > 0 && isStream(output))
+        return console.fail(
+            output,
+            {ErrorCode::invalidArgument, "", "takes one file, but --wearers makes one for each; name a file with -o"},
+            Exit::usage);
+    return record(console);
+}
+
+Exit SimulateSubcommand::record(Console& console) const
 {
     const auto actuator = openProfile(console, profile);
     if (!actuator)

@@ -6,6 +6,7 @@
 #include "cli/Overwrite.h"
 #include "cli/ProfileInput.h"
 #include "cli/measure/SweepNames.h"
+#include "io/AtomicFile.h"
 #include "io/AudioWriter.h"
 #include "io/Fingerprint.h"
 #include "io/SweepFile.h"
@@ -155,6 +156,11 @@ Exit SweepSubcommand::run(Console& console)
         error.where = optionFor(error.where);
         return console.fail("", error, Exit::usage);
     }
+    if (isStream(output))
+        return console.fail(output,
+                            {ErrorCode::invalidArgument, "",
+                             "takes one file, but a sweep is a sound and its description; name a file with -o"},
+                            Exit::usage);
     const std::string description = sweepFileBeside(output).string();
     if (sameFileKey(description) == sameFileKey(output))
         return console.fail(output, {ErrorCode::invalidArgument, "", "must have the extension .wav or .flac"},
