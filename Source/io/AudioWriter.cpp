@@ -86,6 +86,12 @@ Result<int> formatOf(const fs::path& path, const AudioWriteParams& params)
                                        limits::lowestWrittenRate, limits::highestSampleRate));
     if (flac && params.encoding == SampleEncoding::float32)
         return badArgument("FLAC does not support float samples; choose 16 or 24 bit, or write a .wav");
+    constexpr int anyFlacRate = 65535, highestFlacRate = 655350; // Hz, as its frames can state them
+    if (flac && params.sampleRate > anyFlacRate && (params.sampleRate % 10 != 0 || params.sampleRate > highestFlacRate))
+        return badArgument(
+            fmt::format("FLAC does not support a sample rate of {} Hz; choose (--rate) {} to {} Hz, or a "
+                        "multiple of 10 Hz up to {} Hz, or write a .wav",
+                        params.sampleRate, limits::lowestWrittenRate, anyFlacRate, highestFlacRate));
     const auto frameBytes = static_cast<std::uint64_t>(params.channels * bits(params.encoding) / 8);
     const bool large = params.expectedFrames > largestWav / frameBytes;
     return (flac ? SF_FORMAT_FLAC : large ? SF_FORMAT_RF64 : SF_FORMAT_WAV) | subformat(params.encoding);

@@ -142,9 +142,12 @@ class Formats(CommandTest):
         self.assertLess(free, 0.01)
         self.assertLess(free, sixteen)
         self.assertLessEqual(sixteen, four)
-        for options, part in ((["--max-points", "2", "--max-segment", "400"], "envelope.points"),
-                              (["--min-segment", "600"], "envelope.longest")):
-            self.fails(1, ["convert", "clip.json", "x.xml", "--format", "android-basic", *options], part)
+        limits = ["--max-points", "2", "--max-segment", "400"]
+        self.fails(1, ["convert", "clip.json", "x.xml", "--format", "android-basic", *limits], "envelope.points")
+        for options, option in ((["--min-segment", "600"], "--min-segment"), (["--max-segment", "3", "--min-segment", "2"],
+                                                                              "--max-segment")):
+            self.fails(2, ["convert", "clip.json", "x.xml", "--format", "android-basic", *options],
+                       f"{option}: makes segments of", "raise --max-segment or lower --min-segment")
         self.fails(2, ["convert", "clip.json", "x.haptic", "--max-points", "16"], "has no effect in haptic")
 
     def test_kotlin_and_java_have_the_steps_of_the_json_in_closed_brackets(self):

@@ -7,6 +7,8 @@
 
 #include <pacini/foundation/Random.h>
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <limits>
 #include <string>
@@ -188,7 +190,15 @@ TEST_CASE("Parameters that no file can hold are refused before anything is writt
           "9 channels are not supported; write 1 to 8");
     CHECK(refused("x.wav", {.sampleRate = 0}) == "a sample rate of 0 Hz is not supported; choose 2000 to 768000 Hz");
     refused("x.wav", {.sampleRate = 768001});
+    for (const int rate : {65537, 655351, 655360, 768000})
+        CHECK(
+            refused("x.flac", {.sampleRate = rate, .encoding = SampleEncoding::pcm24}) ==
+            fmt::format("FLAC does not support a sample rate of {} Hz; choose (--rate) 2000 to 65535 Hz, or a multiple "
+                        "of 10 Hz up to 655350 Hz, or write a .wav",
+                        rate));
     CHECK(folder.entries() == 0);
+    for (const int rate : {65535, 65540, 655350})
+        CHECK(writeAudio(folder / "z.flac", samples, {.sampleRate = rate, .encoding = SampleEncoding::pcm24}).ok());
     for (int channels : {1, 64})
         for (int rate : {2000, 768000})
             CHECK(writeAudio(folder / "y.wav", samples, {.sampleRate = rate, .channels = channels}).ok());

@@ -92,6 +92,11 @@ Result<ExportParams> exportParamsOf(const ClipFormat& format, const GivenParamet
     }
     if (params.amplitudePoints && !params.frequencyPoints)
         params.frequencyPoints = frequencyShare * *params.amplitudePoints;
+    if (params.envelope && params.envelope->longest < 2 * params.envelope->shortest)
+        return Error{ErrorCode::invalidArgument, std::isnan(given.find("maxSegment")) ? "minSegment" : "maxSegment",
+                     fmt::format("makes segments of {} to {} ms, but the longest must be at least twice the shortest; "
+                                 "raise --max-segment or lower --min-segment",
+                                 params.envelope->shortest, params.envelope->longest)};
     if (params.envelope == EnvelopeLimits())
         params.envelope.reset();
     if (profile)
