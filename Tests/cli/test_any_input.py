@@ -159,6 +159,34 @@ class AnyInput(CommandTest):
         self.assertEqual(len(warnings), 21)
         self.assertEqual(warnings[-1], "typo.json: warning: and 480 more of this kind")
 
+    def test_a_byte_order_mark_is_no_part_of_a_text_and_utf_16_is_named(self):
+        self.put("tone.wav", wav(sine(100, 0.3)))
+        self.scene(plays=[{"clip": "door.json"}])
+        texts = {"door.json": ["info", "{}"], "hall.json": ["render", "{}", "-o", "o.wav", "-y"],
+                 "tap.ahap": ["convert", "{}", "o.csv", "-y"], "o.csv": ["info", "{}"], "rumble.haptic": ["info", "{}"],
+                 "mine.json": ["render", "door.json", "-o", "o.wav", "-y", "--profile", "{}"],
+                 "mine.acf": ["info", "{}"],
+                 "settings.json": ["encode", "tone.wav", "-o", "o.json", "-y", "--settings", "{}"],
+                 "labels.txt": ["compare", "tone.wav", "tone.wav", "--onsets", "{}"],
+                 "labels.json": ["compare", "tone.wav", "tone.wav", "--onsets", "{}"],
+                 "response.csv": ["measure", "fit", "{}"], "ratings.csv": ["study", "report", "{}", "-y"]}
+        profile = (SOURCE / "profiles/lra-175.json").read_text()
+        self.put("mine.json", profile)
+        self.assertEqual(self.run_command("convert", "mine.json", "mine.acf").returncode, 0)
+        self.put("settings.json", '{"format": "pacini.settings", "version": 1}')
+        self.put("labels.txt", "0.1\t0.2\thit\n")
+        self.put("labels.json", "[0.1]")
+        self.put("response.csv", "\n".join(f"{10 * f},{f % 3}" for f in range(1, 60)))
+        self.put("ratings.csv", "stimulus,rating\n" + "".join(f"{s},{r}\n" for s in "ab" for r in range(4)))
+        for name, arguments in texts.items():
+            with self.subTest(name):
+                command = [argument.format("marked-" + name) for argument in arguments]
+                text = (self.folder / name).read_bytes()
+                self.put("marked-" + name, b"\xef\xbb\xbf" + text)
+                self.assertEqual(self.run_command(*command).returncode, 0, self.run_command(*command).stderr)
+                self.put("marked-" + name, text.decode().encode("utf-16"))
+                self.fails(1, command, "marked-" + name, "UTF-16")
+
     def test_a_sound_is_still_a_sound(self):
         self.put("tone.wav", wav(sine(100, 0.3)))
         self.assertEqual(self.info("tone.wav")["kind"], "audio")
