@@ -2,10 +2,9 @@
 
 // Conversion of a clip to the states of a controller (HD rumble, motors, waveforms, samples), packet after packet.
 
-#include "devices/ClipPackets.h"
+#include "devices/ClipDrive.h"
 #include "devices/ControllerReports.h"
 #include "devices/DriveRumble.h"
-#include "devices/PacketStates.h"
 #include "devices/RumbleSource.h"
 
 #include <cstdint>
@@ -14,8 +13,7 @@
 namespace pacini::devices
 {
 
-/// Converter of a clip to states of a controller, asked for one packet after another. A controller that plays samples
-/// gets the drive signal, on both sides.
+/// Plays the drive signal of a clip as DriveRumble does, on both sides of a controller.
 class ClipRumble : public RumbleSource
 {
 public:
@@ -26,9 +24,8 @@ public:
 
 private:
     ControllerModel model;
-    ClipPackets packets;
-    PacketStates states;
-    std::optional<DriveRumble> drive; ///< for samples
+    DriveRumble drive;
+    std::optional<std::int64_t> count; ///< packets that hold something; nothing of a loop
 };
 
 } // namespace pacini::devices

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 namespace pacini::devices
@@ -10,12 +9,7 @@ namespace pacini::devices
 
 namespace
 {
-constexpr int filterOrder = 4;
-constexpr double pitchKept = 0.5; // of the packets before, in a pitch: a packet may hold less than a period
-constexpr double peakKept = 0.7;  // of the peak of the packets before: an event that returns is one again
-constexpr double eventRise = 2.0;
-constexpr double leastEvent = 0.05; // of full drive
-constexpr double longestGap = 1.0;  // s
+constexpr double longestGap = 1.0; // s
 
 RationalDecimator decimatorTo(int rate, double fs)
 {
@@ -34,78 +28,12 @@ std::int16_t sampleOf(float value) noexcept
 /// Both sides as one, for a controller that has none.
 PacketContent joined(PacketContent left, const PacketContent& right)
 {
-    left.bands.insert(left.bands.end(), right.bands.begin(), right.bands.end());
+    left.tones.insert(left.tones.end(), right.tones.begin(), right.tones.end());
     if (right.event && (!left.event || right.event->level > left.event->level))
         left.event = right.event;
     return left;
 }
 } // namespace
-
-DriveMeasure::DriveMeasure(double sampleRate) : fs(sampleRate), scratch(DriveRumble::blockFrames)
-{
-    for (std::size_t i = 0; i < parts.size(); ++i)
-    {
-        parts[i].filter.prepare({fs, DriveRumble::blockFrames});
-        parts[i].filter.setParams({.type = i == 0 ? ButterworthType::lowpass : ButterworthType::highpass,
-                                   .order = filterOrder,
-                                   .frequency = carrierBorder});
-    }
-}
-
-void DriveMeasure::add(std::span<const float> samples) noexcept
-{
-    for (const float sample : samples)
-        peak = std::max(peak, std::abs(static_cast<double>(sample)));
-    const std::span<float> filtered = std::span(scratch).first(samples.size());
-    for (Part& part : parts)
-    {
-        part.filter.process(samples, filtered);
-        for (const float sample : filtered)
-        {
-            const auto x = static_cast<double>(sample);
-            part.power += x * x;
-            part.pitchPower += x * x;
-            part.pitchSteps += (x - part.last) * (x - part.last);
-            part.peak = std::max(part.peak, std::abs(x));
-            part.last = x;
-        }
-    }
-    frames += samples.size();
-}
-
-RumbleTone DriveMeasure::toneOf(Part& part) const noexcept
-{
-    const double rms = frames > 0 ? std::sqrt(part.power / static_cast<double>(frames)) : 0.0;
-    RumbleTone tone{carrierBorder, std::min(std::numbers::sqrt2 * rms, part.peak)};
-    // x[n] - x[n - 1] of a sinusoid has 2 sin(pi f / fs) times its amplitude.
-    if (part.pitchPower > 0.0)
-        tone.frequency =
-            Hertz(fs / std::numbers::pi * std::asin(std::min(0.5 * std::sqrt(part.pitchSteps / part.pitchPower), 1.0)));
-    part.power = part.peak = 0.0;
-    part.pitchPower *= pitchKept;
-    part.pitchSteps *= pitchKept;
-    return tone;
-}
-
-PacketContent DriveMeasure::take()
-{
-    constexpr double inaudible = 1e-4; // -80 dB: decaying states of filters are silence
-    PacketContent content;
-    for (Part& part : parts)
-        if (const RumbleTone tone = toneOf(part); tone.amplitude > inaudible)
-            content.bands.push_back(tone);
-    if (peak >= leastEvent && peak > eventRise * heldPeak)
-    {
-        const MotorLevels levels = motorsOf(content.bands);
-        const double energy = levels.strong * levels.strong + levels.weak * levels.weak;
-        const double sharpness = energy > 0.0 ? levels.weak * levels.weak / energy : 0.0;
-        content.event = EventPulse{{carrierBorder, 0.0}, std::min(peak, 1.0), sharpness}; // the tones hold it already
-    }
-    heldPeak = std::max(peak, peakKept * heldPeak);
-    peak = 0.0;
-    frames = 0;
-    return content;
-}
 
 bool DriveRumble::takesRate(double sampleRate, const ControllerModel& controller) noexcept
 {

@@ -11,33 +11,19 @@ namespace
 {
 constexpr double packetRounding = 1e-6; // of a packet
 
-bool isHigh(Hertz frequency) noexcept
-{
-    return frequency >= carrierBorder;
-}
-
 std::int64_t packetsIn(double intervals) noexcept
 {
     return std::max<std::int64_t>(std::llround(intervals), 1);
 }
 } // namespace
 
-RumbleTones withPulse(RumbleTones tones, const RumbleTone& pulse) noexcept
-{
-    if (!canSound(pulse))
-        return tones;
-    RumbleTone& carrier = isHigh(pulse.frequency) ? tones.high : tones.low;
-    carrier = joinedTones(carrier, {pulse.frequency, std::min(pulse.amplitude, 1.0)});
-    return tones;
-}
-
-MotorLevels motorsOf(std::span<const RumbleTone> bands) noexcept
+MotorLevels motorsOf(std::span<const RumbleTone> tones) noexcept
 {
     double low = 0.0;
     double high = 0.0;
-    for (const RumbleTone& band : bands)
-        if (canSound(band))
-            (isHigh(band.frequency) ? high : low) += band.amplitude * band.amplitude;
+    for (const RumbleTone& tone : tones)
+        if (canSound(tone))
+            (tone.frequency >= carrierBorder ? high : low) += tone.amplitude * tone.amplitude;
     return {std::min(std::sqrt(low), 1.0), std::min(std::sqrt(high), 1.0)};
 }
 
@@ -61,12 +47,7 @@ RumbleState PacketStates::of(std::int64_t packet, const PacketContent& left, con
         return waveformFor(packet, left);
     if (!hasSides())
         return motorsFor(packet, left);
-    const auto bytesOf = [](RumbleMapper& side, const PacketContent& content)
-    {
-        const RumbleBytes bytes = side.next(content.bands);
-        return content.event ? encodeRumble(withPulse(side.played(), content.event->tone)) : bytes;
-    };
-    return SidesRumble{bytesOf(sides[0], left), bytesOf(sides[1], right)};
+    return SidesRumble{sides[0].next(left.tones), sides[1].next(right.tones)};
 }
 
 MotorLevels PacketStates::motorsFor(std::int64_t packet, const PacketContent& content) noexcept
@@ -76,7 +57,7 @@ MotorLevels PacketStates::motorsFor(std::int64_t packet, const PacketContent& co
         motorEvent = *content.event;
         motorEventEnd = packet + std::llround(motorPulse.value / interval.value);
     }
-    const MotorLevels motors = motorsOf(content.bands);
+    const MotorLevels motors = motorsOf(content.tones);
     return packet < motorEventEnd ? withPulse(motors, motorEvent) : motors;
 }
 
@@ -95,7 +76,7 @@ WaveformState PacketStates::waveformFor(std::int64_t packet, const PacketContent
         played.begins = false;
         return played;
     }
-    return lastingFor(packet, motorsOf(content.bands));
+    return lastingFor(packet, motorsOf(content.tones));
 }
 
 WaveformState PacketStates::lastingFor(std::int64_t packet, const MotorLevels& levels) noexcept

@@ -2,8 +2,8 @@
 
 // Conversion of packets (tones and an event) to the states of a controller (HD rumble, motors, waveforms).
 
-#include "devices/ClipPackets.h"
 #include "devices/ControllerReports.h"
+#include "devices/PacketContent.h"
 #include "devices/RumbleMapper.h"
 
 #include <array>
@@ -13,17 +13,10 @@
 namespace pacini::devices
 {
 
-/// HD rumble with the pulse of an event in it. The pulse belongs to the carrier that it is nearest to and is joined
-/// with what that plays. It jumps to its strength and is over with the packet, while bands go to theirs smoothly: an
-/// event shall be felt as a jump. It is not made weaker for being shorter than a packet: an actuator that comes within
-/// 37 % of a level in 10 ms (see RumbleMapperParams) gets to 78 % of it in a packet of 15 ms. The rule is ours:
-/// Nintendo has published none. [any]
-[[nodiscard]] RumbleTones withPulse(RumbleTones tones, const RumbleTone& pulse) noexcept;
-
-/// The levels of two motors for bands: the energies below and above the border of the carriers of HD rumble, 226 Hz. So
-/// a clip is split alike on all controllers; Linux (hid-nintendo.c) gives strong and weak motors the carriers' 160 and
+/// The levels of two motors for tones: the energies below and above the border of the carriers of HD rumble, 226 Hz. So
+/// a drive is split alike on all controllers; Linux (hid-nintendo.c) gives strong and weak motors the carriers' 160 and
 /// 320 Hz. [any]
-[[nodiscard]] MotorLevels motorsOf(std::span<const RumbleTone> bands) noexcept;
+[[nodiscard]] MotorLevels motorsOf(std::span<const RumbleTone> tones) noexcept;
 
 /// The levels while an event is played: at least its amplitude, dull ones on the strong motor, crisp ones on the weak
 /// one, and between the two by equal energy. [any]

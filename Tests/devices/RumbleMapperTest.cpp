@@ -1,6 +1,5 @@
 #include "devices/RumbleMapper.h"
 
-#include "devices/BandTones.h"
 #include "devices/DecodeRumble.h"
 #include "support/Catch.h"
 
@@ -178,32 +177,4 @@ TEST_CASE("Times of zero follow at once", "[devices]")
     CHECK(handover.next(first) == encodeRumble(carriersOf(first)));
     CHECK(handover.next(second) == encodeRumble(carriersOf(second)));
     CHECK(handover.next({}) == neutralRumble);
-}
-
-TEST_CASE("A clip's bands give root mean squares and pitches of a stretch", "[devices]")
-{
-    Clip clip;
-    clip.duration = 1.0;
-    clip.bands.resize(3);
-    clip.bands[0].centreFrequency = 80.0;
-    clip.bands[0].amplitude = {{0.0, 0.0}, {1.0, 1.0}};
-    clip.bands[1].centreFrequency = 160.0;
-    clip.bands[1].amplitude = {{0.0, 0.5}, {1.0, 0.5}};
-    clip.bands[1].pitch = {{0.0, 100.0}, {0.5, 100.0}, {0.5, 400.0}, {1.0, 400.0}};
-    clip.bands[2].centreFrequency = 320.0;
-
-    const auto ramp = bandTones(clip, 200_ms, 100_ms);
-    REQUIRE(ramp.size() == 3);
-    // The mean square of t over 0.2..0.3 is (0.027 - 0.008) / 0.3.
-    CHECK(ramp[0].amplitude == Approx(std::sqrt(0.019 / 0.3)).epsilon(1e-3));
-    CHECK(ramp[0].frequency.value == Approx(80.0));
-    CHECK(ramp[1].amplitude == Approx(0.5));
-    CHECK(ramp[1].frequency.value == Approx(100.0));
-    CHECK(ramp[2] == RumbleTone{320_Hz, 0.0});
-
-    // Half the stretch at 100, half at 400 Hz; half the stretch outside the clip.
-    CHECK(bandTones(clip, 450_ms, 100_ms)[1].frequency.value == Approx(200.0));
-    CHECK(bandTones(clip, 950_ms, 100_ms)[1].amplitude == Approx(0.5 * std::sqrt(0.5)));
-    CHECK(bandTones(clip, 2000_ms, 100_ms)[1].amplitude == 0.0);
-    CHECK(bandTones(clip, Seconds(-1.0), 100_ms)[0].amplitude == 0.0);
 }

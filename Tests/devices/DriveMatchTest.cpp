@@ -1,0 +1,220 @@
+// Whatever plays a clip plays the drive that `pacini render` makes: the level that each kind of device is sent follows
+// the level of the drive.
+
+#include "devices/ClipRumble.h"
+#include "devices/DecodeRumble.h"
+#include "devices/WaveformDevice.h"
+#include "io/AudioReader.h"
+#include "support/Catch.h"
+#include "support/Paths.h"
+
+#include <pacini/analysis/Encoder.h>
+#include <pacini/clip/edits/TimeEdits.h>
+#include <pacini/synthesis/RenderScene.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <filesystem>
+#include <numbers>
+#include <string>
+#include <vector>
+
+using namespace pacini;
+using namespace pacini::devices;
+
+namespace
+{
+constexpr double step = 0.001; // s, of levels
+
+// The demo sounds as they are encoded.
+std::vector<Clip> demoClips()
+{
+    std::vector<std::filesystem::path> paths;
+    for (const auto& entry : std::filesystem::directory_iterator(sourceFolder() / "Resources/demo"))
+        if (entry.path().extension() == ".flac")
+            paths.push_back(entry.path());
+    std::sort(paths.begin(), paths.end());
+    std::vector<Clip> clips;
+    for (const auto& path : paths)
+    {
+        const auto audio = readAudio(path);
+        REQUIRE(audio);
+        Encoder encoder{EncoderParams{}};
+        encoder.start(audio->sampleRate, audio->channels);
+        encoder.push(audio->samples);
+        clips.push_back(encoder.finish());
+        clips.back().name = path.stem().string();
+    }
+    return clips;
+}
+
+// As a designer edits the intensity of the whole.
+Clip withEnvelope(Clip clip)
+{
+    clip.name += ", edited envelope";
+    clip.transients.clear();
+    clip.envelope = {{0.0, 0.6}, {0.4 * clip.duration, 0.05}, {0.7 * clip.duration, 0.4}, {clip.duration, 0.02}};
+    return clip;
+}
+
+Clip onlyNoise(const Clip& clip)
+{
+    Clip noise;
+    noise.name = clip.name + ", noise alone";
+    noise.duration = clip.duration;
+    noise.noise.push_back({80.0, 300.0, {}});
+    double loudest = 0.0;
+    for (const Breakpoint& point : clip.envelope)
+        loudest = std::max(loudest, point.value);
+    for (const Breakpoint& point : clip.envelope)
+        noise.noise[0].amplitude.push_back({point.time, 0.4 * point.value / std::max(loudest, 1e-9)});
+    return noise;
+}
+
+Clip transposed(Clip clip)
+{
+    clip.name += ", transposed";
+    for (Band& band : clip.bands)
+    {
+        for (double* frequency : {&band.lowFrequency, &band.centreFrequency, &band.highFrequency})
+            *frequency *= 1.5;
+        for (Breakpoint& point : band.pitch)
+            point.value *= 1.5;
+    }
+    return clip;
+}
+
+std::vector<Clip> fortyClips()
+{
+    std::vector<Clip> all;
+    for (const Clip& clip : demoClips())
+    {
+        Clip longer = stretchClip(clip, 1.7).value();
+        longer.name += ", stretched";
+        for (const Clip& each : {Clip(clip), withEnvelope(clip), onlyNoise(clip), transposed(clip), longer})
+            all.push_back(each);
+    }
+    REQUIRE(all.size() == 40);
+    return all;
+}
+
+// Levels of squares, smoothed by a window of Hann, half as high as in its middle 25 ms beside it: a box would let pass
+// the ripple of the squares of low tones, which no level has.
+std::vector<double> smoothed(const std::vector<double>& squares)
+{
+    constexpr int reach = 50;
+    std::vector<double> levels;
+    for (int i = 0; i < static_cast<int>(squares.size()); ++i)
+    {
+        double sum = 0.0;
+        for (int k = std::max(i - reach, 0); k <= std::min(i + reach, static_cast<int>(squares.size()) - 1); ++k)
+            sum += squares[static_cast<std::size_t>(k)] * (1.0 + std::cos(std::numbers::pi * (k - i) / reach));
+        levels.push_back(std::sqrt(sum / (2.0 * reach)));
+    }
+    return levels;
+}
+
+// As `pacini render` makes it, in steps of 1 ms.
+std::vector<double> driveLevels(const Clip& clip)
+{
+    const auto rendered = renderScene(sceneOf(clip), nullptr, {});
+    REQUIRE(rendered);
+    std::vector<double> squares(static_cast<std::size_t>(clip.duration / step));
+    const std::size_t frames = 48;
+    for (std::size_t i = 0; i < squares.size(); ++i)
+        for (std::size_t k = 0; k < frames; ++k)
+        {
+            const double x = rendered->samples[i * frames + k];
+            squares[i] += 2.0 * x * x / static_cast<double>(frames);
+        }
+    return smoothed(squares);
+}
+
+double squareOf(const RumbleState& state)
+{
+    if (const auto* sides = std::get_if<SidesRumble>(&state))
+    {
+        const RumbleTones tones = decodeRumble(sides->left).value();
+        return tones.high.amplitude * tones.high.amplitude + tones.low.amplitude * tones.low.amplitude;
+    }
+    if (const auto* motors = std::get_if<MotorLevels>(&state))
+        return motors->strong * motors->strong + motors->weak * motors->weak;
+    const auto& waveform = std::get<WaveformState>(state);
+    return waveform.intensity * waveform.intensity;
+}
+
+std::vector<double> sentLevels(const Clip& clip, const ControllerModel& model)
+{
+    ClipRumble rumble(clip, {Seconds(0.0), Seconds(clip.duration)}, 0_dB, model);
+    const double interval = pacingOf(model).interval.value;
+    std::vector<double> squares(static_cast<std::size_t>(clip.duration / step));
+    std::int64_t last = -1;
+    double square = 0.0;
+    for (std::size_t i = 0; i < squares.size(); ++i)
+    {
+        const auto packet = static_cast<std::int64_t>(static_cast<double>(i) * step / interval + 1e-9);
+        if (packet != last)
+            square = squareOf(rumble.at(packet).value());
+        last = packet;
+        squares[i] = square;
+    }
+    return smoothed(squares);
+}
+
+double correlation(const std::vector<double>& a, const std::vector<double>& b)
+{
+    double sumA = 0.0, sumB = 0.0, aa = 0.0, bb = 0.0, ab = 0.0;
+    const auto n = static_cast<double>(a.size());
+    for (std::size_t i = 0; i < a.size(); ++i)
+    {
+        sumA += a[i];
+        sumB += b[i];
+        aa += a[i] * a[i];
+        bb += b[i] * b[i];
+        ab += a[i] * b[i];
+    }
+    return (ab - sumA * sumB / n) / std::sqrt((aa - sumA * sumA / n) * (bb - sumB * sumB / n));
+}
+
+// Mean difference in dB where the drive is within 10 dB of each of three levels below its loudest.
+std::vector<double> offsets(const std::vector<double>& drive, const std::vector<double>& sent)
+{
+    const double loudest = *std::max_element(drive.begin(), drive.end());
+    std::vector<double> all;
+    for (int range = 0; range < 3; ++range)
+    {
+        double sum = 0.0;
+        int count = 0;
+        for (std::size_t i = 0; i < drive.size(); ++i)
+        {
+            const double below = 20.0 * std::log10(loudest / std::max(drive[i], 1e-9));
+            if (below < 10.0 * range || below >= 10.0 * (range + 1))
+                continue;
+            sum += 20.0 * std::log10(std::max(sent[i], 1e-4) / drive[i]);
+            ++count;
+        }
+        all.push_back(count >= 50 ? sum / count : 0.0);
+    }
+    return all;
+}
+} // namespace
+
+TEST_CASE("The level that a device is sent follows the level of the rendered drive", "[devices]")
+{
+    for (const Clip& clip : fortyClips())
+    {
+        const auto drive = driveLevels(clip);
+        for (const auto haptics : {ControllerHaptics::hdRumble, ControllerHaptics::dualShock4, ControllerHaptics::xbox,
+                                   ControllerHaptics::steamDeck, ControllerHaptics::waveforms})
+        {
+            CAPTURE(clip.name, static_cast<int>(haptics));
+            const auto sent = sentLevels(clip, {haptics, Transport::usb, standardTrigger()});
+            const double agreement = correlation(drive, sent);
+            const auto off = offsets(drive, sent);
+            CHECK(agreement >= 0.95);
+            for (const double each : off)
+                CHECK(std::abs(each) <= 2.0);
+        }
+    }
+}
