@@ -1,5 +1,7 @@
 #include "devices/ClipRumble.h"
 
+#include "devices/ClipEvents.h"
+
 #include <cmath>
 
 namespace pacini::devices
@@ -11,7 +13,10 @@ constexpr double driveRate = 48000.0; // Hz; as `pacini render` unless it is tol
 } // namespace
 
 ClipRumble::ClipRumble(const Clip& clip, const PlayRange& range, Decibels intensity, const ControllerModel& controller)
-    : model(controller), drive(clipDrive(clip, range, intensity, driveRate), 1, driveRate, controller)
+    : model(controller),
+      drive(clipDrive(clip, range, intensity, driveRate), 1, driveRate, controller,
+            [events = ClipEvents(clip, range, pacingOf(controller).interval)](std::int64_t packet) mutable
+            { return events.at(packet); })
 {
     const double length = range.to.value - range.from.value;
     if (!range.loop)

@@ -16,7 +16,7 @@ constexpr double pitchKept = 0.5; // of the packets before, in a pitch: a packet
 constexpr double standing = 0.05; // of squares, from packet to packet
 constexpr double eventRise = 2.5;
 constexpr double leastEvent = 0.05; // of full drive
-constexpr double shortTime = 0.005; // s
+constexpr double shortTime = 0.004; // s
 constexpr double levelTime = 0.035; // s, in which a level that has ended falls to 37 % (1/e)
 constexpr double inaudible = 1e-4;  // -80 dB: decaying states of filters are silence
 } // namespace
@@ -62,7 +62,7 @@ void DriveMeasure::add(std::span<const float> samples) noexcept
     frames += samples.size();
 }
 
-PacketContent DriveMeasure::take()
+PacketContent DriveMeasure::take(std::optional<bool> eventBegins)
 {
     PacketContent content;
     if (frames == 0)
@@ -74,31 +74,32 @@ PacketContent DriveMeasure::take()
     const double both = squares[0] + squares[1];
     const bool stands = std::abs(both - lastSquares) <= standing * lastSquares;
     const double level = std::sqrt(stands ? both : 2.0 * power / count);
-    double high = 0.0; // share of the power
     for (std::size_t i = 0; i < parts.size(); ++i)
     {
         const double share = both > 0.0 ? squares[i] / both : 0.0;
         const RumbleTone tone{parts[i].pitch(fs), level * std::sqrt(share)};
-        high += tone.frequency >= carrierBorder ? share : 0.0;
         if (tone.amplitude > inaudible)
             content.tones.push_back(tone);
     }
-    content.event = eventAt(level, high);
+    content.event = eventAt(eventBegins);
     lastSquares = both;
     power = 0.0;
     frames = 0;
     return content;
 }
 
-std::optional<EventPulse> DriveMeasure::eventAt(double level, double sharpness) noexcept
+std::optional<double> DriveMeasure::eventAt(std::optional<bool> known) noexcept
 {
     const double strongest = std::sqrt(2.0 * loudest);
-    const bool begins = strongest >= leastEvent && strongest > eventRise * heldLevel;
+    const bool begins = known.value_or(strongest >= leastEvent && strongest > eventRise * heldLevel);
     heldLevel = std::max(strongest, heldLevel * std::exp(-static_cast<double>(frames) / fs / levelTime));
     loudest = 0.0;
-    if (!begins)
+    const double here = std::min(strongest, 1.0);
+    const double either = std::max(here, lastEvent); // a packet may begin just after its event
+    lastEvent = here;
+    if (!begins || either <= inaudible)
         return std::nullopt;
-    return EventPulse{std::min(0.5 * (strongest + level), 1.0), sharpness};
+    return either;
 }
 
 double DriveMeasure::Part::takeSquares() noexcept

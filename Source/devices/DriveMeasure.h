@@ -23,8 +23,8 @@ namespace pacini::devices
 /// same power: exact for one sinusoid, and the mean weighted by power for many. A tone that leaks through the other
 /// filter so keeps its frequency, and the mapper of tones joins it with its other half.
 ///
-/// An event is a level, over 5 ms, 2.5 times as high as those before, which fade within 35 ms: noise so has none, and a
-/// roll has all of its own. Its level is the mean of that and of the packet's.
+/// An event is a level, over 4 ms, 2.5 times as high as those before, which fade within 35 ms: noise so has few, and a
+/// roll has all of its own.
 class DriveMeasure
 {
 public:
@@ -36,11 +36,12 @@ public:
     /// At most blockFrames. [worker]
     void add(std::span<const float> samples) noexcept;
 
-    /// Of all samples since the last call. [worker]
-    [[nodiscard]] PacketContent take();
+    /// Of all samples since the last call. Where it is known whether an event begins with the packet, the signal says
+    /// how strong it is. [worker]
+    [[nodiscard]] PacketContent take(std::optional<bool> eventBegins = {});
 
 private:
-    [[nodiscard]] std::optional<EventPulse> eventAt(double level, double sharpness) noexcept;
+    [[nodiscard]] std::optional<double> eventAt(std::optional<bool> known) noexcept;
 
     struct Part
     {
@@ -64,11 +65,12 @@ private:
     std::size_t frames = 0;   ///< of the packet, as the next
     double power = 0.0;       ///< sum
     double lastSquares = 0.0; ///< of the packet before
-    std::size_t shortLength;  ///< frames of 5 ms
+    std::size_t shortLength;  ///< frames of 4 ms
     std::size_t shortFrames = 0;
     double shortPower = 0.0;
-    double loudest = 0.0;   ///< highest mean square over 5 ms in the packet
+    double loudest = 0.0;   ///< highest mean square over 4 ms in the packet
     double heldLevel = 0.0; ///< highest level of the packets before, fading
+    double lastEvent = 0.0; ///< level of an event in the packet before
 };
 
 } // namespace pacini::devices

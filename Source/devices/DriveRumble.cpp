@@ -29,7 +29,7 @@ std::int16_t sampleOf(float value) noexcept
 PacketContent joined(PacketContent left, const PacketContent& right)
 {
     left.tones.insert(left.tones.end(), right.tones.begin(), right.tones.end());
-    if (right.event && (!left.event || right.event->level > left.event->level))
+    if (right.event && (!left.event || *right.event > *left.event))
         left.event = right.event;
     return left;
 }
@@ -42,8 +42,9 @@ bool DriveRumble::takesRate(double sampleRate, const ControllerModel& controller
 }
 
 DriveRumble::DriveRumble(DriveRenderer renderer, std::size_t channelCount, double sampleRate,
-                         const ControllerModel& controller)
+                         const ControllerModel& controller, DriveEvents knownEvents)
     : render(std::move(renderer)),
+      events(std::move(knownEvents)),
       fs(sampleRate),
       model(controller),
       framesPerPacket(pacingOf(controller).interval.value * sampleRate),
@@ -110,8 +111,14 @@ std::optional<RumbleState> DriveRumble::at(std::int64_t packet)
             pull(n);
             frames -= n;
         }
+        const auto begins = events ? std::optional(events(packet - left)) : std::nullopt;
         for (std::size_t side = 0; side < measures.size(); ++side)
-            sidesContent[side] = measures[side].take();
+        {
+            PacketContent content = measures[side].take(begins);
+            if (!content.event)
+                content.event = sidesContent[side].event; // of a packet that was left out
+            sidesContent[side] = std::move(content);
+        }
     }
     if (measures.size() == 1)
         return states.of(packet, sidesContent[0]);

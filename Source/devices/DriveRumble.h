@@ -22,6 +22,9 @@ namespace pacini::devices
 /// Writes the next frames of every channel; all spans are of the same length, 1 to DriveRumble::blockFrames.
 using DriveRenderer = std::function<void(std::span<const std::span<float>>)>;
 
+/// Says whether an event begins with a packet; asked for one after another.
+using DriveEvents = std::function<bool(std::int64_t packet)>;
+
 /// Converts drive signals, pulled by the controller's thread, to states of a controller. One signal plays on both
 /// sides; of more, the first two play left and right. It never ends.
 class DriveRumble : public RumbleSource
@@ -33,8 +36,9 @@ public:
     /// are not below its own. [any]
     [[nodiscard]] static bool takesRate(double sampleRate, const ControllerModel& controller) noexcept;
 
-    /// `channels` 1 to 16, `sampleRate` such as takesRate().
-    DriveRumble(DriveRenderer renderer, std::size_t channels, double sampleRate, const ControllerModel& controller);
+    /// `channels` 1 to 16, `sampleRate` such as takesRate(). Without `events` they are found in the signals.
+    DriveRumble(DriveRenderer renderer, std::size_t channels, double sampleRate, const ControllerModel& controller,
+                DriveEvents events = {});
 
     /// Pulls the frames of the packet; those of packets that were left out are pulled and not played, but no more than
     /// a second of them: after a longer standstill the signal goes on where it was. [worker]
@@ -46,6 +50,7 @@ private:
     [[nodiscard]] std::size_t sides() const noexcept { return channels.size() > 1 ? 2 : 1; }
 
     DriveRenderer render;
+    DriveEvents events;
     double fs;
     ControllerModel model;
     double framesPerPacket;

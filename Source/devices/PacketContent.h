@@ -10,17 +10,10 @@
 namespace pacini::devices
 {
 
-/// An event as a motor or a waveform plays it.
-struct EventPulse
-{
-    double level = 0.0;     ///< 0..1
-    double sharpness = 0.0; ///< 0 dull, 1 crisp
-};
-
 struct PacketContent
 {
     std::vector<RumbleTone> tones; ///< the event is a part of them
-    std::optional<EventPulse> event;
+    std::optional<double> event; ///< its level, 0..1
 };
 
 } // namespace pacini::devices

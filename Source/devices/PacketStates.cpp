@@ -27,13 +27,6 @@ MotorLevels motorsOf(std::span<const RumbleTone> tones) noexcept
     return {std::min(std::sqrt(low), 1.0), std::min(std::sqrt(high), 1.0)};
 }
 
-MotorLevels withPulse(const MotorLevels& motors, const EventPulse& pulse) noexcept
-{
-    const double amplitude = std::min(pulse.level, 1.0);
-    return {std::max(motors.strong, amplitude * std::sqrt(1.0 - pulse.sharpness)),
-            std::max(motors.weak, amplitude * std::sqrt(pulse.sharpness))};
-}
-
 PacketStates::PacketStates(const ControllerModel& controller)
     : model(controller),
       interval(pacingOf(controller).interval),
@@ -52,13 +45,16 @@ RumbleState PacketStates::of(std::int64_t packet, const PacketContent& left, con
 
 MotorLevels PacketStates::motorsFor(std::int64_t packet, const PacketContent& content) noexcept
 {
+    const MotorLevels motors = motorsOf(content.tones);
     if (content.event)
     {
-        motorEvent = *content.event;
-        motorEventEnd = packet + std::llround(motorPulse.value / interval.value);
+        const bool alone = static_cast<double>(packet - motorEventStart) * interval.value >= rollGap.value;
+        motorEventStart = packet;
+        motorEvent = alone ? motors : MotorLevels{};
     }
-    const MotorLevels motors = motorsOf(content.tones);
-    return packet < motorEventEnd ? withPulse(motors, motorEvent) : motors;
+    if (static_cast<double>(packet - motorEventStart) * interval.value >= motorPulse.value - packetRounding)
+        return motors;
+    return {std::max(motors.strong, motorEvent.strong), std::max(motors.weak, motorEvent.weak)};
 }
 
 WaveformState PacketStates::waveformFor(std::int64_t packet, const PacketContent& content) noexcept
@@ -67,7 +63,7 @@ WaveformState PacketStates::waveformFor(std::int64_t packet, const PacketContent
         return lastingFor(packet, motorsFor(packet, content));
     if (content.event)
     {
-        played = {Waveform::event, content.event->level, true};
+        played = {Waveform::event, *content.event, true};
         playedEnd = packet + packetsIn(std::ceil(model.trigger.eventTime.value / interval.value - packetRounding));
         return played;
     }

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <span>
 
 namespace pacini::devices
@@ -18,10 +19,6 @@ namespace pacini::devices
 /// 320 Hz. [any]
 [[nodiscard]] MotorLevels motorsOf(std::span<const RumbleTone> tones) noexcept;
 
-/// The levels while an event is played: at least its amplitude, dull ones on the strong motor, crisp ones on the weak
-/// one, and between the two by equal energy. [any]
-[[nodiscard]] MotorLevels withPulse(const MotorLevels& motors, const EventPulse& pulse) noexcept;
-
 /// Converter of packets to the states of any controller that is not sent samples.
 ///
 /// On waveforms (see chosenWaveforms()), an event is triggered in its packet at its level and interrupts the continuous
@@ -30,9 +27,12 @@ namespace pacini::devices
 class PacketStates
 {
 public:
-    /// For how long motors are held up for an event: a shorter push is not felt. Source: Lofelt, NiceVibrations, which
-    /// plays emphasis on motors for 30 ms.
+    /// For how long motors are held up, at the levels of the packet in which an event begins: a shorter push is not
+    /// felt. Source: Lofelt, NiceVibrations, which plays emphasis on motors for 30 ms.
     static constexpr Seconds motorPulse{0.030};
+
+    /// An event that comes sooner after another is part of a roll, which held motors would fill up. Ours.
+    static constexpr Seconds rollGap{0.080};
 
     explicit PacketStates(const ControllerModel& controller);
 
@@ -56,8 +56,8 @@ private:
     ControllerModel model;
     Seconds interval;
     std::array<RumbleMapper, 2> sides;
-    EventPulse motorEvent;
-    std::int64_t motorEventEnd = 0; ///< the packet after it
+    MotorLevels motorEvent;                                                  ///< at which they are held up
+    std::int64_t motorEventStart = std::numeric_limits<std::int32_t>::min(); ///< its packet
     WaveformState played;
     std::int64_t playedEnd = 0; ///< the packet at which what is played has ended by itself
 };

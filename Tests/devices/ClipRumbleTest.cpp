@@ -110,15 +110,30 @@ TEST_CASE("A loop goes on where it starts, with its events each time", "[devices
     CHECK(eventsOf(states) == std::vector<std::size_t>{5, 30, 55, 80, 105, 130});
 }
 
-TEST_CASE("Events are triggered when they are, once, also in a dense roll", "[devices]")
+TEST_CASE("Every event is triggered once, in the packet that starts nearest to it, also on top of a rumble",
+          "[devices]")
 {
-    std::vector<Transient> roll;
-    for (const double time : {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9})
-        roll.push_back({time, 0.7, 0.5});
-    const auto events = eventsOf(statesOf<WaveformState>(steadyClip(0.0, roll), touchpad));
-    REQUIRE(events.size() == 9);
-    for (std::size_t i = 0; i < events.size(); ++i)
-        CHECK(events[i] == 5 * (i + 1));
+    for (const double bands : {0.0, 0.5})
+    {
+        std::vector<Transient> roll;
+        for (const double time : {0.1, 0.149, 0.151, 0.3, 0.4, 0.42, 0.5})
+            roll.push_back({time, 0.7, 0.5});
+        const auto states = statesOf<WaveformState>(steadyClip(bands, roll), touchpad);
+        CHECK(eventsOf(states) == std::vector<std::size_t>{5, 7, 8, 15, 20, 21, 25});
+        CHECK(states[15].intensity > 0.4);
+    }
+    CHECK(eventsOf(statesOf<WaveformState>(steadyClip(0.5), touchpad)).empty());
+}
+
+TEST_CASE("Events of packets that were left out come in the next", "[devices]")
+{
+    ClipRumble rumble(steadyClip(0.0, {{0.1, 1.0, 0.5}, {0.11, 1.0, 0.5}}), wholeClip, 0_dB, touchpad);
+    static_cast<void>(rumble.at(0));
+    const auto late = std::get<WaveformState>(rumble.at(20).value());
+    CHECK(late.waveform == Waveform::event);
+    CHECK(late.begins);
+    CHECK(late.intensity > 0.4);
+    CHECK_FALSE(std::get<WaveformState>(rumble.at(21).value()).begins);
 }
 
 TEST_CASE("Motors are held up for an event for 30 ms", "[devices]")
@@ -153,7 +168,7 @@ TEST_CASE("On waveforms an event has its own time, then what lasts goes on", "[d
     ControllerModel model = touchpad;
     model.trigger.eventTime = 45_ms; // ends within the third packet
     const auto states = statesOf<WaveformState>(steadyClip(0.2, {{0.5, 1.0, 1.0}}), model);
-    for (std::size_t packet = 10; packet < 40; ++packet) // after the beginning, which is an event
+    for (std::size_t packet = 1; packet < 40; ++packet)
     {
         CAPTURE(packet);
         const bool isEvent = packet >= 25 && packet < 28;
@@ -195,7 +210,7 @@ TEST_CASE("A device without lasting waveforms plays events only, one without eve
     ControllerModel rumbles = touchpad;
     rumbles.trigger.event = 0;
     const auto rumbled = statesOf<WaveformState>(clip, rumbles);
-    for (std::size_t packet = 10; packet < 40; ++packet)
+    for (std::size_t packet = 1; packet < 40; ++packet)
     {
         CAPTURE(packet);
         CHECK(clicked[packet].waveform == (packet == 25 ? Waveform::event : Waveform::stop));

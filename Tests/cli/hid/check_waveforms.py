@@ -39,7 +39,8 @@ def check_stream(device, path):
     states = [told(report) for _, report in device.writes]
     check("all reports are triggers", None not in states, str(device.writes[:3]))
     clicks = [state for state in states if state[0] == 4]
-    check("each event clicks, as strong as it is", clicks == [(4, 90)] * 20, str(clicks))
+    check("each event clicks, stronger than what it is in", len(clicks) == 20 and all(state[1] >= 55 for state in clicks),
+          str(clicks))
     rumbles = [state for state in states if state[0] == 3]
     check("in between it rumbles along with the envelope",
           len(rumbles) >= 20 and all(39 <= state[1] <= 51 for state in rumbles) and rumbles[0] > rumbles[-1],
