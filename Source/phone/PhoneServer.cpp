@@ -1,8 +1,8 @@
 #include "phone/PhoneServer.h"
 
 #include "PhonePage.h"
+#include "devices/TouchPlan.h"
 #include "io/JsonTree.h"
-#include "io/formats/json/ClipJson.h"
 #include "phone/PairingCode.h"
 
 #include <boost/asio/buffer.hpp>
@@ -22,6 +22,7 @@
 #include <atomic>
 #include <cctype>
 #include <chrono>
+#include <cmath>
 #include <deque>
 #include <functional>
 #include <iterator>
@@ -372,8 +373,21 @@ public:
 
     void show(const Clip& clip) override
     {
-        auto json = Json::parse(writeClipJson(clip), nullptr, false);
-        tell(std::make_shared<const std::string>(Json{{"kind", "clip"}, {"clip", std::move(json)}}.dump()),
+        const devices::TouchPlan plan = devices::touchPlan(clip);
+        const auto milliseconds = [](double seconds)
+        {
+            return std::llround(1000.0 * seconds);
+        };
+        Json touches = Json::array();
+        for (const devices::Touch& touch : plan.touches)
+            touches.push_back({milliseconds(touch.start), milliseconds(touch.end)});
+        const Json message{{"kind", "clip"},
+                           {"name", clip.name},
+                           {"duration", clip.duration},
+                           {"longest", devices::longestTouched.value},
+                           {"leftOut", plan.leftOut},
+                           {"touches", std::move(touches)}};
+        tell(std::make_shared<const std::string>(message.dump(-1, ' ', false, Json::error_handler_t::replace)),
              [this](const Text& text)
              {
                  clipText = text;

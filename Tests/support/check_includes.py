@@ -33,7 +33,7 @@ NO_WINDOWS = ("juce_gui_basics", "juce_gui_extra", "juce_audio_utils", "JuceHead
 SOURCE = {
     "io": ({"io"}, NO_JUCE),
     "study": ({"io", "study"}, NO_JUCE),
-    "phone": ({"io", "phone"}, NO_JUCE),
+    "phone": ({"io", "devices", "phone"}, NO_JUCE),
     "cli": ({"io", "study", "devices", "phone", "cli"}, NO_JUCE),
     "document": ({"io", "document"}, NO_JUCE),
     "devices": ({"devices"}, NO_JUCE),

@@ -1,6 +1,6 @@
 // The phone: plays what the program at the other end plays, as near to its time as the clocks are known.
 
-import { longestFelt, touchesOf, vibrateBy } from './vibration.js'
+import { touchesOf, vibrateBy } from './vibration.js'
 
 const element = (id) => document.getElementById(id)
 const say = (text) => { element('status').textContent = text }
@@ -50,10 +50,11 @@ const connect = () => {
       bestDelay += 0.5
     } else if (message.kind === 'clip') {
       stop()
-      touches = touchesOf(message.clip)
-      name = message.clip.name || 'clip'
-      const { duration } = message.clip
-      element('clip').textContent = `${name}, ${duration.toFixed(2)} s${duration > longestFelt ? ', of which the first hour is felt' : ''}`
+      touches = touchesOf(message.touches)
+      name = message.name || 'clip'
+      const { duration, longest, leftOut } = message
+      element('clip').textContent = `${name}, ${duration.toFixed(2)} s${duration > longest ? ', of which the first hour is felt' : ''}` +
+        (leftOut > 0 ? `; ${leftOut} ${leftOut === 1 ? 'event comes' : 'events come'} too soon after another for a phone` : '')
       element('alone').disabled = !canVibrate
     } else if (message.kind === 'play' && ready && canVibrate) {
       // At `at` of the other end's clock, `from` s of the clip were played there.

@@ -185,5 +185,16 @@ export const reports = async (clip, { vendor, product, bluetooth = false, gain =
   return { reports: cut(value.reports, outputs[0]), stops: cut(value.stops, outputs[1]) }
 }
 
+/**
+ * What motors play of a clip: `motors`, the levels of a strong and a weak one by turns, 0 to 1, every `interval` s, as
+ * `playEffect('dual-rumble')` takes them; and `touches`, when a motor that is only on or off, such as a phone's, is on:
+ * pairs of ms. Of its `events`, `leftOut` come too soon after another for that. Of more than an hour, the first is felt.
+ */
+export const touch = async (clip, { signal } = {}) => {
+  const bytes = await ownBytes(clip, signal)
+  const { value, outputs } = (await ready('devices', signal)).call('touch', {}, [bytes])
+  return { ...value, motors: floats(outputs[0]) }
+}
+
 /** What the modules take of memory, bytes. */
 export const memoryInUse = () => [...instances.values()].reduce((sum, { memoryBytes }) => sum + memoryBytes, 0)

@@ -1,7 +1,7 @@
 // Touch: game controllers, and phones that vibrate.
 
 import { choose, chosen, isBluetooth, playReports } from './hid.js'
-import { rumbleOf, touchesOf, vibrateBy } from './vibration.js'
+import { touchesOf, vibrateBy } from './vibration.js'
 
 /** Controllers that rumble now. */
 export const rumbling = () => [...(navigator.getGamepads?.() ?? [])].filter((pad) => pad?.vibrationActuator)
@@ -33,25 +33,25 @@ export const feel = async (clip, signal, call) => {
     return true
   }
   const pads = rumbling()
+  if (pads.length === 0 && typeof navigator.vibrate !== 'function') return false
+  const { motors, interval, touches } = await call('touch', clip)
+  if (signal.aborted) return true
+  const started = performance.now()
   if (pads.length === 0) {
-    if (typeof navigator.vibrate !== 'function') return false
-    const started = performance.now()
-    await vibrateBy(() => (performance.now() - started) / 1000, touchesOf(clip), signal)
+    await vibrateBy(() => (performance.now() - started) / 1000, touchesOf(touches), signal)
     return true
   }
-  const frames = rumbleOf(clip)
-  const started = performance.now()
   signal.addEventListener('abort', () => pads.forEach((pad) => pad.vibrationActuator.reset?.()), { once: true })
   let last = -1
   await new Promise((resolve) => {
     const tick = () => {
-      const index = Math.floor((performance.now() - started) / 16)
-      if (signal.aborted || index >= frames.length) return resolve()
+      const index = Math.floor((performance.now() - started) / 1000 / interval)
+      if (signal.aborted || 2 * index >= motors.length) return resolve()
       if (index !== last) {
         last = index
         for (const pad of pads)
           pad.vibrationActuator.playEffect('dual-rumble', {
-            startDelay: 0, duration: 60, strongMagnitude: frames[index].strong, weakMagnitude: frames[index].weak
+            startDelay: 0, duration: 60, strongMagnitude: motors[2 * index], weakMagnitude: motors[2 * index + 1]
           })
       }
       requestAnimationFrame(tick)

@@ -1,4 +1,4 @@
-// The module of game controllers: the bytes that play a clip.
+// The module of game controllers and phones: what plays a clip on them.
 
 #include "web/core/Call.h"
 
@@ -11,6 +11,7 @@ std::span<const NamedHandler> handlers()
 {
     static constexpr std::array all{
         NamedHandler{"reports", listReports},
+        NamedHandler{"touch", planTouch},
     };
     return all;
 }

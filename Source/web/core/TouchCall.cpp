@@ -1,0 +1,51 @@
+// The call `touch`: what motors play of a clip.
+
+#include "devices/ClipRumble.h"
+#include "devices/TouchPlan.h"
+#include "web/core/Call.h"
+
+#include <pacini/foundation/Units.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <variant>
+#include <vector>
+
+namespace pacini::web
+{
+
+Result<void> planTouch(Call& call)
+{
+    if (call.reader.error)
+        return {};
+    auto clip = clipOf(call, 0);
+    if (!clip)
+        return clip.error();
+    const devices::TouchPlan plan = devices::touchPlan(*clip);
+    Json touches = Json::array();
+    for (const devices::Touch& touch : plan.touches)
+        touches.push_back({std::llround(1000.0 * touch.start), std::llround(1000.0 * touch.end)});
+
+    const devices::ControllerModel motors{devices::ControllerHaptics::xbox, devices::Transport::usb};
+    const double end = std::min(clip->duration, devices::longestTouched.value);
+    std::vector<float> levels;
+    if (end > 0.0)
+    {
+        devices::ClipRumble rumble(*clip, {Seconds(0.0), Seconds(end)}, Decibels(0.0), motors);
+        for (std::int64_t packet = 0; const auto state = rumble.at(packet); ++packet)
+        {
+            const auto& each = std::get<devices::MotorLevels>(*state);
+            levels.push_back(static_cast<float>(each.strong));
+            levels.push_back(static_cast<float>(each.weak));
+        }
+    }
+    call.value = {{"interval", devices::pacingOf(motors).interval.value},
+                  {"touches", std::move(touches)},
+                  {"events", plan.events},
+                  {"leftOut", plan.leftOut}};
+    call.put(levels);
+    return {};
+}
+
+} // namespace pacini::web
