@@ -132,7 +132,13 @@ Report reportOf(const ControllerModel& model, const RumbleState& state, unsigned
     if (model.haptics == ControllerHaptics::steamDeck)
         return steamDeckReport(motors);
     if (model.haptics == ControllerHaptics::dualSense)
-        return dualSenseReport(model.transport, motors, DualSenseMode::rumble, counter);
+    {
+        if (!model.oldRumble)
+            return dualSenseReport(model.transport, motors, DualSenseMode::improvedRumble, counter);
+        // As of old the motors are much stronger: half of each is about as strong. Source: SDL, SDL_hidapi_ps5.c.
+        return dualSenseReport(model.transport, {0.5 * motors.strong, 0.5 * motors.weak}, DualSenseMode::rumble,
+                               counter);
+    }
     if (model.transport == Transport::bluetooth)
         return dualShock4BluetoothReport(motors);
     return dualShock4UsbReport(motors);

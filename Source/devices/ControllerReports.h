@@ -24,6 +24,7 @@ struct ControllerModel
     ControllerHaptics haptics = ControllerHaptics::hdRumble;
     Transport transport = Transport::unknown;
     WaveformTrigger trigger{}; ///< of waveforms: those of the device that is open
+    bool oldRumble = false;    ///< of a DualSense: its firmware is older than 2.24
     bool operator==(const ControllerModel&) const = default;
 };
 

@@ -7,6 +7,7 @@
 
 #include <pacini/foundation/Result.h>
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,6 +22,7 @@ struct Controller
     Transport transport = Transport::unknown;
     std::string path;                          ///< what the system calls it
     std::optional<WaveformDevice> waveforms{}; ///< for ControllerHaptics::waveforms
+    std::uint16_t product = 0;                 ///< USB number
 };
 
 /// The connected controllers of controllerHaptics() and the devices of waveformDevice(), sorted by path, each once. On

@@ -136,6 +136,7 @@ Result<std::vector<Controller>> controllersByHidapi()
         if (const auto haptics = controllerHaptics(info->vendor_id, info->product_id))
         {
             controller.haptics = *haptics;
+            controller.product = info->product_id;
             controller.transport = transportByProduct(*haptics, info->product_id).value_or(controller.transport);
             if (hasMakersPage(*haptics) && info->usage_page < 0xFF00)
                 continue;

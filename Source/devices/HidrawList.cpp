@@ -115,6 +115,7 @@ std::optional<Controller> controllerOf(const std::string& node)
         if (hasMakersPage(*haptics) && !holdsMakersPage(bytes))
             return std::nullopt;
         controller.haptics = *haptics;
+        controller.product = product;
         controller.transport = transportByProduct(*haptics, product).value_or(controller.transport);
     }
     else

@@ -3,8 +3,10 @@
 // Table of the supported controllers: USB ids -> kind of haptics.
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 
 namespace pacini::devices
 {
@@ -72,6 +74,18 @@ enum class Transport
         if (known.maker == maker && known.product == product)
             return known.haptics;
     return std::nullopt;
+}
+
+/// Whether a DualSense follows the closer likeness of rumble that came with firmware 2.24, by its feature report 0x20:
+/// an Edge does, and so does one that does not tell its firmware. Source: SDL, SDL_hidapi_ps5.c. [any]
+[[nodiscard]] constexpr bool hasImprovedRumble(std::uint16_t product,
+                                               std::span<const std::byte> firmwareReport) noexcept
+{
+    if (product == 0x0DF2 || firmwareReport.size() < 46)
+        return true;
+    const unsigned version =
+        std::to_integer<unsigned>(firmwareReport[44]) | std::to_integer<unsigned>(firmwareReport[45]) << 8;
+    return version == 0 || version >= 0x0224;
 }
 
 /// The connection of a known controller that has another product number for each; nothing for the others. [any]

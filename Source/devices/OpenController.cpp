@@ -21,6 +21,12 @@ Result<std::unique_ptr<OpenController>> OpenController::open(const std::string& 
 Result<ControllerModel> modelOf(const Controller& controller, OpenController& open)
 {
     ControllerModel model{controller.haptics, controller.transport};
+    if (controller.haptics == ControllerHaptics::dualSense)
+    {
+        constexpr std::uint8_t firmware = 0x20;
+        const auto report = open.feature(firmware, 64);
+        model.oldRumble = report && !hasImprovedRumble(controller.product, *report);
+    }
     if (!controller.waveforms)
         return model;
     const auto trigger = chosenWaveforms(*controller.waveforms, [&](std::uint8_t report, std::size_t bytes)

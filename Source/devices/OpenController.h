@@ -31,8 +31,8 @@ public:
     [[nodiscard]] virtual Result<std::vector<std::byte>> feature(std::uint8_t report, std::size_t bytes) = 0;
 };
 
-/// What a controller that is open understands; one that plays waveforms is asked for them. Errors: those of
-/// chosenWaveforms(). [worker]
+/// What a controller that is open understands; one that plays waveforms is asked for them, a DualSense for its
+/// firmware. Errors: those of chosenWaveforms(). [worker]
 [[nodiscard]] Result<ControllerModel> modelOf(const Controller& controller, OpenController& open);
 
 } // namespace pacini::devices

@@ -1,4 +1,6 @@
+#include "devices/ControllerReports.h"
 #include "devices/Crc32.h"
+#include "devices/OpenController.h"
 #include "devices/SonyReports.h"
 #include "devices/SwitchReports.h"
 #include "devices/XboxReport.h"
@@ -80,6 +82,50 @@ TEST_CASE("A DualSense gets the flags of its firmware", "[devices]")
     CHECK(numbersOf(dualSenseBluetoothReport(uneven, DualSenseMode::improvedRumble, 11)) ==
           signedBy(0x7DC1F80Eu,
                    reportWith(78, {{0, 0x31}, {1, 0xB0}, {2, 0x10}, {3, 0x02}, {5, 64}, {6, 191}, {41, 4}})));
+}
+
+TEST_CASE("A DualSense is sent the rumble of its firmware, that of old at half", "[devices]")
+{
+    ControllerModel model{ControllerHaptics::dualSense, Transport::usb};
+    CHECK(reportOf(model, uneven, 0) == Report(dualSenseUsbReport(uneven, DualSenseMode::improvedRumble)));
+    model.oldRumble = true;
+    CHECK(reportOf(model, uneven, 0) ==
+          Report(dualSenseUsbReport({0.5 * uneven.strong, 0.5 * uneven.weak}, DualSenseMode::rumble)));
+
+    // It is asked for, as it is opened.
+    struct Pad : OpenController
+    {
+        void prepare(const StopReports&) override {}
+        Result<void> send(const Report&) override { return {}; }
+        Result<std::vector<std::byte>> feature(std::uint8_t report, std::size_t) override
+        {
+            asked = report;
+            if (version < 0)
+                return Error{ErrorCode::io, "", "does not answer"};
+            std::vector<std::byte> bytes(64);
+            bytes[44] = static_cast<std::byte>(version & 0xFF);
+            bytes[45] = static_cast<std::byte>(version >> 8);
+            return bytes;
+        }
+        int version = 0;
+        int asked = 0;
+    };
+    Controller controller;
+    controller.haptics = ControllerHaptics::dualSense;
+    for (const auto& [product, version, old] : {std::tuple{0x0CE6, 0x0223, true},
+                                                {0x0CE6, 0x0224, false},
+                                                {0x0CE6, 0x0630, false},
+                                                {0x0CE6, 0, false},
+                                                {0x0CE6, -1, false},
+                                                {0x0DF2, 0x0100, false}})
+    {
+        CAPTURE(product, version);
+        Pad pad;
+        pad.version = version;
+        controller.product = static_cast<std::uint16_t>(product);
+        CHECK(modelOf(controller, pad).value().oldRumble == old);
+        CHECK(pad.asked == 0x20);
+    }
 }
 
 TEST_CASE("A DualSense is given back to its audio by a report without flags", "[devices]")

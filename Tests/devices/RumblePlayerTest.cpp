@@ -230,7 +230,7 @@ TEST_CASE("A DualSense is given back to its audio at the end", "[devices]")
     REQUIRE(sent.size() >= 4);
     const auto last = static_cast<unsigned>(sent.size() - 1);
     CHECK(sent[last].report == Report(dualSenseBluetoothReport({}, DualSenseMode::audioHaptics, last)));
-    CHECK(sent[last - 1].report == Report(dualSenseBluetoothReport({}, DualSenseMode::rumble, last - 1)));
+    CHECK(sent[last - 1].report == Report(dualSenseBluetoothReport({}, DualSenseMode::improvedRumble, last - 1)));
 }
 
 TEST_CASE("Stopping from another thread interrupts the real clock at once", "[devices]")
