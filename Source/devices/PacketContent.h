@@ -13,7 +13,7 @@ namespace pacini::devices
 struct PacketContent
 {
     std::vector<RumbleTone> tones; ///< the event is a part of them
-    std::optional<double> event; ///< its level, 0..1
+    std::optional<double> event;   ///< its level, 0..1
 };
 
 } // namespace pacini::devices
