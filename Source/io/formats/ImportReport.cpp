@@ -82,10 +82,15 @@ void lastUntilSounded(Clip& clip)
         lengthen(clip, end);
 }
 
+void sortByTime(std::span<Transient> events)
+{
+    std::stable_sort(events.begin(), events.end(),
+                     [](const Transient& a, const Transient& b) { return a.time < b.time; });
+}
+
 void finishImported(Clip& clip, bool endIsStated)
 {
-    std::stable_sort(clip.transients.begin(), clip.transients.end(),
-                     [](const Transient& a, const Transient& b) { return a.time < b.time; });
+    sortByTime(clip.transients);
     if (!endIsStated)
         lastUntilSounded(clip);
     std::vector<double> energies;

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -51,6 +52,9 @@ void lengthen(Clip& clip, double duration);
 void lastUntilSounded(Clip& clip);
 
 /// Puts events in order of time, lets the last of them sound unless the file states where the clip ends, and gives
+/// Brings events into the order of their times; those of the same time stay as they are.
+void sortByTime(std::span<Transient> events);
+
 /// bands their priorities by energy.
 void finishImported(Clip& clip, bool endIsStated = false);
 

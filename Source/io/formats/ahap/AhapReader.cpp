@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <list>
 #include <set>
 #include <utility>
 
@@ -32,6 +33,8 @@ enum EnvelopeTime : std::size_t
     release
 };
 constexpr std::array<std::string_view, 3> envelopeTimes{"AttackTime", "DecayTime", "ReleaseTime"};
+constexpr std::array<std::string_view, 3> envelopeControls{"HapticAttackTimeControl", "HapticDecayTimeControl",
+                                                           "HapticReleaseTimeControl"};
 
 struct HapticEvent
 {
@@ -106,10 +109,9 @@ Curve shaped(Curve level, const Curve& envelope)
 }
 
 /// All controls of one dynamic parameter, one after another, from the value it has without any.
-Curve joined(std::vector<Curve> controls, double initial)
+Curve joined(std::list<Curve> controls, double initial)
 {
-    std::stable_sort(controls.begin(), controls.end(),
-                     [](const Curve& a, const Curve& b) { return a.front().time < b.front().time; });
+    controls.sort([](const Curve& a, const Curve& b) { return a.front().time < b.front().time; });
     Curve curve{{0.0, initial}};
     for (const Curve& control : controls)
     {
@@ -151,9 +153,9 @@ public:
 
     Result<ImportedClip> read()
     {
-        if (const JsonEntry version = root.optional("Version"); version.numberOrText() > 1.0)
-            version.fail(fmt::format("is {}, but only version 1 is read", version.numberOrText()),
-                         ErrorCode::unsupportedVersion);
+        const JsonEntry version = root.optional("Version");
+        if (const double number = version.numberOrText(); number > 1.0)
+            version.fail(fmt::format("is {}, but only version 1 is read", number), ErrorCode::unsupportedVersion);
         clip.name = root.optional("Metadata").optional("Project").text();
         root.required("Pattern").forEach([&](const JsonEntry& entry, std::size_t) { readEntry(entry); });
         if (!error)
@@ -214,7 +216,7 @@ private:
         const std::string type = entry.required("EventType").text();
         if (type == "AudioContinuous" || type == "AudioCustom")
         {
-            ignored.insert("Pattern: audio events are not kept");
+            ignore("Pattern: audio events are not kept");
             return;
         }
         HapticEvent event;
@@ -227,14 +229,20 @@ private:
         entry.optional("EventParameters")
             .forEach([&](const JsonEntry& parameter, std::size_t) { readParameter(parameter, hasEnvelope, event); });
         if (event.times[event.sustains ? decay : release] > 0.0)
-            ignored.insert("Pattern: DecayTime of events that sustain and ReleaseTime of those that do not have no "
-                           "effect in Core Haptics and are not kept");
+            ignore("Pattern: DecayTime of events that sustain and ReleaseTime of those that do not have no "
+                   "effect in Core Haptics and are not kept");
         if (type == "HapticTransient")
             transients.push_back(event);
         else if (type == "HapticContinuous")
             continuous.push_back(event);
         else if (!type.empty())
             entry.optional("EventType").fail("is no type of event: '" + shownText(type) + "'");
+    }
+
+    void ignore(std::string warning) { ignored.insert(std::move(warning)); }
+    void ignoreParameter(std::string_view id)
+    {
+        ignore(fmt::format("Pattern: the parameter {} is not kept", shownText(id)));
     }
 
     void readParameter(const JsonEntry& parameter, bool hasEnvelope, HapticEvent& event)
@@ -252,7 +260,7 @@ private:
             event.sustains = limited(value, 0.0, 1.0) >= 0.5;
         else if (!id.empty() && (value.number() != 0.0 || id == "Sustained") &&
                  !(id == "Sustained" && value.number() == 1.0))
-            ignored.insert(fmt::format("Pattern: the parameter {} is not kept", shownText(id)));
+            ignoreParameter(id);
     }
 
     void readCurve(const JsonEntry& entry)
@@ -284,12 +292,12 @@ private:
         if (error)
             return;
         const bool intensity = id == "HapticIntensityControl";
-        std::vector<Curve>* const controls = intensity                        ? &intensityControls
-                                             : id == "HapticSharpnessControl" ? &sharpnessControls
-                                                                              : timeControlsOf(id);
+        std::list<Curve>* const controls = intensity                        ? &intensityControls
+                                           : id == "HapticSharpnessControl" ? &sharpnessControls
+                                                                            : timeControlsOf(id);
         if (controls == nullptr)
         {
-            ignored.insert(fmt::format("Pattern: the parameter {} is not kept", shownText(id)));
+            ignoreParameter(id);
             return;
         }
         const double low = intensity ? 0.0 : -1.0;
@@ -307,10 +315,10 @@ private:
     }
 
     /// The controls of the envelopes' part that `id` names; null when it names none.
-    std::vector<Curve>* timeControlsOf(std::string_view id)
+    std::list<Curve>* timeControlsOf(std::string_view id)
     {
-        for (std::size_t part = 0; part < envelopeTimes.size(); ++part)
-            if (id == fmt::format("Haptic{}Control", envelopeTimes[part]))
+        for (std::size_t part = 0; part < envelopeControls.size(); ++part)
+            if (id == envelopeControls[part])
                 return &timeControls[part];
         return nullptr;
     }
@@ -323,8 +331,8 @@ private:
         {
             return a.time < b.time;
         };
-        std::stable_sort(transients.begin(), transients.end(), earlier);
-        std::stable_sort(continuous.begin(), continuous.end(), earlier);
+        transients.sort(earlier);
+        continuous.sort(earlier);
         CurveReader scale(intensity), shift(sharpness);
         for (const HapticEvent& event : transients)
         {
@@ -346,8 +354,8 @@ private:
         {
             if (event.isEndless())
             {
-                ignored.insert("Pattern: continuous events without a duration last to the end of the pattern, but at "
-                               "most 30 s");
+                ignore("Pattern: continuous events without a duration last to the end of the pattern, but at "
+                       "most 30 s");
                 const double latest = std::min(event.time + longestAhapEvent, limits::duration);
                 event.end = event.time < patternEnd ? std::min(patternEnd, latest) : latest;
                 finishEnvelope(event, times);
@@ -363,8 +371,8 @@ private:
         if (!limited)
             return root.optional("Pattern").fail(limited.error().message, limited.error().code);
         if (*limited)
-            ignored.insert("Pattern: continuous events that sound together are weaker where they add up to more than "
-                           "full drive");
+            ignore("Pattern: continuous events that sound together are weaker where they add up to more than "
+                   "full drive");
     }
 
     /// Adds what the controls say to the times of the envelope, and lets the clip last until the event has sounded.
@@ -376,8 +384,8 @@ private:
             event.times[part] = std::clamp(event.times[part] + valueAt(controls[part], when), 0.0, 1.0);
         }
         if (event.times[attack] > 0.0 || event.times[event.sustains ? release : decay] > 0.0)
-            ignored.insert("Pattern: AttackTime, DecayTime and ReleaseTime are read as seconds, since Apple does not "
-                           "say how long they are on a phone");
+            ignore("Pattern: AttackTime, DecayTime and ReleaseTime are read as seconds, since Apple does not "
+                   "say how long they are on a phone");
         clip.duration = std::max({clip.duration, event.end, envelopeOf(event).back().time});
     }
 
@@ -436,9 +444,9 @@ private:
     std::optional<Error> error;
     JsonEntry root;
     Clip clip;
-    std::vector<HapticEvent> transients, continuous;
-    std::vector<Curve> intensityControls, sharpnessControls;
-    std::array<std::vector<Curve>, 3> timeControls;
+    std::list<HapticEvent> transients, continuous;
+    std::list<Curve> intensityControls, sharpnessControls;
+    std::array<std::list<Curve>, 3> timeControls;
     std::size_t pointCount = 0;
     std::set<std::string> ignored; ///< warnings that are given once
     std::vector<std::string> warnings;

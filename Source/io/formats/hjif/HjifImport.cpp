@@ -137,8 +137,7 @@ private:
         {
             return a.time < b.time;
         };
-        const auto begin = clip.transients.begin() + static_cast<std::ptrdiff_t>(first);
-        std::stable_sort(begin, clip.transients.end(), earlier);
+        sortByTime(std::span(clip.transients).subspan(first));
         const std::size_t taps = clip.transients.size();
         for (const Transient& pulse : pulses)
         {
