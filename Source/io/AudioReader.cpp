@@ -4,6 +4,7 @@
 #include "io/InputFile.h"
 #include "io/RateRaiser.h"
 #include "io/SoundHandle.h"
+#include "io/SoundMarkers.h"
 #include "io/SoundPartView.h"
 #include "io/SoundParts.h"
 
@@ -155,6 +156,7 @@ struct AudioReader::State
     std::uint64_t replaced = 0;
     bool ended = false;
     std::vector<std::string> warnings;
+    std::vector<Marker> markers;
     std::optional<RateRaiser> raiser;
 
     /// Fills `interleaved` at the rate of the file.
@@ -449,6 +451,7 @@ Result<AudioReader> AudioReader::open(const fs::path& path, AudioReadOptions opt
     if (const auto opened = state->openPart(); !opened)
         return opened.error();
     state->warnOfGap();
+    state->markers = soundMarkers(state->sound.get(), state->info.samplerate);
     if (const int rate = state->info.samplerate; rate < options.lowestSampleRate)
     {
         state->raiser.emplace(rate, options.lowestSampleRate, static_cast<std::size_t>(state->info.channels));
@@ -461,6 +464,11 @@ Result<AudioReader> AudioReader::open(const fs::path& path, AudioReadOptions opt
 int AudioReader::sampleRate() const noexcept
 {
     return state->info.samplerate * (state->raiser ? state->raiser->multiple() : 1);
+}
+
+const std::vector<Marker>& AudioReader::markers() const noexcept
+{
+    return state->markers;
 }
 
 int AudioReader::channels() const noexcept

@@ -2,6 +2,7 @@
 
 // Streaming reader of audio files that may be damaged or hostile.
 
+#include <pacini/clip/Clip.h>
 #include <pacini/foundation/DspBlock.h>
 #include <pacini/foundation/Result.h>
 
@@ -82,6 +83,9 @@ public:
                 return {};
         }
     }
+
+    /// The markers of the file, in order, with times in s of its sound (which may end before them); see soundMarkers().
+    [[nodiscard]] const std::vector<Marker>& markers() const noexcept;
 
     /// Samples that allowNan has replaced so far.
     [[nodiscard]] std::uint64_t replacedSamples() const noexcept;

@@ -77,7 +77,8 @@ public:
 
     /// The clip of an open file, named by `input`: on its grids and sealed, as clip files hold it. Only for methods
     /// that make clips. `progress(share)` is called now and then; `work` counts the time without access to files. Long
-    /// files are read twice. Errors: those of AudioReader, tooLarge beyond 24 hours.
+    /// files are read twice. Markers of the file are the clip's. Errors: those of AudioReader, tooLarge beyond 24
+    /// hours.
     [[nodiscard]] Result<Clip> clipOf(AudioReader& reader, const std::filesystem::path& input, const Progress& progress,
                                       Stopwatch& work)
     {
@@ -97,8 +98,11 @@ public:
             progress(done + (1.0 - done) * part);
         };
         SoundFileParts file(reader, rest);
-        return clipOf({reader.sampleRate(), reader.channels(), reader.frames().value_or(0), scale}, file,
-                      clipNamesOf(input), work);
+        auto clip = clipOf({reader.sampleRate(), reader.channels(), reader.frames().value_or(0), scale}, file,
+                           clipNamesOf(input), work);
+        if (clip)
+            addMarkers(*clip, reader.markers());
+        return clip;
     }
 
     /// The same of the sound that `next()` hands out as SoundPart by SoundPart. Errors: those of next(), tooLarge
@@ -155,6 +159,16 @@ public:
     }
 
 private:
+    /// Those that lie within the clip, on its grid. Seals are made without markers.
+    static void addMarkers(Clip& clip, const std::vector<Marker>& markers)
+    {
+        for (const Marker& marker : markers)
+            if (marker.time <= clip.duration)
+                clip.markers.push_back(marker);
+        if (!clip.markers.empty())
+            clip = onGrids(std::move(clip));
+    }
+
     /// Sounds that are worth being read twice, so that what is found in them need not be kept.
     [[nodiscard]] static bool isLong(const AudioReader& reader)
     {
