@@ -111,11 +111,11 @@ double DriveMeasure::Part::takeSquares() noexcept
     return squares;
 }
 
-Hertz DriveMeasure::Part::pitch(double fs) const noexcept
+Hertz DriveMeasure::Part::pitch(double sampleRate) const noexcept
 {
     if (!(pitchPower > 0.0))
         return carrierBorder;
-    return Hertz(fs / std::numbers::pi * std::asin(std::min(0.5 * std::sqrt(pitchSteps / pitchPower), 1.0)));
+    return Hertz(sampleRate / std::numbers::pi * std::asin(std::min(0.5 * std::sqrt(pitchSteps / pitchPower), 1.0)));
 }
 
 } // namespace pacini::devices

@@ -49,7 +49,7 @@ private:
         /// times its amplitude, a quarter of a period later; the squares of both, the second without that factor, add
         /// up to the same at any time.
         [[nodiscard]] double takeSquares() noexcept;
-        [[nodiscard]] Hertz pitch(double fs) const noexcept;
+        [[nodiscard]] Hertz pitch(double sampleRate) const noexcept;
 
         Butterworth filter;
         double last = 0.0;

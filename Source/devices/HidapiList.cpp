@@ -29,7 +29,7 @@ std::string utf8(const wchar_t* text)
     std::string bytes;
     for (; text != nullptr && *text != L'\0'; ++text)
     {
-        const auto code = static_cast<std::uint32_t>(*text);
+        const std::uint32_t code = std::char_traits<wchar_t>::to_int_type(*text);
         const auto add = [&](std::uint32_t byte)
         {
             bytes += static_cast<char>(static_cast<unsigned char>(byte));
