@@ -1,6 +1,6 @@
 // What the package says of its types, read by a compiler: each line that must be refused stands under its mark.
-import { encode, felt, formats, lint, PaciniError, profileNames, read, reapply, render, reports, touch, write } from 'pacini'
-import type { Clip, Loss, MotorPlan, Sound } from 'pacini'
+import { encode, felt, formats, lint, PaciniError, profileNames, read, reapply, render, reports, rumble, touch, write } from 'pacini'
+import type { Clip, Loss, RumblePlan, Sound, TouchPlan } from 'pacini'
 import { createTranslator } from 'pacini/translator'
 
 const sound: Sound = { samples: new Float32Array(4800), sampleRate: 48000 }
@@ -15,7 +15,8 @@ export const use = async (context: AudioContext): Promise<number> => {
   const losses: Loss[] = await lint(clip, { format: 'ahap' })
   const { files } = await write(clip, { format: (await formats())[0].name })
   const { reports: bytes } = await reports(clip, { vendor: 0x054c, product: 0x0ce6 })
-  const { motors, touches }: MotorPlan = await touch(packed)
+  const { motors }: RumblePlan = await rumble(packed)
+  const { touches }: TouchPlan = await touch(packed)
   const node: AudioWorkletNode = await createTranslator(context, { profile: 'lra-175' })
   const { unfitting } = await reapply(clip, packed, [{ kind: 'transient', after: { time: 0, amplitude: 1, sharpness: 0 }, frequencies: [], clipDuration: 1 }])
   const { warnings } = await read(files[0].bytes)

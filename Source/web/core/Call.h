@@ -88,6 +88,7 @@ struct NamedHandler
 [[nodiscard]] Result<void> lintClip(Call& call);
 [[nodiscard]] Result<void> reapplyEdits(Call& call);
 [[nodiscard]] Result<void> listReports(Call& call);
+[[nodiscard]] Result<void> planRumble(Call& call);
 [[nodiscard]] Result<void> planTouch(Call& call);
 [[nodiscard]] Result<void> drawSpectrogram(Call& call);
 

@@ -1,4 +1,4 @@
-// The call `touch`: what motors play of a clip.
+// The calls `rumble` and `touch`: what the two motors of a controller, and one that is only on or off, play of a clip.
 
 #include "devices/ClipRumble.h"
 #include "devices/TouchPlan.h"
@@ -17,8 +17,6 @@ namespace pacini::web
 
 Result<void> planTouch(Call& call)
 {
-    if (call.reader.error)
-        return {};
     auto clip = clipOf(call, 0);
     if (!clip)
         return clip.error();
@@ -26,7 +24,15 @@ Result<void> planTouch(Call& call)
     Json touches = Json::array();
     for (const devices::Touch& touch : plan.touches)
         touches.push_back({std::llround(1000.0 * touch.start), std::llround(1000.0 * touch.end)});
+    call.value = {{"touches", std::move(touches)}, {"events", plan.events}, {"leftOut", plan.leftOut}};
+    return {};
+}
 
+Result<void> planRumble(Call& call)
+{
+    auto clip = clipOf(call, 0);
+    if (!clip)
+        return clip.error();
     const devices::ControllerModel motors{devices::ControllerHaptics::xbox, devices::Transport::usb};
     const double end = std::min(clip->duration, devices::longestTouched.value);
     std::vector<float> levels;
@@ -40,10 +46,7 @@ Result<void> planTouch(Call& call)
             levels.push_back(static_cast<float>(each.weak));
         }
     }
-    call.value = {{"interval", devices::pacingOf(motors).interval.value},
-                  {"touches", std::move(touches)},
-                  {"events", plan.events},
-                  {"leftOut", plan.leftOut}};
+    call.value["interval"] = devices::pacingOf(motors).interval.value;
     call.put(levels);
     return {};
 }

@@ -317,19 +317,24 @@ export interface Report {
 /** The HID reports that play a clip on a game controller, and those that silence it at any moment. */
 export function reports(clip: ClipInput, options: ReportsOptions): Promise<{ reports: Report[], stops: Report[] }>
 
-export interface MotorPlan {
+export interface RumblePlan {
   /** Levels of a strong and a weak motor by turns, 0 to 1. */
   motors: Float32Array
   /** Seconds from one pair of levels to the next. */
   interval: number
-  /** When a motor that is only on or off is on: start and end, ms. */
+}
+/** What the two motors of a controller play of a clip, of which no more than an hour is felt. */
+export function rumble(clip: ClipInput, options?: Stoppable): Promise<RumblePlan>
+
+export interface TouchPlan {
+  /** When the motor is on: start and end, ms. */
   touches: [number, number][]
   /** Events of the clip, and those of them that come too soon after another to be a touch of their own. */
   events: number
   leftOut: number
 }
-/** What the motors of a controller or a phone play of a clip, of which no more than an hour is felt. */
-export function touch(clip: ClipInput, options?: Stoppable): Promise<MotorPlan>
+/** When a motor that is only on or off, such as a phone's, is on while a clip plays, of which no more than an hour is felt. */
+export function touch(clip: ClipInput, options?: Stoppable): Promise<TouchPlan>
 
 /** From another place than beside this package: the URL of a folder, or compiled modules by name. Before the first call. */
 export function loadFrom(place: URL | Record<string, WebAssembly.Module>): void

@@ -186,14 +186,22 @@ export const reports = async (clip, { vendor, product, bluetooth = false, gain =
 }
 
 /**
- * What motors play of a clip: `motors`, the levels of a strong and a weak one by turns, 0 to 1, every `interval` s, as
- * `playEffect('dual-rumble')` takes them; and `touches`, when a motor that is only on or off, such as a phone's, is on:
- * pairs of ms. Of its `events`, `leftOut` come too soon after another for that. Of more than an hour, the first is felt.
+ * What the two motors of a controller play of a clip: `motors`, the levels of the strong and the weak one by turns, 0 to
+ * 1, every `interval` s, as `playEffect('dual-rumble')` takes them. Of more than an hour, the first is felt.
+ */
+export const rumble = async (clip, { signal } = {}) => {
+  const bytes = await ownBytes(clip, signal)
+  const { value, outputs } = (await ready('devices', signal)).call('rumble', {}, [bytes])
+  return { ...value, motors: floats(outputs[0]) }
+}
+
+/**
+ * When a motor that is only on or off, such as a phone's, is on while a clip plays: `touches`, pairs of ms. Of its
+ * `events`, `leftOut` come too soon after another for that. Of more than an hour, the first is felt.
  */
 export const touch = async (clip, { signal } = {}) => {
   const bytes = await ownBytes(clip, signal)
-  const { value, outputs } = (await ready('devices', signal)).call('touch', {}, [bytes])
-  return { ...value, motors: floats(outputs[0]) }
+  return (await ready('devices', signal)).call('touch', {}, [bytes]).value
 }
 
 /** What the modules take of memory, bytes. */

@@ -33,14 +33,16 @@ export const feel = async (clip, signal, call) => {
     return true
   }
   const pads = rumbling()
-  if (pads.length === 0 && typeof navigator.vibrate !== 'function') return false
-  const { motors, interval, touches } = await call('touch', clip)
-  if (signal.aborted) return true
-  const started = performance.now()
   if (pads.length === 0) {
+    if (typeof navigator.vibrate !== 'function') return false
+    const { touches } = await call('touch', clip)
+    const started = performance.now()
     await vibrateBy(() => (performance.now() - started) / 1000, touchesOf(touches), signal)
     return true
   }
+  const { motors, interval } = await call('rumble', clip)
+  if (signal.aborted) return true
+  const started = performance.now()
   signal.addEventListener('abort', () => pads.forEach((pad) => pad.vibrationActuator.reset?.()), { once: true })
   let last = -1
   await new Promise((resolve) => {

@@ -11,6 +11,7 @@ std::span<const NamedHandler> handlers()
 {
     static constexpr std::array all{
         NamedHandler{"reports", listReports},
+        NamedHandler{"rumble", planRumble},
         NamedHandler{"touch", planTouch},
     };
     return all;
