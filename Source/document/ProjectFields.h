@@ -36,7 +36,10 @@ template <typename Params, typename Visitor>
 void visitEncoder(Params& params, Visitor& visitor)
 {
     if constexpr (isReader<Visitor>)
+    {
         params.audible = 0.0; // before there was such a field, nothing of it was felt
+        params.heard = HeardRole::instead;
+    }
     visitParameters(encoderParameters, params, visitor);
 }
 

@@ -502,44 +502,65 @@ TEST_CASE("What is heard above the range of touch is felt as a tone, unless it i
     auto x = bursts(3000.0, 0.3, 48000);
     for (std::size_t n = 0; n < x.size(); ++n) // something low, steady and soft
         x[n] += static_cast<float>(0.003 * std::sin(2.0 * std::numbers::pi * 60.0 * static_cast<double>(n) / 48000.0));
-    const Clip usual = encode(x, 48000, 1, audibleParams(0.0));
-    const Clip clip = encode(x, 48000);
-    CHECK(validate(clip));
-    // The soft tone is raised to full drive and hides the bursts; their loudness does not.
-    CHECK(valueAt(usual.envelope, 0.5) > 0.5 * valueAt(usual.envelope, 0.63));
-    CHECK(valueAt(clip.envelope, 0.60) < 0.6 * valueAt(clip.envelope, 0.64));
-    CHECK(valueAt(clip.envelope, 0.74) < 0.7 * valueAt(clip.envelope, 0.64));
-    const Band& loudest = loudestBand(clip, 0.63);
-    CHECK(loudest.lowFrequency < 290.0);
-    CHECK(loudest.highFrequency > 150.0);
-    CHECK(valueAt(loudest.pitch, 0.63) > 140.0);
-    CHECK(valueAt(loudest.pitch, 0.63) < 300.0);
-    CHECK(loudestBand(usual, 0.63).highFrequency < 100.0);
+    for (const HeardRole role : {HeardRole::beside, HeardRole::instead})
+    {
+        CAPTURE(role);
+        const auto paramsOf = [role](double audible)
+        {
+            EncoderParams params = audibleParams(audible);
+            params.heard = role;
+            return params;
+        };
+        const Clip usual = encode(x, 48000, 1, paramsOf(0.0));
+        const Clip clip = encode(x, 48000, 1, paramsOf(1.0));
+        CHECK(validate(clip));
+        // The soft tone is raised to full drive and hides the bursts; their loudness does not.
+        CHECK(valueAt(usual.envelope, 0.5) > 0.5 * valueAt(usual.envelope, 0.63));
+        CHECK(valueAt(clip.envelope, 0.60) < 0.6 * valueAt(clip.envelope, 0.64));
+        CHECK(valueAt(clip.envelope, 0.74) < 0.7 * valueAt(clip.envelope, 0.64));
+        const Band& loudest = loudestBand(clip, 0.63);
+        CHECK(loudest.lowFrequency < (role == HeardRole::beside ? 380.0 : 290.0));
+        CHECK(loudest.highFrequency > 150.0);
+        CHECK(valueAt(loudest.pitch, 0.63) > 140.0);
+        CHECK(valueAt(loudest.pitch, 0.63) < (role == HeardRole::beside ? 390.0 : 300.0));
+        CHECK(loudestBand(usual, 0.63).highFrequency < 100.0);
 
-    const Clip half = encode(x, 48000, 1, audibleParams(0.5));
-    CHECK(half.envelope != clip.envelope);
-    CHECK(half.envelope != usual.envelope);
-    CHECK(std::get<double>(half.encoder[half.encoder.size() - 2].value) == 0.5);
-    // Halfway is halfway.
-    const double between =
-        0.5 * (valueAt(clip.envelope, 0.74) + valueAt(usual.envelope, 0.74)) / valueAt(half.envelope, 0.74);
-    CHECK(between > 0.7);
-    CHECK(between < 1.4);
+        const Clip half = encode(x, 48000, 1, paramsOf(0.5));
+        CHECK(half.envelope != clip.envelope);
+        CHECK(half.envelope != usual.envelope);
+        const auto recorded = std::find_if(half.encoder.begin(), half.encoder.end(),
+                                           [](const EncoderParameter& p) { return p.name == "audible"; });
+        REQUIRE(recorded != half.encoder.end());
+        CHECK(std::get<double>(recorded->value) == 0.5);
+        // Halfway is halfway.
+        const double between =
+            0.5 * (valueAt(clip.envelope, 0.74) + valueAt(usual.envelope, 0.74)) / valueAt(half.envelope, 0.74);
+        CHECK(between > 0.7);
+        CHECK(between < 1.4);
+    }
 }
 
 TEST_CASE("Brighter sounds are felt higher", "[analysis][encoder]")
 {
-    const auto pitch = [](double frequency)
+    const auto pitch = [](double frequency, HeardRole role)
     {
-        const Clip clip = encode(bursts(frequency, 0.3, 48000), 48000, 1, audibleParams(1.0));
+        EncoderParams params = audibleParams(1.0);
+        params.heard = role;
+        const Clip clip = encode(bursts(frequency, 0.3, 48000), 48000, 1, params);
         const Band& band = loudestBand(clip, 0.63);
         return band.pitch.empty() ? band.centreFrequency : valueAt(band.pitch, 0.63);
     };
-    CHECK(pitch(1300.0) < 200.0);
-    CHECK(pitch(1300.0) < pitch(3000.0));
-    CHECK(pitch(3000.0) < pitch(9000.0));
-    CHECK(pitch(9000.0) > 250.0);
-    CHECK(pitch(9000.0) < 300.0);
+    CHECK(pitch(1300.0, HeardRole::instead) < 200.0);
+    CHECK(pitch(9000.0, HeardRole::instead) > 250.0);
+    CHECK(pitch(9000.0, HeardRole::instead) < 300.0);
+    CHECK(pitch(1300.0, HeardRole::beside) < 320.0);
+    CHECK(pitch(9000.0, HeardRole::beside) > 340.0);
+    CHECK(pitch(9000.0, HeardRole::beside) < 400.0);
+    for (const HeardRole role : {HeardRole::beside, HeardRole::instead})
+    {
+        CHECK(pitch(1300.0, role) < pitch(3000.0, role));
+        CHECK(pitch(3000.0, role) < pitch(9000.0, role));
+    }
 }
 
 TEST_CASE("A sound that lives in the range of touch is the same clip with what is heard", "[analysis][encoder]")

@@ -96,7 +96,7 @@ TEST_CASE("in silence no part of the translator computes with denormal numbers",
         [&](std::span<const double> in)
         {
             std::array<double, controlHop> out{};
-            heard.aim(1.0, 1.0, 1.0);
+            heard.aim(1.0, 1.0, 1.0, 0.0, 0.0);
             heard.process(in, in, out, 0);
             heard.flush();
         }));

@@ -105,7 +105,7 @@ struct BandAnalysisResult
     double peak = 0.0;             ///< largest magnitude of the analytic signal of all bands together
     std::vector<float> envelope;   ///< mean magnitude of that analytic signal
     std::vector<Track> tracks;     ///< one for every band
-    std::vector<float> heardShare; ///< 0-1 of each value of `envelope`: how far AudibleBlend took over; empty: nowhere
+    std::vector<float> heardShare; ///< 0-1 of each value of `envelope`: how far HeardInstead took over; empty: nowhere
     std::vector<std::vector<float>>
         noise; ///< linear RMS, a frame every bandStep, of each noise band of the clip, if any
 

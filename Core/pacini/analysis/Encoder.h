@@ -3,15 +3,18 @@
 // Audio-to-haptic encoder: samples -> Clip by Pacini's own translation, "a2vt".
 
 #include <pacini/analysis/AnalysisInput.h>
-#include <pacini/analysis/AudibleBlend.h>
 #include <pacini/analysis/BandAnalysis.h>
 #include <pacini/analysis/ClipFitter.h>
 #include <pacini/analysis/EncoderParams.h>
 #include <pacini/analysis/EvenTrains.h>
+#include <pacini/analysis/HeardBeside.h>
+#include <pacini/analysis/HeardInstead.h>
 #include <pacini/analysis/HeardLevel.h>
+#include <pacini/analysis/HeardSurvey.h>
 #include <pacini/analysis/OnsetDetector.h>
 #include <pacini/analysis/OnsetFeatures.h>
 #include <pacini/analysis/OnsetMeasure.h>
+#include <pacini/analysis/SoundScale.h>
 #include <pacini/clip/BandPriority.h>
 #include <pacini/clip/Clip.h>
 #include <pacini/clip/PackedClip.h>
@@ -123,7 +126,7 @@ public:
         detector.emplace(settings.onsets);
         heard.reset();
         if (settings.audible > 0.0)
-            heard.emplace(bandsOf(settings), settings.audible);
+            heard.emplace(bandsOf(settings), settings);
         clip = {};
         clip.source.sampleRate = fs;
         clip.source.channels = channels;
@@ -167,10 +170,27 @@ private:
     /// What is heard, where that is wanted.
     struct Heard
     {
-        Heard(std::span<const BandEdges> bands, double audible) : blend(bands, audible) {}
+        Heard(std::span<const BandEdges> bands, const EncoderParams& params)
+            : role(params.heard), beside(bands, params.audible), instead(bands, params.audible)
+        {
+        }
+
+        /// As next() of both has it.
+        void next(BandAnalysisResult& found, std::span<const HeardFrame> values, std::size_t end,
+                  std::span<const TrainSpan> trains, const SoundScale& scale)
+        {
+            if (role == HeardRole::beside)
+                beside.next(found, values, end, scale);
+            else
+                instead.next(found, values, end, trains, scale);
+        }
 
         HeardLevel level;
-        AudibleBlend blend;
+
+    private:
+        HeardRole role;
+        HeardBeside beside;
+        HeardInstead instead;
     };
 
     void detectOnsets()
@@ -191,7 +211,7 @@ private:
     [[nodiscard]] SoundScale scaleOf(const BandAnalysisResult& found, std::span<const Onset> onsets) const
     {
         const auto all = heard ? heard->level.found() : std::span<const HeardFrame>();
-        return HeardSurvey(settings.audible).finish(all, onsets, found.peak);
+        return HeardSurvey(settings.audible, settings.heard).finish(all, onsets, found.peak);
     }
 
     /// Is all there that a section needs?
@@ -208,8 +228,8 @@ private:
         const auto trains = evenTrains(ahead, trainGapSeconds);
         if (heard)
         {
-            heard->blend.next(found, heard->level.found().first(SoundSection::framesSeen), SoundSection::frames + 1,
-                              trains, scale);
+            heard->next(found, heard->level.found().first(SoundSection::framesSeen), SoundSection::frames + 1, trains,
+                        scale);
             heard->level.drop(SoundSection::frames);
         }
         fit(found.takeFirst(SoundSection::seconds), scale.peak, ahead, trains);
@@ -221,7 +241,7 @@ private:
         const auto ahead = onsetsFrom(onsets, sectionStart());
         const auto trains = evenTrains(ahead, trainGapSeconds);
         if (heard)
-            heard->blend.next(found, heard->level.found(), heard->level.found().size(), trains, scale);
+            heard->next(found, heard->level.found(), heard->level.found().size(), trains, scale);
         heard.reset(); // before curves are fitted, which takes memory too
         fit(std::move(found), scale.peak, ahead, trains);
     }

@@ -16,6 +16,13 @@
 namespace pacini
 {
 
+/// How sound above the range of touch is felt.
+enum class HeardRole
+{
+    beside,  ///< as a tone beside the low part of the sound, see HeardBeside
+    instead, ///< instead of the low part, where most of what is heard lies above it, see HeardInstead
+};
+
 /// Parameters of the encoder; encoderParameters describes them.
 struct EncoderParams
 {
@@ -27,13 +34,16 @@ struct EncoderParams
     int quantise = 6;          ///< see PackParams
     bool normalise = true;     ///< scale to full drive; otherwise full scale is full drive, and sounds more than 54 dB
                                ///< above it are scaled down to that
-    double audible = 1.0;      ///< see AudibleBlend
-    OnsetParams onsets;        ///< what counts as an event; see Onset
+    double audible = 1.0;      ///< how much of what lies above the range of touch is felt
+    HeardRole heard = HeardRole::beside;
+    OnsetParams onsets; ///< what counts as an event; see Onset
     bool operator==(const EncoderParams&) const = default;
 };
 
 inline constexpr std::array<std::string_view, 2> spacingNames{"log", "linear"};
 inline constexpr std::array<std::string_view, 2> spacingMembers{"logarithmic", "linear"};
+
+inline constexpr std::array<std::string_view, 2> heardRoleNames{"beside", "instead"};
 
 /// What users can set of EncoderParams, in the order of help texts and records.
 inline constexpr std::array encoderParameters{
@@ -78,11 +88,15 @@ inline constexpr std::array encoderParameters{
          .group = "Analysis"}),
     described<&EncoderParams::audible>(
         {.name = "audible",
-         .text = "Influence of the loudness of sound above the range of touch (rain, ticks, birds); 0 keeps the beat "
-                 "of music",
+         .text = "Amount of sound above the range of touch that is felt (hi-hats, rain, ticks); 0: none",
          .range = {0, 1},
          .group = "Analysis",
          .alwaysRecorded = true}), // clips without it are from before there was such a thing
+    described<&EncoderParams::heard>({.name = "heard",
+                                      .text = "Role of that sound: beside the low part, which stays as it is, or "
+                                              "instead of it where most of the sound lies above touch",
+                                      .choices = heardRoleNames,
+                                      .group = "Analysis"}),
     described<&EncoderParams::normalise>({.name = "keepLevel",
                                           .member = "normalise",
                                           .text = "Keep the level of the sound instead of raising it to full drive",

@@ -3,10 +3,10 @@
 // First pass over a sound: properties of the whole sound that fitting its curves piece by piece requires.
 
 #include <pacini/analysis/AnalysisInput.h>
-#include <pacini/analysis/AudibleBlend.h>
 #include <pacini/analysis/BandAnalysis.h>
 #include <pacini/analysis/Encoder.h>
 #include <pacini/analysis/HeardLevel.h>
+#include <pacini/analysis/HeardSurvey.h>
 #include <pacini/analysis/OnsetDetector.h>
 #include <pacini/analysis/OnsetFeatures.h>
 
@@ -69,7 +69,7 @@ private:
     struct Heard
     {
         Heard(int sampleRate, std::size_t channels, const EncoderParams& params)
-            : features(sampleRate, channels), detector(params.onsets), survey(params.audible)
+            : features(sampleRate, channels), detector(params.onsets), survey(params.audible, params.heard)
         {
         }
 

@@ -288,20 +288,23 @@ private:
         }
         loudest = 0.0;
 
-        heardVoice.aim(audibleShare(), texture, gainShare);
-        const double others = heardVoice.bandsGain();
-        direct.aim(others * rumble * directShare(), others * texture * directShare(), gainShare);
+        direct.aim(rumble * directShare(), texture * directShare(), gainShare);
+        double played = 0.0; // power (amplitude squared) of the bands
+        double low = 0.0;    // of those that mask what is heard
         std::array<double, maxTranslatorBands> carrierGains{};
         for (std::size_t k = 0; k < design->bands.size(); ++k)
         {
             const TranslatorBand& band = design->bands[k];
-            const double role = others * (band.rumble ? rumble : texture);
+            const double role = band.rumble ? rumble : texture;
             if (!design->motor)
                 carrierGains[k] = role * (band.shown ? 1.0 - directShare() : 1.0);
             const double power = 2.0 * meter.takePower(k) / static_cast<double>(controlHop);
             bandPowers[k] += levelShare * (power - bandPowers[k]);
             flushTiny(bandPowers[k]);
+            played += role * role * bandPowers[k];
+            low += band.centre.value < heardMaskedBy ? role * role * bandPowers[k] : 0.0;
         }
+        heardVoice.aim(audibleShare(), texture, gainShare, std::sqrt(played), low);
         carriers.aim(carrierGains, ratio, attackShare, releaseShare, directShare() == 0.0 || !design->anyDirect);
         bright.aim((1.0 - heardVoice.share()) * brightGain(), gainShare, design->brightFrequency / rate);
         playedEnergy = 0.0;
@@ -363,7 +366,6 @@ private:
             out[i] = static_cast<float>(y[i]);
             if (i == eventAt)
             {
-                heardVoice.noteEvent(event);
                 onEvent(frame + i - std::min<std::uint64_t>(frame + i, watch.delayFrames()), event.amplitude);
                 beginPulse(event, i);
             }

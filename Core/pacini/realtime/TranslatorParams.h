@@ -32,7 +32,7 @@ struct TranslatorParams
     RoleParams texture{};              ///< the other bands
     RoleParams transients{};           ///< events: pulses that top what the bands give them
     double brightness = -6.0;          ///< dB
-    double audible = 0.0;              ///< share
+    double audible = 1.0;              ///< share
     double transposition = 0.0;        ///< semitones; other than 0 everything is played by carriers
     double direct = 1.0;               ///< share
     double attack = 1.0;               ///< ms
@@ -54,13 +54,14 @@ inline constexpr std::array translatorParameters{
     described<&TranslatorParams::brightness>(
         {.name = "brightness",
          .text =
-             "Level of sound above the range of touch, played as a tone of 200 Hz; the lowest value switches it off",
+             "Level of sound above 320 Hz, played as a tone of 200 Hz as far as `audible` is below 1; the lowest value "
+             "switches it off",
          .unit = "dB",
          .range = {lowestBrightness, 12}}),
-    described<&TranslatorParams::audible>(
-        {.name = "audible",
-         .text = "Influence of the loudness of sound above the range of touch; 0 keeps the beat of music",
-         .range = {0, 1}}),
+    described<&TranslatorParams::audible>({.name = "audible",
+                                           .text = "Amount of sound above the range of touch that is felt beside the "
+                                                   "low part (hi-hats, rain, ticks); 0: none",
+                                           .range = {0, 1}}),
     described<&TranslatorParams::transposition>(
         {.name = "transposition", .text = "Shift in pitch", .unit = "semitones", .range = {-48, 48}}),
     described<&TranslatorParams::direct>(

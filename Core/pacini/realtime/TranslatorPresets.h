@@ -22,16 +22,20 @@ struct TranslatorPreset
 [[nodiscard]] inline const std::array<TranslatorPreset, 7>& translatorPresets() noexcept
 {
     static constexpr std::array<TranslatorPreset, 7> presets{{
-        {"Neutral", "the sound's own range of touch, with stronger events", {}},
+        {"Neutral", "the range of touch of the sound, with hats and ticks beside it and stronger events", {}},
         {"Music",
          "a firm bass under a lighter body; only clear events",
-         {.intensity = 3.0, .rumble = {2.0}, .texture = {-3.0}, .transients = {-3.0}, .transientSensitivity = 0.4}},
+         {.intensity = 3.0,
+          .rumble = {2.0},
+          .texture = {-3.0},
+          .transients = {-3.0},
+          .audible = 0.5,
+          .transientSensitivity = 0.4}},
         {"Games and effects",
          "strong impacts, full body, fast attack",
          {.intensity = 6.0,
           .rumble = {3.0},
           .transients = {4.0},
-          .audible = 1.0,
           .transientSensitivity = 0.6,
           .transientSharpness = 0.2,
           .gateThreshold = -60.0}},
@@ -51,7 +55,12 @@ struct TranslatorPreset
          {.rumble = {0.0, true}, .texture = {0.0, true}, .transients = {12.0}}},
         {"Subtle",
          "subtle, for long sessions",
-         {.intensity = -9.0, .texture = {-3.0}, .transients = {-6.0}, .brightness = -12.0, .gateThreshold = -55.0}},
+         {.intensity = -9.0,
+          .texture = {-3.0},
+          .transients = {-6.0},
+          .brightness = -12.0,
+          .audible = 0.5,
+          .gateThreshold = -55.0}},
     }};
     return presets;
 }

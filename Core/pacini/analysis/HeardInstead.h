@@ -1,45 +1,21 @@
 #pragma once
 
-// Blend of sound above the range of touch into the bands that are felt.
+// Sound above the range of touch felt instead of what lies within.
 
 #include <pacini/analysis/BandAnalysis.h>
 #include <pacini/analysis/EvenTrains.h>
 #include <pacini/analysis/HeardLevel.h>
+#include <pacini/analysis/HeardTone.h>
+#include <pacini/analysis/SoundScale.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 #include <span>
 #include <vector>
 
 namespace pacini
 {
-
-/// Properties of a whole sound that the encoder needs before it encodes parts of it.
-struct SoundScale
-{
-    double peak = 0.0;      ///< largest magnitude that is felt, BandAnalysisResult::peak or more
-    double loudest = 0.0;   ///< largest HeardFrame::loudness
-    double strongest = 0.0; ///< largest HeardFrame::power
-    bool operator==(const SoundScale&) const = default;
-};
-
-/// Parts in which long sounds are encoded, so that memory does not grow with them.
-struct SoundSection
-{
-    static constexpr double seconds = 600.0; ///< a multiple of three frames of the bands
-    /// What a section waits for of the next. Loud events mask those before them by what falls 20 dB a second: after
-    /// these no event between silence and the largest sample is masked any more. In HeardShares, power counts 87 dB
-    /// less by then.
-    static constexpr double secondsAhead = 20.0;
-
-    // The same in values of BandAnalysisResult::envelope.
-    static constexpr auto frames = static_cast<std::size_t>(seconds / BandAnalysisResult::envelopeStep + 0.5);
-    static constexpr auto framesAhead = static_cast<std::size_t>(secondsAhead / BandAnalysisResult::envelopeStep + 0.5);
-    static constexpr std::size_t framesSeen = frames + 1 + framesAhead; ///< the frame at the cut is in both sections
-};
 
 /// How far the loudness takes over at each moment, 0 to 1, by where the A-weighted power lies before and after it: a
 /// sound piece by piece. Nothing within even trains, whose hits a level would blur; that comes and goes in 40 ms.
@@ -113,67 +89,16 @@ private:
     std::vector<float> shares;
 };
 
-/// Computes the SoundScale of the audible part, section by section in step with AudibleBlend.
-class HeardSurvey
-{
-public:
-    explicit HeardSurvey(double audible) : shares(audible) {}
-
-    /// Looks at the next section, if all that it needs is in `heard`, which begins with it. Returns what needs not be
-    /// kept of that. `onsets` of the whole sound, as far as they are known.
-    [[nodiscard]] std::size_t next(std::span<const HeardFrame> heard, std::span<const Onset> onsets)
-    {
-        if (heard.size() <= SoundSection::framesSeen)
-            return 0;
-        look(heard.first(SoundSection::framesSeen), SoundSection::frames + 1, onsets);
-        ++sections;
-        return SoundSection::frames;
-    }
-
-    /// Completes a sound; `heard` and `onsets` as in next(). Its bands have this `peak`.
-    [[nodiscard]] SoundScale finish(std::span<const HeardFrame> heard, std::span<const Onset> onsets, double peak)
-    {
-        while (const std::size_t over = next(heard, onsets))
-            heard = heard.subspan(over);
-        look(heard, heard.size(), onsets);
-        scale.peak = scale.loudest > 0.0 ? std::max(peak, scale.peak) : peak;
-        return scale;
-    }
-
-private:
-    void look(std::span<const HeardFrame> heard, std::size_t end, std::span<const Onset> onsets)
-    {
-        for (const HeardFrame& frame : heard)
-        {
-            scale.loudest = std::max(scale.loudest, static_cast<double>(frame.loudness));
-            scale.strongest = std::max(scale.strongest, static_cast<double>(frame.power));
-        }
-        const std::size_t first = sections > 0 ? 1 : 0;
-        const auto trains = evenTrains(onsetsFrom(onsets, SoundSection::seconds * sections), trainGapSeconds);
-        const auto share = shares.next(heard, first, end, scale.strongest, trains);
-        for (std::size_t i = first; i < end; ++i)
-            scale.peak = std::max(scale.peak,
-                                  static_cast<double>(share[i]) * std::sqrt(2.0 * static_cast<double>(heard[i].power)));
-    }
-
-    HeardShares shares;
-    int sections = 0; // seen
-    SoundScale scale;
-};
-
 /// Makes sound above the range of touch perceptible to the skin. Where most of the sound as heard (A-weighted power,
 /// over some seconds) lies above 900 Hz, the level follows the course of the loudness: the bands keep at most a quarter
 /// of their own amplitude, and a tone of 150 to 290 Hz, the brighter the higher, brings what they lack, as if the sound
 /// had it. Elsewhere nothing changes. `audible` (0 to 1) sets the amount, and BandAnalysisResult::heardShare records it
 /// over time. The limits of the blend, what the bands keep and the range of the tone are choices by trial, not derived.
 /// One sound, piece by piece.
-class AudibleBlend
+class HeardInstead
 {
 public:
-    AudibleBlend(std::span<const BandEdges> edges, double audible)
-        : fades(edges, BandAnalysisParams{}.overlap), bands(edges.begin(), edges.end()), shares(audible)
-    {
-    }
+    HeardInstead(std::span<const BandEdges> edges, double audible) : tone(edges), shares(audible) {}
 
     /// Changes `found` up to the value `end` of its envelope; what is before is changed already where heardShare has a
     /// value for it. `heard` has a value for each of the envelope, and for a part that is not the last some more (see
@@ -206,8 +131,7 @@ public:
     }
 
 private:
-    static constexpr std::size_t ratio = // values of the envelope for each of the bands
-        static_cast<std::size_t>(BandAnalysisResult::bandStep / BandAnalysisResult::envelopeStep + 0.5);
+    static constexpr std::size_t ratio = HeardTone::ratio;
 
     /// Of the loudest, from a share of it in loudness. What is hardly heard beside it, as hiss in pauses, is not felt.
     [[nodiscard]] static double felt(double loudness) noexcept
@@ -215,51 +139,19 @@ private:
         return std::max(0.0, loudness - unheard) / (1.0 - unheard);
     }
 
-    /// The tone in frame `j` of the bands, which lasts eight values of the envelope.
+    /// The tone in frame `j` of the bands.
     void addTone(BandAnalysisResult& found, std::span<const HeardFrame> heard, std::size_t j)
     {
-        constexpr auto reach = static_cast<std::ptrdiff_t>(ratio);
-        const auto middle = static_cast<std::ptrdiff_t>(j) * reach;
-        double weights = 0.0;
-        double power = 0.0;
-        double driven = 0.0;
-        double high = 0.0;
-        double bright = 0.0;
-        for (std::ptrdiff_t k = std::max<std::ptrdiff_t>(0, middle - reach + 1);
-             k < std::min(std::ssize(heard), middle + reach); ++k)
-        {
-            const auto i = static_cast<std::size_t>(k);
-            const double w = window[static_cast<std::size_t>(k - middle + reach - 1)];
-            weights += w;
-            power += w * level[i] * level[i];
-            driven += w * static_cast<double>(share[i]);
-            high += w * static_cast<double>(heard[i].high);
-            bright += w * static_cast<double>(heard[i].bright);
-        }
-        if (!(weights > 0.0 && driven > 0.0 && high > 0.0))
+        const HeardTone::Frame frame = tone.at(j, heard, [&](std::size_t i) { return level[i]; });
+        const double driven = tone.mean(j, heard.size(), [&](std::size_t i) { return static_cast<double>(share[i]); });
+        if (!(driven > 0.0 && frame.audible))
             return;
-        driven /= weights;
-        power /= weights;
         double held = 0.0; // by the bands
         for (const BandAnalysisResult::Track& track : found.tracks)
             held += static_cast<double>(track.amplitude[j]) * static_cast<double>(track.amplitude[j]);
-        const double kept = held > 0.0 ? std::min(std::sqrt(power / held), mostKept) : 0.0;
-        const double lacking = driven * driven * (power - kept * kept * held);
-        const double scale = 1.0 - driven + driven * kept;
-        const double wanted = lowest * std::pow(highest / lowest, bright / high);
-        const double frequency = std::clamp(wanted, bands.front().low, bands.back().high);
-        for (std::size_t k = 0; k < found.tracks.size(); ++k)
-        {
-            auto& track = found.tracks[k];
-            const double old = scale * static_cast<double>(track.amplitude[j]);
-            const double part = fades.weight(k, k, frequency);
-            const double added = part * part * std::max(0.0, lacking);
-            const double sum = old * old + added;
-            if (sum > 0.0)
-                track.frequency[j] =
-                    static_cast<float>((old * old * static_cast<double>(track.frequency[j]) + added * frequency) / sum);
-            track.amplitude[j] = static_cast<float>(std::sqrt(sum));
-        }
+        const double kept = held > 0.0 ? std::min(std::sqrt(frame.power / held), mostKept) : 0.0;
+        tone.add(found, j, 1.0 - driven + driven * kept, driven * driven * (frame.power - kept * kept * held),
+                 lowest * std::pow(highest / lowest, frame.brightness));
     }
 
     static constexpr double lowest = 150.0;  // Hz
@@ -269,18 +161,7 @@ private:
     /// Of full drive: beats of the bands with the tone need the rest, or the limiter would flatten what is loud.
     static constexpr double loudestLevel = 0.8;
 
-    /// The Hann window of a frame of the bands.
-    [[nodiscard]] static std::array<double, 2 * ratio - 1> hann()
-    {
-        std::array<double, 2 * ratio - 1> weights;
-        for (std::size_t i = 0; i < weights.size(); ++i)
-            weights[i] = 0.5 + 0.5 * std::cos(std::numbers::pi * (static_cast<double>(i + 1) - ratio) / ratio);
-        return weights;
-    }
-
-    std::array<double, 2 * ratio - 1> window = hann();
-    BandFades fades;
-    std::vector<BandEdges> bands;
+    HeardTone tone;
     HeardShares shares;
     std::span<const float> share; // of the part at hand
     std::vector<double> level;    // of the loudness at each value of the envelope

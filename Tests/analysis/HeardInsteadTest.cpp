@@ -1,8 +1,10 @@
+#include "analysis/SteadyBands.h"
 #include "support/Catch.h"
 #include "support/Measure.h"
 
-#include <pacini/analysis/AudibleBlend.h>
 #include <pacini/analysis/Encoder.h>
+#include <pacini/analysis/HeardInstead.h>
+#include <pacini/analysis/HeardSurvey.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,30 +14,16 @@
 #include <vector>
 
 using namespace pacini;
+using namespace pacini::test;
 
 namespace
 {
-constexpr std::size_t frames = 2000; // 10 s of the envelope
-constexpr std::size_t bandFrames = frames / 4;
-
-const std::vector<BandEdges> edges = {{50.0, 70.0, 100.0}, {100.0, 170.0, 300.0}, {300.0, 500.0, 900.0}};
-
-BandAnalysisResult steadyBands(float amplitude)
-{
-    BandAnalysisResult found;
-    found.peak = 1.0;
-    found.envelope.assign(frames, amplitude);
-    for (const BandEdges& edge : edges)
-        found.tracks.push_back({std::vector<float>(bandFrames, amplitude),
-                                std::vector<float>(bandFrames, static_cast<float>(edge.centre))});
-    return found;
-}
 
 /// Half as loud in the second half. Of the power, `highShare` lies above.
 std::vector<HeardFrame> heardOf(float highShare)
 {
-    std::vector<HeardFrame> heard(frames, {2.0f, 2.0f, 0.0f, 0.02f, 0.02f * highShare});
-    for (std::size_t i = frames / 2; i < frames; ++i)
+    std::vector<HeardFrame> heard(steadyFrames, {2.0f, 2.0f, 0.0f, 0.02f, 0.02f * highShare});
+    for (std::size_t i = steadyFrames / 2; i < steadyFrames; ++i)
         heard[i].loudness = 1.0f;
     return heard;
 }
@@ -50,7 +38,7 @@ void blend(double audible, BandAnalysisResult& found, std::span<const HeardFrame
         scale.loudest = std::max(scale.loudest, static_cast<double>(frame.loudness));
         scale.strongest = std::max(scale.strongest, static_cast<double>(frame.power));
     }
-    AudibleBlend(edges, audible).next(found, heard, heard.size(), trains, scale);
+    HeardInstead(steadyEdges, audible).next(found, heard, heard.size(), trains, scale);
 }
 } // namespace
 
@@ -60,11 +48,11 @@ TEST_CASE("Where most of what is heard lies above, loudness is the level and the
     blend(1.0, found, heardOf(0.9f));
     CHECK(found.heardShare[100] == 1.0f);
     CHECK(found.envelope[100] == Approx(0.8));
-    CHECK(found.envelope[frames - 100] == Approx(0.8 * (0.5 - 0.03) / 0.97));
+    CHECK(found.envelope[steadyFrames - 100] == Approx(0.8 * (0.5 - 0.03) / 0.97));
     // A quarter of the lowest band at most, and less where the level is lower than a quarter of all bands.
     const double all = std::sqrt(3.0) * 0.8;
     CHECK(found.tracks[0].amplitude[25] == Approx(0.2));
-    CHECK(found.tracks[0].amplitude[bandFrames - 25] == Approx(0.2));
+    CHECK(found.tracks[0].amplitude[steadyFrames / 4 - 25] == Approx(0.2));
     // The tone of 150 Hz, which only the second band holds, brings what they lack.
     CHECK(found.tracks[1].amplitude[25] == Approx(std::sqrt(0.04 + 0.64 - 0.0625 * all * all)));
     CHECK(found.tracks[1].frequency[25] < 170.0f);
@@ -82,13 +70,13 @@ TEST_CASE("What is hardly heard beside the loudest is not felt", "[analysis]")
     {
         CAPTURE(share);
         auto heard = heardOf(1.0f);
-        for (std::size_t i = frames / 2; i < frames; ++i)
+        for (std::size_t i = steadyFrames / 2; i < steadyFrames; ++i)
             heard[i].loudness = static_cast<float>(2.0 * share);
         BandAnalysisResult found = steadyBands(0.001f);
         blend(1.0, found, heard);
         const double level = share < 0.03 ? 0.0 : 0.8 * (share - 0.03) / 0.97;
-        CHECK(found.envelope[frames - 100] == Approx(level).margin(1e-6));
-        CHECK(found.tracks[1].amplitude[bandFrames - 25] == Approx(level).margin(3e-4));
+        CHECK(found.envelope[steadyFrames - 100] == Approx(level).margin(1e-6));
+        CHECK(found.tracks[1].amplitude[steadyFrames / 4 - 25] == Approx(level).margin(3e-4));
     }
 }
 
@@ -100,12 +88,12 @@ TEST_CASE("Where little of what is heard lies above, nothing changes", "[analysi
         const BandAnalysisResult before = found;
         blend(1.0, found, heardOf(share));
         CHECK(found.envelope == before.envelope);
-        for (std::size_t k = 0; k < edges.size(); ++k)
+        for (std::size_t k = 0; k < steadyEdges.size(); ++k)
         {
             CHECK(found.tracks[k].amplitude == before.tracks[k].amplitude);
             CHECK(found.tracks[k].frequency == before.tracks[k].frequency);
         }
-        CHECK(found.heardShare == std::vector<float>(frames, 0.0f));
+        CHECK(found.heardShare == std::vector<float>(steadyFrames, 0.0f));
     }
 }
 
@@ -140,7 +128,7 @@ TEST_CASE("The peak is that of what is felt in the end", "[analysis]")
 {
     const auto peakOf = [](float highShare, double peak)
     {
-        return HeardSurvey(1.0).finish(heardOf(highShare), {}, peak).peak;
+        return HeardSurvey(1.0, HeardRole::instead).finish(heardOf(highShare), {}, peak).peak;
     };
     CHECK(peakOf(0.0f, 0.1) == 0.1);
     CHECK(peakOf(0.9f, 0.1) == Approx(std::sqrt(2.0 * 0.02)));
@@ -150,22 +138,22 @@ TEST_CASE("The peak is that of what is felt in the end", "[analysis]")
 TEST_CASE("In parts a sound is blended as in one", "[analysis]")
 {
     auto heard = heardOf(0.3f);
-    for (std::size_t i = 0; i < frames; i += 7)
+    for (std::size_t i = 0; i < steadyFrames; i += 7)
         heard[i] = {1.5f, 1.0f, 0.3f, 0.05f, 0.03f};
     const std::vector<TrainSpan> trains = {{2.0, 3.0}, {4.5, 5.5}};
     const SoundScale scale{1.0, 2.0, 0.05};
     BandAnalysisResult whole = steadyBands(0.3f);
-    AudibleBlend(edges, 1.0).next(whole, heard, frames, trains, scale);
+    HeardInstead(steadyEdges, 1.0).next(whole, heard, steadyFrames, trains, scale);
 
     constexpr std::size_t cut = 1000; // at 5 s; what comes later is looked at to the end, which is 5 s away
     BandAnalysisResult rest = steadyBands(0.3f);
-    AudibleBlend parts(edges, 1.0);
+    HeardInstead parts(steadyEdges, 1.0);
     parts.next(rest, heard, cut + 1, trains, scale);
     BandAnalysisResult first = rest.takeFirst(5.0);
     std::vector<TrainSpan> later = trains;
     for (TrainSpan& train : later)
         train = {train.first - 5.0, train.last - 5.0};
-    parts.next(rest, std::span(heard).subspan(cut), frames - cut, later, scale);
+    parts.next(rest, std::span(heard).subspan(cut), steadyFrames - cut, later, scale);
     const auto joined = [](std::vector<float> a, const std::vector<float>& b)
     {
         CHECK(a.back() == b.front());
@@ -174,7 +162,7 @@ TEST_CASE("In parts a sound is blended as in one", "[analysis]")
     };
     CHECK(joined(first.envelope, rest.envelope) == whole.envelope);
     CHECK(joined(first.heardShare, rest.heardShare) == whole.heardShare);
-    for (std::size_t k = 0; k < edges.size(); ++k)
+    for (std::size_t k = 0; k < steadyEdges.size(); ++k)
     {
         CHECK(joined(first.tracks[k].amplitude, rest.tracks[k].amplitude) == whole.tracks[k].amplitude);
         CHECK(joined(first.tracks[k].frequency, rest.tracks[k].frequency) == whole.tracks[k].frequency);
@@ -186,14 +174,14 @@ TEST_CASE("Silence and a sound that is shorter than its bands leave them alone",
     BandAnalysisResult found = steadyBands(0.3f);
     const auto before = found.envelope;
     blend(1.0, found, {});
-    blend(1.0, found, std::vector<HeardFrame>(frames));
+    blend(1.0, found, std::vector<HeardFrame>(steadyFrames));
     CHECK(found.envelope == before);
     auto heard = heardOf(1.0f);
     heard.resize(300);
     blend(1.0, found, heard);
     CHECK(found.envelope[299] == Approx(0.8));
     CHECK(found.envelope[300] == 0.3f);
-    CHECK(found.heardShare.size() == frames);
+    CHECK(found.heardShare.size() == steadyFrames);
     CHECK(found.heardShare[300] == 0.0f);
 }
 
@@ -209,7 +197,9 @@ TEST_CASE("Uneven drops each rise out of the level, an even train is held down b
                 x[static_cast<std::size_t>(48000.0 * times[k]) + n] +=
                     static_cast<float>(0.8 * std::exp(-t / 0.002) * std::sin(2.0 * std::numbers::pi * 5000.0 * t));
             }
-        Encoder encoder({});
+        EncoderParams params;
+        params.heard = HeardRole::instead;
+        Encoder encoder(params);
         encoder.start(48000, 1);
         encoder.push(x);
         return encoder.finish();

@@ -1,0 +1,36 @@
+#pragma once
+
+// Properties of a whole sound that the encoder needs before it encodes parts of it.
+
+#include <pacini/analysis/BandAnalysis.h>
+
+#include <cstddef>
+
+namespace pacini
+{
+
+/// Scale of a whole sound.
+struct SoundScale
+{
+    double peak = 0.0;      ///< largest magnitude that is felt, BandAnalysisResult::peak or more
+    double loudest = 0.0;   ///< largest HeardFrame::loudness
+    double strongest = 0.0; ///< largest HeardFrame::power
+    bool operator==(const SoundScale&) const = default;
+};
+
+/// Parts in which long sounds are encoded, so that memory does not grow with them.
+struct SoundSection
+{
+    static constexpr double seconds = 600.0; ///< a multiple of three frames of the bands
+    /// What a section waits for of the next. Loud events mask those before them by what falls 20 dB a second: after
+    /// these no event between silence and the largest sample is masked any more. In HeardShares, power counts 87 dB
+    /// less by then.
+    static constexpr double secondsAhead = 20.0;
+
+    // The same in values of BandAnalysisResult::envelope.
+    static constexpr auto frames = static_cast<std::size_t>(seconds / BandAnalysisResult::envelopeStep + 0.5);
+    static constexpr auto framesAhead = static_cast<std::size_t>(secondsAhead / BandAnalysisResult::envelopeStep + 0.5);
+    static constexpr std::size_t framesSeen = frames + 1 + framesAhead; ///< the frame at the cut is in both sections
+};
+
+} // namespace pacini
