@@ -35,6 +35,8 @@ constexpr std::array<Column, comparisonFigures.size()> columns{{
     {"HTS", 1},
     {"of REF", 1},
     {"HTS-F", 1},
+    {"low kept", 2},
+    {"beat kept", 2},
     {"LSD dB", 2},
     {"wide SNR dB", 2},
     {"band SNR dB", 2},

@@ -31,6 +31,8 @@ struct EncoderPreset
             {"Steady texture", "Only clear hits become events", {}},
             {"Low rumble", "20 to 300 Hz, for large actuators", {}},
             {"As recorded", "Ignores sound above the range of touch", {}},
+            {"Music", "The beat first, less of hats and voices", {}},
+            {"Everything heard", "Loudness leads where most of a sound lies above touch", {}},
         };
         all[1].params.bands = 24;
         all[1].params.breakpoints = 60.0;
@@ -47,6 +49,8 @@ struct EncoderPreset
         all[5].params.highFrequency = 300.0;
         all[5].params.audible = 0.0;
         all[6].params.audible = 0.0;
+        all[7].params.audible = 0.5;
+        all[8].params.heard = HeardRole::instead;
         return all;
     }();
     return presets;

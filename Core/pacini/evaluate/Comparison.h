@@ -4,6 +4,7 @@
 
 #include <pacini/evaluate/EventMatching.h>
 #include <pacini/evaluate/Hts.h>
+#include <pacini/evaluate/LowPart.h>
 #include <pacini/evaluate/SignalMetrics.h>
 #include <pacini/evaluate/match/FeltImpression.h>
 #include <pacini/evaluate/match/MatchLag.h>
@@ -37,6 +38,7 @@ struct Comparison
     HtsScore hts;
     double ceiling = 0.0; ///< HTS of the reference itself, played as it is
     HtsScore htsFidelity;
+    LowPart low;
     SignalMetrics measures;
     FeltFigures impression;                 ///< of the candidate
     std::optional<MatchParts> match;        ///< empty for a silent reference
@@ -71,7 +73,7 @@ template <std::optional<EventScore> Comparison::*member>
 } // namespace detail
 
 /// The figures of a comparison, the most telling first.
-inline constexpr std::array<ComparisonFigure, 13> comparisonFigures{{
+inline constexpr std::array<ComparisonFigure, 15> comparisonFigures{{
     {"match",
      [](const Comparison& c)
      {
@@ -96,6 +98,16 @@ inline constexpr std::array<ComparisonFigure, 13> comparisonFigures{{
      [](const Comparison& c)
      {
          return std::optional(c.htsFidelity.score);
+     }},
+    {"lowKept",
+     [](const Comparison& c)
+     {
+         return c.low.kept;
+     }},
+    {"beatKept",
+     [](const Comparison& c)
+     {
+         return c.low.beat;
      }},
     {"lsd", detail::judged<&SignalMetrics::logSpectralDistance>},
     {"wideSnr", detail::judged<&SignalMetrics::wideSnr>},
@@ -170,6 +182,7 @@ public:
         found.hts = compare(source.hts, target.hts, HtsMode::translation);
         found.ceiling = compare(source.hts, source.itself, HtsMode::translation).score;
         found.htsFidelity = compare(source.hts, target.hts, HtsMode::fidelity);
+        found.low = compareLowPart(source.hts, target.hts);
         found.measures = compare(source.judge, target.judge);
         found.impression = feltFigures(target.felt);
         if (!source.heard.loudness.empty())

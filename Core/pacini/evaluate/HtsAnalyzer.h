@@ -53,6 +53,7 @@ public:
             features.audible = std::move(audible.envelope);
             features.audibleEvents = std::move(audible.events);
         }
+        features.low = lowEnvelopes(x);
         const auto lowpass = designBiquad({BiquadType::lowpass, Hertz(300.0)}, fs);
         SectionCascade<2>({lowpass, lowpass}).process(std::span(x));
         auto felt = powerEnvelopes.analyze(x);
@@ -83,6 +84,25 @@ private:
             const HannKernel kernel = htsHannKernel(Seconds(std::max(0.020, 1.0 / edges[b])));
             for (std::size_t at = 0; at < y.size(); at += HtsFeatures::envelopeSpacing)
                 envelopes[b].push_back(std::sqrt(kernel.at(y, at)));
+        }
+        return envelopes;
+    }
+
+    /// Envelopes of bands with slopes of 24 dB per octave.
+    [[nodiscard]] std::array<std::vector<float>, HtsFeatures::lowCount> lowEnvelopes(std::span<const float> x)
+    {
+        constexpr std::array<double, HtsFeatures::lowCount + 1> edges{30.0, 120.0, 300.0};
+        std::array<std::vector<float>, HtsFeatures::lowCount> envelopes;
+        std::vector<float> y(x.size());
+        for (std::size_t b = 0; b < envelopes.size(); ++b)
+        {
+            std::copy(x.begin(), x.end(), y.begin());
+            const auto low = designButterworth({ButterworthType::highpass, 4, Hertz(edges[b])}, fs);
+            const auto high = designButterworth({ButterworthType::lowpass, 4, Hertz(edges[b + 1])}, fs);
+            SectionCascade<4>({low.sections[0].directForm(), low.sections[1].directForm(),
+                               high.sections[0].directForm(), high.sections[1].directForm()})
+                .process(std::span(y));
+            envelopes[b] = powerEnvelopes.analyze(y, false).envelope;
         }
         return envelopes;
     }

@@ -32,7 +32,7 @@ namespace pacini
 struct PowerEnvelope
 {
     std::vector<float> envelope; ///< linear amplitude, one value per 5 ms, smoothed by 20 ms Hann
-    std::vector<double> events;  ///< s, rises of at least 6 dB within 10 ms of the 10 ms Hann envelope
+    std::vector<double> events;  ///< s, rises of at least 6 dB within 10 ms of the 10 ms Hann envelope; where wanted
 };
 
 /// Computes power envelopes. Analytic power has no ripple at twice the frequency, so short kernels suffice. Transforms
@@ -44,7 +44,7 @@ struct PowerEnvelope
 class PowerEnvelopeAnalyzer
 {
 public:
-    [[nodiscard]] PowerEnvelope analyze(std::span<const float> x)
+    [[nodiscard]] PowerEnvelope analyze(std::span<const float> x, bool events = true)
     {
         constexpr std::size_t longest = 65536; // of one transform
         constexpr std::size_t overlap = 2000;
@@ -88,7 +88,7 @@ public:
             }
             for (std::size_t at = begin; at < end; at += HtsFeatures::envelopeSpacing)
                 result.envelope.push_back(std::sqrt(slow.at(plan->samples, at + margin - begin)));
-            for (std::size_t at = begin; at < end; at += 4)
+            for (std::size_t at = begin; events && at < end; at += 4)
                 fine.push_back(std::sqrt(fast.at(plan->samples, at + margin - begin)));
         }
         const RiseDetectorParams rises{

@@ -6,6 +6,7 @@
 #include <pacini/analysis/methods/Method.h>
 #include <pacini/clip/PackedClip.h>
 #include <pacini/evaluate/Hts.h>
+#include <pacini/evaluate/LowPart.h>
 #include <pacini/evaluate/SignalMetrics.h>
 #include <pacini/evaluate/match/MatchParts.h>
 #include <pacini/synthesis/Decoder.h>
@@ -41,6 +42,7 @@ public:
     {
         double match = 0.0;
         double hts = 0.0;
+        LowPart low;
         SignalMetrics measures;
         std::vector<double> detected; ///< s, events in the candidate by the neutral detector
     };
@@ -51,7 +53,7 @@ public:
         const auto feltCandidate = htsCandidateFeatures(hts, candidate, sampleRate).value();
         const auto touched = touchTrack(touch, candidate, sampleRate).value();
         return {predictedMatch(matchParts(heard, touched)), compare(felt, feltCandidate, HtsMode::translation).score,
-                compare(judged, found), std::move(found.onsets)};
+                compareLowPart(felt, feltCandidate), compare(judged, found), std::move(found.onsets)};
     }
 
 private:
@@ -148,6 +150,13 @@ private:
         const EventCounts detected = countEvents(sound, verdict.detected);
         const SignalMetrics& m = verdict.measures;
         // Against silence only the level of the candidate means anything.
+        const auto cellOf = [](const std::optional<double>& value)
+        {
+            BenchCell cell;
+            if (value)
+                cell = *value;
+            return cell;
+        };
         const auto measure = [&m](double value)
         {
             BenchCell cell;
@@ -157,8 +166,9 @@ private:
         };
         rows.add({sound.name, method, variant, sound.duration(), encodeSeconds, std::move(renderSeconds),
                   std::move(bytesPerSecond), std::move(pointsPerSecond), measure(verdict.match), verdict.hts,
-                  measure(m.logSpectralDistance), measure(m.wideSnr), measure(m.centroidError), stated.agreeing,
-                  stated.all, detected.agreeing, detected.all});
+                  cellOf(verdict.low.kept), cellOf(verdict.low.beat), measure(m.logSpectralDistance),
+                  measure(m.wideSnr), measure(m.centroidError), stated.agreeing, stated.all, detected.agreeing,
+                  detected.all});
     }
 
     const BenchSound& sound;
@@ -169,8 +179,8 @@ private:
 
 std::string settingText(const EncoderParams& params)
 {
-    return fmt::format("{} bands, {:g}/s, {} bit, audible {:g}", params.bands, params.breakpoints, params.quantise,
-                       params.audible);
+    return fmt::format("{} bands, {:g}/s, {} bit, audible {:g}{}", params.bands, params.breakpoints, params.quantise,
+                       params.audible, params.heard == HeardRole::instead ? " instead" : "");
 }
 
 void measureOwn(Measurement& measurement, const BenchSound& sound, const EncoderParams& params)
@@ -193,6 +203,9 @@ void measureMethods(const BenchSound& sound, const BenchSettings& settings, Benc
     bandsAlone.audible = 0.0;
     measureOwn(measurement, sound, usual);
     measureOwn(measurement, sound, bandsAlone);
+    EncoderParams loudnessLeads;
+    loudnessLeads.heard = HeardRole::instead;
+    measureOwn(measurement, sound, loudnessLeads);
     for (const MethodInfo& info : methodTable)
     {
         const std::string name(info.name);
@@ -244,7 +257,11 @@ Bench methodsBench()
         "Each sound is encoded, packed, unpacked and rendered at 8 kHz; quality and time come from the same run. "
         "Means over the sounds, times real time as total over total. B/s is the size of the file; signals have none. "
         "Match: the rating by people, 0 to 100, that is predicted. HTS: haptic translation similarity, 0 to 100. LSD: "
-        "log spectral distance. Events F1 (within 25 ms of the "
+        "log spectral distance. Low kept: correlation of the envelopes of 30 to 120 and 120 to 300 Hz with those of "
+        "the "
+        "sound; beat kept: level in the strongest low events against that between them, as a share of the same ratio "
+        "of "
+        "the sound. Events F1 (within 25 ms of the "
         "annotated onsets, pooled over the sounds) once for the events that a clip states and once for those that a "
         "neutral detector finds in the rendered signal.",
         columnsOf({"method", "variant"},
@@ -255,6 +272,8 @@ Bench methodsBench()
                    {"pointsPerSecond", "1/s"},
                    {"match", ""},
                    {"hts", ""},
+                   {"lowKept", ""},
+                   {"beatKept", ""},
                    {"lsd", "dB"},
                    {"wideSnr", "dB"},
                    {"centroidError", "%"},

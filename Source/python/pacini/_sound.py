@@ -434,6 +434,16 @@ class Comparison:
         return self._figure("bandSnrPerBand")
 
     @property
+    def low_kept(self) -> Optional[float]:
+        """How far the envelopes of 30 to 120 and 120 to 300 Hz follow those of the sound: their correlation, -1 to 1."""
+        return self._figure("lowKept")
+
+    @property
+    def beat_kept(self) -> Optional[float]:
+        """Level in the strongest low events against that between them, as a share of the same ratio of the sound."""
+        return self._figure("beatKept")
+
+    @property
     def centroid_error(self) -> Optional[float]:
         return self._figure("centroidError")
 

@@ -121,7 +121,7 @@ AnalysisPanel::AnalysisPanel(EditorView& shown)
     range(sensitivity, "sensitivity", 0.05);
     knob(sensitivity).setSkewFactorFromMidPoint(1.0);
     prepare(audible, "Audible", " %",
-            "Influence of sound above the range of touch (rain, ticks, birds) on the haptic signal; 0: none");
+            "Amount of sound above the range of touch that is felt (hi-hats, rain, ticks); 0: none");
     range(audible, "audible", 1.0, 100.0);
     prepare(bits, "Precision", " bit", "Bits per value; fewer make smaller files and coarser levels");
     range(bits, "quantise", 1.0);

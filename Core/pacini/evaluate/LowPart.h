@@ -1,0 +1,130 @@
+#pragma once
+
+// Measures of what a translation keeps of the part of a sound that lies in the range of touch.
+
+#include <pacini/evaluate/HtsFeatures.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace pacini
+{
+
+/// What a translation keeps of the part of a sound below 300 Hz; nothing where the sound has no such part.
+struct LowPart
+{
+    /// Mean over the bands of 30 to 120 and 120 to 300 Hz of the correlation of the envelopes (20 ms) of sound and
+    /// drive, -1 to 1. A band counts where its peak is within 20 dB of that of the sound below 1.8 kHz.
+    std::optional<double> kept;
+    /// Level of the drive in the strongest low events against that between them, as a share of the same ratio of the
+    /// sound; both as felt. Nothing for a sound with fewer than two such events, or less than 6 dB between them.
+    std::optional<double> beat;
+};
+
+namespace detail
+{
+/// Correlation of two envelopes, the second moved by `lag` values to earlier; 0 where one is constant.
+[[nodiscard]] inline double envelopeCorrelation(std::span<const float> a, std::span<const float> b, std::ptrdiff_t lag)
+{
+    double n = 0.0, sa = 0.0, sb = 0.0, saa = 0.0, sbb = 0.0, sab = 0.0;
+    for (std::ptrdiff_t i = 0; i < std::ssize(a); ++i)
+    {
+        const std::ptrdiff_t j = i + lag;
+        const double u = a[static_cast<std::size_t>(i)];
+        const double v = j >= 0 && j < std::ssize(b) ? static_cast<double>(b[static_cast<std::size_t>(j)]) : 0.0;
+        n += 1.0;
+        sa += u;
+        sb += v;
+        saa += u * u;
+        sbb += v * v;
+        sab += u * v;
+    }
+    const double va = saa - sa * sa / n;
+    const double vb = sbb - sb * sb / n;
+    return va > 1e-12 * saa && vb > 1e-12 * sbb ? (sab - sa * sb / n) / std::sqrt(va * vb) : 0.0;
+}
+
+/// Places of the strongest events of a low band: maxima within 6 dB of the largest, 150 ms apart.
+[[nodiscard]] inline std::vector<std::size_t> lowEvents(std::span<const float> band)
+{
+    constexpr std::size_t apart = 30;
+    std::vector<std::size_t> places;
+    if (band.empty())
+        return places;
+    const float least = 0.5f * *std::max_element(band.begin(), band.end());
+    for (std::size_t i = 0; i < band.size(); ++i)
+    {
+        const auto around =
+            band.subspan(i - std::min(i, apart), std::min(band.size(), i + apart + 1) - (i - std::min(i, apart)));
+        if (band[i] > 0.0f && band[i] >= least && band[i] >= *std::max_element(around.begin(), around.end()) &&
+            (places.empty() || i - places.back() > apart))
+            places.push_back(i);
+    }
+    return places;
+}
+
+/// Mean over `events` but the last of the ratio in dB of the largest level around the event to the median of the level
+/// between it and the next one.
+[[nodiscard]] inline double beatDepth(std::span<const float> level, std::span<const std::size_t> events)
+{
+    constexpr std::size_t before = 4, after = 12; // values: 20 and 60 ms
+    double sum = 0.0;
+    for (std::size_t e = 0; e + 1 < events.size(); ++e)
+    {
+        const auto at = [&](std::size_t first, std::size_t end)
+        {
+            first = std::min(first, level.size());
+            return level.subspan(first, std::min(end, level.size()) - first);
+        };
+        const auto in = at(events[e] - std::min(events[e], before), events[e] + after);
+        const auto between = at(events[e] + after, events[e + 1] - before);
+        std::vector<float> sorted(between.begin(), between.end());
+        if (in.empty() || sorted.empty())
+            continue;
+        std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());
+        const double peak = *std::max_element(in.begin(), in.end());
+        const double rest = sorted[sorted.size() / 2];
+        sum += 20.0 * std::log10((peak + 1e-9) / (std::max(rest, 0.01 * peak) + 1e-9)); // 40 dB is silence
+    }
+    return events.size() < 2 ? 0.0 : sum / static_cast<double>(events.size() - 1);
+}
+} // namespace detail
+
+/// Compares both over the length of the source. The drive may be up to 20 ms late or early.
+[[nodiscard]] inline LowPart compareLowPart(const HtsFeatures& source, const HtsFeatures& drive)
+{
+    LowPart result;
+    const auto largest = [](std::span<const float> values)
+    {
+        return values.empty() ? 0.0f : *std::max_element(values.begin(), values.end());
+    };
+    const float least = 0.1f * largest(source.audible);
+    if (!(least > 0.0f))
+        return result;
+    for (std::ptrdiff_t lag = -4; lag <= 4; ++lag)
+    {
+        double sum = 0.0;
+        int counted = 0;
+        for (std::size_t b = 0; b < source.low.size(); ++b)
+            if (largest(source.low[b]) >= least)
+            {
+                sum += detail::envelopeCorrelation(source.low[b], drive.low[b], lag);
+                ++counted;
+            }
+        if (counted > 0)
+            result.kept = std::max(result.kept.value_or(-1.0), sum / counted);
+    }
+    if (largest(source.low[0]) < least)
+        return result;
+    const auto events = detail::lowEvents(source.low[0]);
+    const double wanted = detail::beatDepth(source.felt, events);
+    if (wanted > 6.0)
+        result.beat = std::pow(10.0, (detail::beatDepth(drive.felt, events) - wanted) / 20.0);
+    return result;
+}
+
+} // namespace pacini
