@@ -31,7 +31,7 @@ struct LiveVariant
     std::string profile;   ///< of a shipped one, or empty
     int rate = 48000;      ///< Hz
     std::size_t block = 64;
-    double audible = 0.0;
+    double audible = 1.0;
 };
 
 std::vector<LiveVariant> liveVariants()
@@ -47,7 +47,7 @@ std::vector<LiveVariant> liveVariants()
             if (rate != 48000 || block != 64)
                 all.push_back({6, false, {}, rate, block});
     all.push_back({6, false, "l5-wristband", 192000, 64});
-    for (const double audible : {0.25, 0.5, 0.75, 1.0})
+    for (const double audible : {0.0, 0.25, 0.5, 0.75})
         all.push_back({6, false, {}, 48000, 64, audible});
     return all;
 }
