@@ -131,9 +131,10 @@ std::optional<double> valueOf(const ParameterRow& row, std::string_view text)
     const std::string word = lowerCase(trimmed(text));
     if (word.empty())
         return std::nullopt;
-    const auto limited = [&row](double value)
+    const auto inRange = [&row](double typed)
     {
-        return std::optional(clampTo(isDiscrete(row) ? std::round(value) : value, row.low, row.high));
+        const double value = isDiscrete(row) ? std::round(typed) : typed;
+        return value >= row.low && value <= row.high ? std::optional(value) : std::nullopt;
     };
     if (row.unit == ParameterUnit::choice)
         if (const auto choice = choiceOf(row, word))
@@ -156,19 +157,19 @@ std::optional<double> valueOf(const ParameterRow& row, std::string_view text)
     switch (row.unit)
     {
     case ParameterUnit::decibels:
-        return unit.empty() || unit == "db" ? limited(number) : std::nullopt;
+        return unit.empty() || unit == "db" ? inRange(number) : std::nullopt;
     case ParameterUnit::semitones:
-        return unit.empty() || unit == "st" || unit.starts_with("semi") ? limited(number) : std::nullopt;
+        return unit.empty() || unit == "st" || unit.starts_with("semi") ? inRange(number) : std::nullopt;
     case ParameterUnit::milliseconds:
         if (unit == "s")
-            return limited(1000.0 * number);
-        return unit.empty() || unit == "ms" ? limited(number) : std::nullopt;
+            return inRange(1000.0 * number);
+        return unit.empty() || unit == "ms" ? inRange(number) : std::nullopt;
     case ParameterUnit::percent:
-        return unit.empty() || unit == "%" ? limited(0.01 * number) : std::nullopt;
+        return unit.empty() || unit == "%" ? inRange(0.01 * number) : std::nullopt;
     case ParameterUnit::number:
     case ParameterUnit::choice:
     case ParameterUnit::toggle:
-        return unit.empty() ? limited(number) : std::nullopt;
+        return unit.empty() ? inRange(number) : std::nullopt;
     }
     return std::nullopt;
 }

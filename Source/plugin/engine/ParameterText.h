@@ -22,7 +22,7 @@ namespace pacini::plugin
 [[nodiscard]] std::string textOf(const ParameterRow& row, double value);
 
 /// What was typed: with or without unit, with dot or comma, `1.5 s` for 1500 ms, a choice by its name or the beginning
-/// of it. Limited to the range; none when it is no value.
+/// of it. None when it is no value or one beyond the range.
 [[nodiscard]] std::optional<double> valueOf(const ParameterRow& row, std::string_view text);
 
 } // namespace pacini::plugin

@@ -95,7 +95,8 @@ juce::String TableParameter::getText(float normalisedValue, int maximumLength) c
 float TableParameter::getValueForText(const juce::String& text) const
 {
     const auto value = valueOf(*tableRow, text.toStdString());
-    return value ? static_cast<float>(normalOf(*tableRow, *value)) : getDefaultValue();
+    // The formats of plugins have no way to refuse a text.
+    return value ? static_cast<float>(normalOf(*tableRow, *value)) : getValue();
 }
 
 int TableParameter::getNumSteps() const

@@ -47,7 +47,10 @@ TEST_CASE("Texts are read as people type them")
     CHECK(read(ParameterId::intensity, "\xE2\x88\x92"
                                        "3 dB") == -3.0);
     CHECK(read(ParameterId::intensity, "-inf") == -60.0);
-    CHECK(read(ParameterId::intensity, "100 dB") == 24.0);
+    CHECK(read(ParameterId::intensity, "24 dB") == 24.0);
+    CHECK(read(ParameterId::intensity, "100 dB") == std::nullopt);
+    CHECK(read(ParameterId::outputChannel, "17") == std::nullopt);
+    CHECK(read(ParameterId::profile, "32") == std::nullopt);
     CHECK(read(ParameterId::intensity, "3 ms") == std::nullopt);
     CHECK(read(ParameterId::intensity, "loud") == std::nullopt);
     CHECK(read(ParameterId::intensity, "") == std::nullopt);
@@ -64,6 +67,23 @@ TEST_CASE("Texts are read as people type them")
     CHECK(read(ParameterId::profile, "From file") == 31.0);
     CHECK(textOf(rowOf(ParameterId::transposition), -0.001) == "0.00 st");
     CHECK(textOf(rowOf(ParameterId::release), 99.96) == "100 ms");
+}
+
+TEST_CASE("What is no value of a parameter, or beyond its range, is refused: the value stays")
+{
+    PluginProcessor plugin;
+    for (const ParameterRow& row : parameterTable)
+        for (const float normal : {0.0f, 0.3f, 1.0f})
+        {
+            auto& parameter = plugin.parameter(row.parameter);
+            parameter.setValue(normal);
+            for (const char* text : {"abc", "", " ", "1e9", "-1e9", "1e", "123456", "-123456", "nan", "inf",
+                                     "12 parsecs", "1 2", "--", "0x10", "%"})
+            {
+                CAPTURE(row.id, normal, text);
+                CHECK(parameter.getValueForText(text) == parameter.getValue());
+            }
+        }
 }
 
 TEST_CASE("Normalised values survive exactly, discrete ones snap")

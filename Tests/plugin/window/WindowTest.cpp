@@ -96,6 +96,36 @@ TEST_CASE("Knobs stay between their names and their values, however tall the win
     }
 }
 
+TEST_CASE("Text that is no value leaves a control as it is, and its text comes back")
+{
+    const juce::ScopedJuceInitialiser_GUI gui;
+    WindowRig rig;
+    plugin::PluginWindow window(rig.plugin);
+    window.show(plugin::PluginWindow::Page::actuators);
+    for (const auto& row : plugin::parameterTable)
+        rig.plugin.parameter(row.parameter).setValueNotifyingHost(0.3f);
+    window.refresh();
+    const auto before = rig.plugin.values();
+    std::size_t boxes = 0;
+    forEachChild(window,
+                 [&](juce::Component& child)
+                 {
+                     auto* box = dynamic_cast<juce::Label*>(&child);
+                     if (box == nullptr || child.findParentComponentOfClass<juce::Slider>() == nullptr)
+                         return;
+                     ++boxes;
+                     const auto shown = box->getText();
+                     CAPTURE(child.getParentComponent()->getTitle());
+                     for (const char* text : {"abc", "1e9", "123456", ""})
+                     {
+                         box->setText(text, juce::sendNotificationSync);
+                         CHECK(box->getText() == shown);
+                     }
+                 });
+    CHECK(boxes > 40);
+    CHECK(rig.plugin.values() == before);
+}
+
 TEST_CASE("The page of the actuators shows each haptic channel that there is, and its level")
 {
     const juce::ScopedJuceInitialiser_GUI gui;
