@@ -121,7 +121,7 @@ def is_text(text, name):
         return False
     if re.fullmatch(r"[*.~/\w;-]*\.[a-z0-9]{1,10}([;*.\w]*)?", text) or text.startswith(("--", "\\x", ":")):
         return False
-    if re.fullmatch(r"Free \d+", text):
+    if re.fullmatch(r"No actuator \(flat\) \d+", text):
         return False  # numbers of profiles to come, which only lists of hosts show
     if re.fullmatch(r"[a-z]+([A-Z][a-z0-9]*|\d)+", text):
         return False  # an identifier

@@ -120,8 +120,9 @@ void describe(const ParameterRow& row, std::ostream& out)
     if (const auto properties = lv2PropertiesOf(row.unit); !properties.empty())
         out << "\tlv2:portProperty " << properties << " ;\n";
     for (std::size_t i = 0; i < row.choices.size(); ++i)
-        out << "\tlv2:scalePoint [ rdfs:label " << quoted(row.choices[i]) << " ; rdf:value " << static_cast<double>(i)
-            << " ] ;\n";
+        if (!hasNoActuator(row.choices[i]))
+            out << "\tlv2:scalePoint [ rdfs:label " << quoted(row.choices[i]) << " ; rdf:value "
+                << static_cast<double>(i) << " ] ;\n";
     out << "\tlv2:default " << row.standard << " ;\n\tlv2:minimum " << row.low << " ;\n\tlv2:maximum " << row.high
         << " .\n\n";
 }

@@ -118,12 +118,24 @@ inline constexpr std::array<std::string_view, 3> sourceChoices{"Main", "Sidechai
 inline constexpr std::array<std::string_view, 5> outputModeChoices{
     "Sound (haptic output separate)", "Haptic replaces sound", "Sound left, haptic right",
     "Mono sound left, haptic right", "Haptic added to one channel"};
+/// What hosts show for a slot without a profile, which plays as flat as slot 0. Lists of ours leave them out.
+inline constexpr std::string_view noActuator = "No actuator (flat)";
+[[nodiscard]] constexpr bool hasNoActuator(std::string_view choice) noexcept
+{
+    return choice.starts_with(noActuator);
+}
+
+// clang-format off
 inline constexpr std::array<std::string_view, profileSlots> profileChoices{
-    "Flat drive", "L5 wristband",     "L5 test jig", "LRA 175 Hz", "LRA 235 Hz",       "ERM coin", "Piezo",
-    "Phone",      "Quest controller", "DualSense",   "Joy-Con",    "Wideband exciter", "Free 12",  "Free 13",
-    "Free 14",    "Free 15",          "Free 16",     "Free 17",    "Free 18",          "Free 19",  "Free 20",
-    "Free 21",    "Free 22",          "Free 23",     "Free 24",    "Free 25",          "Free 26",  "Free 27",
-    "Free 28",    "Free 29",          "Free 30",     "From file"};
+    "Flat drive", "L5 wristband", "L5 test jig", "LRA 175 Hz",
+    "LRA 235 Hz", "ERM coin", "Piezo", "Phone",
+    "Quest controller", "DualSense", "Joy-Con", "Wideband exciter",
+    "No actuator (flat) 12", "No actuator (flat) 13", "No actuator (flat) 14", "No actuator (flat) 15",
+    "No actuator (flat) 16", "No actuator (flat) 17", "No actuator (flat) 18", "No actuator (flat) 19",
+    "No actuator (flat) 20", "No actuator (flat) 21", "No actuator (flat) 22", "No actuator (flat) 23",
+    "No actuator (flat) 24", "No actuator (flat) 25", "No actuator (flat) 26", "No actuator (flat) 27",
+    "No actuator (flat) 28", "No actuator (flat) 29", "No actuator (flat) 30", "From file"};
+// clang-format on
 
 inline constexpr std::array<std::string_view, 3> panChoices{"Off", "Position", "Sound panorama"};
 inline constexpr std::array<std::string_view, 3> panLawChoices{"Level", "Delay", "Level and delay"};

@@ -332,7 +332,7 @@ juce::String PluginProcessor::actuatorName(std::size_t channel) const
 {
     const juce::ScopedLock lock(setupLock);
     const auto& profile = actuators[channel].profile;
-    return profile ? juce::String::fromUTF8(profile->name.c_str()) : juce::String("None");
+    return profile ? juce::String::fromUTF8(profile->name.c_str()) : juce::String(noActuator.data(), noActuator.size());
 }
 
 bool PluginProcessor::strengthMatters() const

@@ -4,7 +4,6 @@
 #include "editor/Controls.h"
 #include "editor/Theme.h"
 #include "editor/Translation.h"
-#include "io/ShippedProfiles.h"
 
 #include <pacini/foundation/Units.h>
 
@@ -23,12 +22,9 @@ constexpr int lineHeight = 5 * grid;
 
 std::vector<int> offeredValues(const ParameterRow& row)
 {
-    const bool further = row.choices.data() == furtherProfileChoices.data();
-    const std::size_t first = further ? 1 : 0; // the number of slot 0
-    const bool actuators = further || row.parameter == ParameterId::profile;
     std::vector<int> values;
     for (std::size_t i = 0; i < row.choices.size(); ++i)
-        if (!actuators || i < first || i == ownProfileSlot + first || !profileNameOf(i - first).empty())
+        if (!hasNoActuator(row.choices[i]))
             values.push_back(static_cast<int>(i));
     return values;
 }

@@ -344,7 +344,7 @@ juce::String PluginWindow::statusText() const
     if (processor.isBypassedByHost())
         return editor::tr("Bypassed by the host");
     const double milliseconds = 1000.0 * processor.latency() / processor.sampleRate();
-    return editor::tr("{0}, latency {1} ms", {processor.actuatorName(), juce::String(milliseconds, 2)});
+    return editor::tr("{0}, latency {1} ms", {editor::tr(processor.actuatorName()), juce::String(milliseconds, 2)});
 }
 
 void PluginWindow::chooseActuator(std::size_t channel)

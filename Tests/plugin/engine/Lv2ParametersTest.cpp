@@ -52,8 +52,8 @@ TEST_CASE("For LV2, choices stand on the values that the plugin takes for them")
         const std::string own = text.substr(begin, text.find(" .\n", begin) - begin);
         CHECK(own.find("rdf:value 0.5000") == own.npos);
         for (std::size_t i = 0; i < row.choices.size(); ++i)
-            CHECK(own.find("[ rdfs:label \"" + std::string(row.choices[i]) + "\" ; rdf:value " + std::to_string(i) +
-                           ".0000 ]") != own.npos);
+            CHECK((own.find("[ rdfs:label \"" + std::string(row.choices[i]) + "\" ; rdf:value " + std::to_string(i) +
+                            ".0000 ]") != own.npos) == !hasNoActuator(row.choices[i]));
         const auto number = [](double value)
         {
             const std::string digits = std::to_string(value);

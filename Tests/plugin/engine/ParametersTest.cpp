@@ -86,6 +86,30 @@ TEST_CASE("What is no value of a parameter, or beyond its range, is refused: the
         }
 }
 
+TEST_CASE("Lists of hosts say where a slot has no actuator")
+{
+    for (std::size_t slot = 0; slot < profileSlots; ++slot)
+    {
+        CAPTURE(slot);
+        const auto& first = rowOf(ParameterId::profile).choices;
+        const auto& second = rowOf(channelParameter(1, ChannelSetting::actuator)).choices;
+        CHECK(first[slot] == second[slot + 1]);
+        CHECK(hasNoActuator(first[slot]) == (slot != ownProfileSlot && profileNameOf(slot).empty()));
+    }
+    Rig rig({.main = 1, .sidechain = 0});
+    const auto sound = std::vector<std::vector<float>>{liveSound(24000, 5)};
+    const auto driveOf = [&](double slot)
+    {
+        rig.set(ParameterId::profile, slot);
+        rig.plugin.prepareToPlay(48000.0, 512);
+        return rig.run(sound).haptic[0];
+    };
+    CHECK(driveOf(12.0) == driveOf(0.0)); // flat, as the text says
+    rig.set(ParameterId::profile, 12.0);
+    rig.plugin.prepareToPlay(48000.0, 512);
+    CHECK(rig.plugin.actuatorName() == "No actuator (flat)");
+}
+
 TEST_CASE("Normalised values survive exactly, discrete ones snap")
 {
     PluginProcessor plugin;
