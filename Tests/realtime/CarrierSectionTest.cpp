@@ -44,7 +44,7 @@ std::vector<double> sectionPlays(CarrierSection& section, std::size_t hops,
                     (hop % 110 > 60 ? 0.25 * std::sin(turn * 600.0 * t) : 0.0) + 0.02 * random.uniform(-1.0, 1.0);
         }
         const SectionAim aim = aimOf(hop);
-        section.aim(aim.gains, aim.transposition, aim.attack, aim.release, aim.level);
+        section.aim(aim.gains, aim.transposition, aim.attack, aim.release, aim.level ? 1.0 : 0.0);
         section.process(std::span(in).first(5), std::span(out).first(5), 0);
         section.process(std::span(in).subspan(5), std::span(out).subspan(5), 5);
         section.flush();

@@ -152,14 +152,14 @@ TEST_CASE("a reset band listener is a new one", "[realtime]")
     CHECK(numbersOf(heardOf(used, 100.0, 0.5, 50)) == numbersOf(heardOf(fresh, 100.0, 0.5, 50)));
 }
 
-TEST_CASE("an oscillator is a sinusoid whose amplitude moves in straight lines from hop to hop", "[realtime]")
+TEST_CASE("an oscillator is a sinusoid whose amplitude moves along a spline from hop to hop", "[realtime]")
 {
     CarrierOscillator oscillator;
     oscillator.reset();
     CHECK(oscillator.silent());
     CHECK(oscillator.level() == 0.0);
     const double f = 0.03;
-    double phase = 0.0, from = 0.0;
+    double phase = 0.0, before = 0.0, from = 0.0;
     for (std::size_t hop = 0; hop < 4000; ++hop)
     {
         const double target = hop % 5 < 3 ? 0.8 : 0.2;
@@ -173,13 +173,19 @@ TEST_CASE("an oscillator is a sinusoid whose amplitude moves in straight lines f
         for (std::size_t i = 0; i < controlHop; ++i)
         {
             phase = std::fmod(phase + 2.0 * std::numbers::pi * f, 2.0 * std::numbers::pi);
-            const double amplitude = from + (to - from) * static_cast<double>(i + 1) / static_cast<double>(controlHop);
+            // The quadratic B-spline by its three weights.
+            const double u = static_cast<double>(i + 1) / static_cast<double>(controlHop);
+            const double amplitude = 0.5 * (1.0 - u) * (1.0 - u) * before + (0.5 + u - u * u) * from + 0.5 * u * u * to;
             REQUIRE(out[i] == Approx(1.0 + amplitude * std::sin(phase)).margin(1e-9));
         }
+        before = from;
         from = to;
     }
-    oscillator.aim(0.0, 1.0, f);
-    CHECK_FALSE(oscillator.silent());
+    for (int hop = 0; hop < 2; ++hop)
+    {
+        oscillator.aim(0.0, 1.0, f);
+        CHECK_FALSE(oscillator.silent());
+    }
     oscillator.aim(0.0, 1.0, f);
     CHECK(oscillator.silent());
 }
@@ -199,6 +205,28 @@ TEST_CASE("an oscillator's size does not drift, and what went wrong with it heal
                 largest = std::max(largest, std::abs(y));
     }
     CHECK(largest == Approx(1.0).epsilon(1e-12));
+}
+
+TEST_CASE("an oscillator's pitch moves in a straight line within a hop, from silence at once", "[realtime]")
+{
+    CarrierOscillator oscillator;
+    oscillator.reset();
+    double phase = 0.0, before = 0.02;
+    for (std::size_t hop = 0; hop < 50; ++hop)
+    {
+        const double f = hop % 3 == 0 ? 0.02 : 0.05;
+        oscillator.aim(1.0, 1.0, f);
+        std::array<double, controlHop> out{};
+        oscillator.addTo(out, 0);
+        for (std::size_t i = 0; i < controlHop; ++i)
+        {
+            const double part = static_cast<double>(i + 1) / static_cast<double>(controlHop);
+            phase += 2.0 * std::numbers::pi * (before + part * (f - before));
+            if (hop > 2)
+                CHECK(out[i] == Approx(std::sin(phase)).margin(1e-9));
+        }
+        before = f;
+    }
 }
 
 TEST_CASE("an oscillator begins at the phase that it is given or at another one's", "[realtime]")
@@ -224,9 +252,8 @@ TEST_CASE("an oscillator begins at the phase that it is given or at another one'
             for (std::size_t i = 0; i < controlHop; ++i)
             {
                 const double t = static_cast<double>(i + 1);
-                CHECK(y[i] ==
-                      Approx(t / static_cast<double>(controlHop) * std::sin(phase + 2.0 * std::numbers::pi * 0.02 * t))
-                          .margin(1e-12));
+                const double u = t / static_cast<double>(controlHop);
+                CHECK(y[i] == Approx(0.5 * u * u * std::sin(phase + 2.0 * std::numbers::pi * 0.02 * t)).margin(1e-12));
             }
             CHECK(first(other) == y);
         }
@@ -282,6 +309,35 @@ TEST_CASE("a hop's ramp runs in a straight line and arrives", "[realtime]")
     CHECK(ramp.silent());
     ramp.aim(0.5, 1.0);
     CHECK_FALSE(ramp.silent());
+}
+
+TEST_CASE("a parameter's glide turns without a corner, passes no target, and arrives", "[realtime]")
+{
+    HopGlide glide;
+    glide.jump(1.0);
+    CHECK(glide.end() == 1.0);
+    const double share = hopShare(0.005, 6000.0);
+    double before = 1.0, slope = 0.0, corner = 0.0;
+    std::size_t hops = 0, half = 0;
+    for (; hops < 200 && !glide.silent(); ++hops)
+    {
+        glide.aim(0.0, share);
+        CHECK(glide.start() == before);
+        CHECK(glide.end() >= 0.0);
+        CHECK(glide.end() <= before);
+        corner = std::max(corner, std::abs(glide.end() - before - slope));
+        slope = glide.end() - before;
+        before = glide.end();
+        half += before > 0.5 ? 1 : 0;
+        CHECK(glide.at(controlHop - 1) == Approx(glide.end()).margin(1e-12));
+    }
+    CHECK(corner < 0.05); // one one-pole has 0.23
+    CHECK(half * controlHop < 0.020 * 6000.0);
+    CHECK(hops < 100);
+    glide.aim(0.25, 1.0);
+    glide.aim(0.25, 1.0);
+    glide.aim(0.25, 1.0);
+    CHECK(glide.end() == 0.25);
 }
 
 TEST_CASE("a hop's share is that of a one-pole of eight frames", "[realtime]")

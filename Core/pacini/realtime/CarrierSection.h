@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <span>
 #include <utility>
 
@@ -20,8 +21,15 @@ namespace pacini
 ///
 /// - Neighbours of one pitch (within 15 %: a tone between two centres) become one sinusoid, the stronger one, of the
 ///   sum of both amplitudes, since the slopes of two bands meet in phase.
-/// - Without a voice of its own a band lends its power to the nearest that has one. Voices go to the strongest bands;
-///   who sounds keeps its voice until another is 3 dB stronger.
+/// - Bands that the actuator's range brings to one frequency (within 15 %) become one sinusoid too, of the sum of their
+///   powers: they are strangers to each other, and two sinusoids of one frequency would be as loud as their phases
+///   happen to be.
+/// - A band that hears what lies in the range that is played directly leaves it to that: its sinusoid would add to the
+///   tone itself, as strongly as their phases happen to agree.
+/// - A band that plays its own signal in part keeps its sinusoid in step with that: the two are one tone.
+/// - Without a voice of its own a band lends its power to the nearest that has one. Voices go to those that were the
+///   strongest over the last 20 ms.
+/// - A sinusoid that becomes another band's goes on: it changes its pitch, but neither its phase nor its level.
 class CarrierSection
 {
 public:
@@ -31,27 +39,38 @@ public:
         design = &wanted;
         listeners = wanted.listeners;
         wide = wanted.wide;
+        standingShare = hopShare(0.020, wanted.innerRate);
+        const auto tangentOf = [&wanted](double hertz)
+        {
+            return std::tan(std::numbers::pi * clampedFrequency(Hertz(hertz), wanted.innerRate) / wanted.innerRate);
+        };
+        for (std::size_t k = 0; k < wanted.bands.size(); ++k)
+            edges[k] = {tangentOf(wanted.bands[k].low.value), tangentOf(wanted.bands[k].high.value)};
+        directEdges = {tangentOf(wanted.directLow), tangentOf(wanted.directHigh)};
         reset();
     }
 
     void reset() noexcept
     {
+        standingPowers = {};
         for (CarrierOscillator& oscillator : oscillators)
             oscillator.reset();
         listening = {}; // whoever listens next is reset by aim()
         any = levelling = false;
     }
 
-    /// At the start of a hop: `gains` for each band, the ratio of transposition and the shares of the way that
-    /// amplitudes go up and down in a hop.
-    void aim(std::span<const double> gains, double transposition, double attack, double release, bool level) noexcept
+    /// At the start of a hop: `gains` for each band, the ratio of transposition, the shares of the way that amplitudes
+    /// go up and down in a hop, and how far (0 to 1) all are brought to the strength of the whole range, and the share
+    /// of the direct path.
+    void aim(std::span<const double> gains, double transposition, double attack, double release, double level,
+             double direct = 0.0) noexcept
     {
         const std::size_t bands = design->bands.size();
         any = false;
         bool anyWanted = false;
         for (std::size_t k = 0; k < bands; ++k)
             anyWanted = anyWanted || gains[k] > 0.0;
-        const bool levelled = std::exchange(levelling, level && anyWanted);
+        const bool levelled = std::exchange(levelling, level > 0.0 && anyWanted);
         if (levelling && !levelled)
             wide.reset();
         for (std::size_t k = 0; k < bands; ++k)
@@ -72,15 +91,31 @@ public:
             const auto heard = listeners[k].hear();
             plain[k] = std::sqrt(std::max(heard.power, 0.0));
             amplitudes[k] = gains[k] * plain[k];
+            if (!design->bands[k].shown)
+                amplitudes[k] *= 1.0 - direct * partInDirect(heard.frequency * design->innerRate);
             pitches[k] = heard.frequency;
             masters[k] = k;
-            if (oscillators[k].silent())
+            inStep[k] = design->bands[k].shown && direct > 0.0 && direct < 1.0 && transposition == 1.0;
+            if (inStep[k])
+                phases[k] = std::atan2(heard.sine, heard.cosine) + phaseFromBand(k, heard.frequency);
+            if (!oscillators[k].silent())
+                continue;
+            if (inStep[k])
+                oscillators[k].begin(std::sin(phases[k]), std::cos(phases[k]));
+            else
                 oscillators[k].begin(heard.sine, heard.cosine);
         }
         mergeNeighbours(bands);
         if (levelling)
-            levelToWhole(bands);
-        shareVoices(bands);
+            levelToWhole(bands, level);
+        for (std::size_t k = 0; k < bands; ++k)
+            frequencies[k] = played(pitches[k], transposition);
+        if (design->frequencies)
+        {
+            mergePlayed(bands, transposition);
+            shareVoices(bands);
+            handOver(bands);
+        }
         for (std::size_t k = 0; k < bands; ++k)
         {
             if (!listening[k])
@@ -89,8 +124,11 @@ public:
             if (master != k && oscillators[k].silent())
                 oscillators[k].follow(oscillators[master]);
             const double wanted = amplitudes[k] > 1e-7 ? amplitudes[k] : 0.0;
-            oscillators[k].aim(wanted, wanted > oscillators[k].level() ? attack : release,
-                               played(pitches[master], transposition));
+            double frequency = frequencies[master];
+            if (master == k && inStep[k])
+                frequency += std::clamp(pull * oscillators[k].behind(phases[k]) / (2.0 * std::numbers::pi * hopFrames),
+                                        -0.05 * frequency, 0.05 * frequency);
+            oscillators[k].aim(wanted, wanted > oscillators[k].level() ? attack : release, frequency);
         }
     }
 
@@ -121,6 +159,8 @@ private:
     static constexpr double samePitch = 0.15;
     static constexpr double keep = 1.41; // in amplitude
     static constexpr double largestScale = 8.0;
+    static constexpr double pull = 0.2; // of a phase, in a hop
+    static constexpr auto hopFrames = static_cast<double>(controlHop);
 
     /// The louder of two, where the one that sounds counts for more.
     [[nodiscard]] double claim(std::size_t k) const noexcept
@@ -156,7 +196,7 @@ private:
 
     /// Narrow bands answer late, each at its own time, and overlap. Their sum is brought to the strength of the whole
     /// range, which answers at once.
-    void levelToWhole(std::size_t bands) noexcept
+    void levelToWhole(std::size_t bands, double share) noexcept
     {
         const double whole = std::sqrt(std::max(wide.hear().power, 0.0));
         double sum = 0.0;
@@ -164,7 +204,62 @@ private:
             sum += plain[k] * plain[k];
         const double scale = sum > 0.0 ? std::min(whole / std::sqrt(sum), largestScale) : 1.0;
         for (std::size_t k = 0; k < bands; ++k)
-            amplitudes[k] *= scale;
+            amplitudes[k] *= 1.0 + share * (scale - 1.0);
+    }
+
+    /// From the phase that a tone of this pitch (cycles per frame) has behind the slopes of band `k`, half a frame
+    /// before the newest, to that behind the slopes of the direct path.
+    [[nodiscard]] double phaseFromBand(std::size_t k, double pitch) const noexcept
+    {
+        const double tangent = std::tan(std::numbers::pi * pitch);
+        const auto lag =
+            [tangent](double edge) // of a Butterworth low-pass of second order; a high-pass leads by pi - lag
+        {
+            const double x = tangent / edge;
+            return std::atan2(std::numbers::sqrt2 * x, 1.0 - x * x);
+        };
+        return std::numbers::pi * (1.0 + pitch) + 2.0 * (lag(edges[k][0]) + lag(edges[k][1])) - lag(directEdges[0]) -
+               lag(directEdges[1]);
+    }
+
+    /// How much of a pitch (Hz) the direct path plays: 1 in its range, 0 from 15 % beyond its ends on.
+    [[nodiscard]] double partInDirect(double pitch) const noexcept
+    {
+        if (!design->anyDirect)
+            return 0.0;
+        const double beyond = std::max(design->directLow / pitch, pitch / design->directHigh) - 1.0;
+        return 1.0 - std::clamp(beyond / samePitch, 0.0, 1.0);
+    }
+
+    /// Hands the power of band `k`, and of those that it has taken in, to `other`.
+    void lend(std::size_t k, std::size_t other, std::size_t bands) noexcept
+    {
+        amplitudes[other] = std::hypot(amplitudes[other], std::exchange(amplitudes[k], 0.0));
+        standing[other] += standing[k];
+        for (std::size_t j = 0; j < bands; ++j)
+            if (masters[j] == k)
+                masters[j] = other;
+    }
+
+    /// Bands that were moved to the frequency of another become one with it.
+    void mergePlayed(std::size_t bands, double transposition) noexcept
+    {
+        std::array<bool, maxTranslatorBands> moved{};
+        for (std::size_t k = 0; k < bands; ++k)
+        {
+            standingPowers[k] += standingShare * (amplitudes[k] * amplitudes[k] - standingPowers[k]);
+            flushTiny(standingPowers[k]);
+            moved[k] = std::abs(frequencies[k] - pitches[k] * transposition) > 1e-9;
+        }
+        standing = standingPowers;
+        for (std::size_t k = 1; k < bands; ++k)
+            for (std::size_t j = 0; j < k && amplitudes[k] > 0.0; ++j)
+                if (amplitudes[j] > 0.0 && (moved[j] || moved[k]) &&
+                    std::abs(frequencies[k] - frequencies[j]) < samePitch * std::min(frequencies[j], frequencies[k]))
+                {
+                    const bool upper = standing[k] > standing[j];
+                    lend(upper ? j : k, upper ? k : j, bands);
+                }
     }
 
     void shareVoices(std::size_t bands) noexcept
@@ -179,7 +274,7 @@ private:
         {
             std::size_t best = bands;
             for (std::size_t k = 0; k < bands; ++k)
-                if (amplitudes[k] > 0.0 && !chosen[k] && (best == bands || claim(k) > claim(best)))
+                if (amplitudes[k] > 0.0 && !chosen[k] && (best == bands || standing[k] > standing[best]))
                     best = k;
             chosen[best] = true;
         }
@@ -195,8 +290,23 @@ private:
             for (std::size_t j = 0; j < bands; ++j)
                 if (chosen[j] && (nearest == bands || distance(j) < distance(nearest)))
                     nearest = j;
-            amplitudes[nearest] = std::hypot(amplitudes[nearest], amplitudes[k]);
-            amplitudes[k] = 0.0;
+            lend(k, nearest, bands);
+        }
+    }
+
+    /// A band that takes over from others goes on with the loudest of their sinusoids.
+    void handOver(std::size_t bands) noexcept
+    {
+        for (std::size_t k = 0; k < bands; ++k)
+        {
+            if (masters[k] != k || !(amplitudes[k] > 0.0))
+                continue;
+            std::size_t loudest = k;
+            for (std::size_t j = 0; j < bands; ++j)
+                if (masters[j] == k && oscillators[j].level() > oscillators[loudest].level())
+                    loudest = j;
+            if (loudest != k)
+                std::swap(oscillators[k], oscillators[loudest]);
         }
     }
 
@@ -218,6 +328,14 @@ private:
     std::array<double, maxTranslatorBands> amplitudes{};
     std::array<double, maxTranslatorBands> plain{}; // without the gains of the roles
     std::array<double, maxTranslatorBands> pitches{};
+    std::array<double, maxTranslatorBands> frequencies{};          // that are played, cycles per frame as the pitches
+    std::array<std::array<double, 2>, maxTranslatorBands> edges{}; // tan(w / 2) of low and high
+    std::array<double, 2> directEdges{};
+    std::array<bool, maxTranslatorBands> inStep{};   // with the direct path
+    std::array<double, maxTranslatorBands> phases{}; // that they shall have
+    double standingShare = 1.0;
+    std::array<double, maxTranslatorBands> standingPowers{}; // over the last 20 ms
+    std::array<double, maxTranslatorBands> standing{};       // the same with that of bands taken in
     std::array<std::size_t, maxTranslatorBands> masters{};
     bool any = false;
 };

@@ -116,7 +116,7 @@ private:
     double tangent = 0.1;
 };
 
-/// A sinusoid whose amplitude moves in straight lines and whose phase never jumps while it sounds.
+/// A sinusoid whose amplitude moves along smooth curves and whose phase never jumps while it sounds.
 class CarrierOscillator
 {
 public:
@@ -127,16 +127,22 @@ public:
         amplitude.jump(0.0);
     }
 
-    /// At the start of a hop: the amplitude goes the part `share` of the way to `target`, the pitch is `frequency`
-    /// (cycles per frame, below 0.5) from here on.
+    /// At the start of a hop: the amplitude goes the part `share` of the way to `target`, the pitch that to `frequency`
+    /// (cycles per frame, below 0.5) within the hop; from silence it is there at once.
     void aim(double target, double share, double frequency) noexcept
     {
+        const bool begins = amplitude.silent();
         amplitude.aim(target, share);
         if (amplitude.silent())
             return;
-        const double angle = 2.0 * std::numbers::pi * frequency;
-        stepRe = std::cos(angle);
-        stepIm = std::sin(angle);
+        const double wanted = 2.0 * std::numbers::pi * frequency;
+        const double from = begins ? wanted : angle;
+        const double bend = (wanted - from) / static_cast<double>(controlHop);
+        angle = wanted;
+        stepRe = std::cos(from);
+        stepIm = std::sin(from);
+        bendRe = std::cos(bend);
+        bendIm = std::sin(bend);
         const double norm = 1.5 - 0.5 * (re * re + im * im); // rounding must not let it grow or shrink
         re *= norm;
         im *= norm;
@@ -161,6 +167,13 @@ public:
         im = other.im;
     }
 
+    /// By how much its phase at the newest frame is behind `phase`, -pi to pi.
+    [[nodiscard]] double behind(double phase) const noexcept
+    {
+        const double sine = std::sin(phase), cosine = std::cos(phase);
+        return std::atan2(sine * re - cosine * im, cosine * re + sine * im);
+    }
+
     [[nodiscard]] bool silent() const noexcept { return amplitude.silent(); }
     [[nodiscard]] double level() const noexcept { return amplitude.end(); }
 
@@ -169,6 +182,9 @@ public:
     {
         for (std::size_t n = 0; n < out.size(); ++n)
         {
+            const double step = stepRe * bendRe - stepIm * bendIm;
+            stepIm = stepRe * bendIm + stepIm * bendRe;
+            stepRe = step;
             const double next = re * stepRe - im * stepIm;
             im = re * stepIm + im * stepRe;
             re = next;
@@ -178,8 +194,10 @@ public:
 
 private:
     double re = 1.0, im = 0.0;
+    double angle = 0.0; // of a frame, at the end of the hop
     double stepRe = 1.0, stepIm = 0.0;
-    HopRamp amplitude;
+    double bendRe = 1.0, bendIm = 0.0;
+    HopCurve amplitude;
 };
 
 } // namespace pacini

@@ -2,6 +2,7 @@
 
 // Control rate of the translator: the grid on which it decides, and gain ramps from one decision to the next.
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 
@@ -43,6 +44,73 @@ private:
     double from = 0.0;
     double goal = 0.0;
     double step = 0.0;
+};
+
+/// Amplitude that follows a signal: as HopRamp, but along the quadratic B-spline of the points, without corners and
+/// half a hop later. The corners of straight lines, one in each hop, are heard at -50 dB beyond 1.5 kHz.
+class HopCurve
+{
+public:
+    void jump(double target) noexcept { points = {target, target, target}; }
+
+    /// At the start of a hop: the next point goes the part `share` of the way to `target`. The last millionth is
+    /// jumped.
+    void aim(double target, double share) noexcept
+    {
+        const double from = points[2];
+        points = {points[1], from, std::abs(target - from) <= 1e-6 ? target : from + share * (target - from)};
+    }
+
+    [[nodiscard]] double at(std::size_t frame) const noexcept
+    {
+        const double u = static_cast<double>(frame + 1) / static_cast<double>(controlHop);
+        const double slope = points[1] - points[0];
+        return 0.5 * (points[0] + points[1]) + u * (slope + 0.5 * u * (points[2] - points[1] - slope));
+    }
+    /// The newest point.
+    [[nodiscard]] double end() const noexcept { return points[2]; }
+    [[nodiscard]] bool silent() const noexcept { return points == std::array{0.0, 0.0, 0.0}; }
+
+private:
+    std::array<double, 3> points{};
+};
+
+/// Parameter on its way: a ramp whose ends follow three one-poles in a row. After one of them the slope jumps with the
+/// target, which is heard at -40 dB beyond 1.5 kHz; after three it turns slowly.
+class HopGlide
+{
+public:
+    void jump(double target) noexcept
+    {
+        stages = {target, target, target};
+        ramp.jump(target);
+    }
+
+    /// At the start of a hop: each one-pole goes the part `share` of its way. The last millionth is jumped.
+    void aim(double target, double share) noexcept
+    {
+        double towards = target;
+        bool near = true;
+        for (double& stage : stages)
+        {
+            stage += share * (towards - stage);
+            towards = stage;
+            near = near && std::abs(target - stage) <= 1e-6;
+        }
+        if (near)
+            stages = {target, target, target};
+        ramp.aim(stages.back(), 1.0);
+    }
+
+    [[nodiscard]] double at(std::size_t frame) const noexcept { return ramp.at(frame); }
+    [[nodiscard]] double start() const noexcept { return ramp.start(); }
+    [[nodiscard]] double end() const noexcept { return ramp.end(); }
+    /// Whether it is 0 during the whole hop and does not leave it.
+    [[nodiscard]] bool silent() const noexcept { return ramp.silent() && stages == std::array{0.0, 0.0, 0.0}; }
+
+private:
+    std::array<double, 3> stages{};
+    HopRamp ramp;
 };
 
 /// The share of the way that a one-pole with the time constant `seconds` goes in one hop at `fs` Hz; 1 for 0 s.

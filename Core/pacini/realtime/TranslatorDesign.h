@@ -58,6 +58,7 @@ struct TranslatorDesign
     BandMeter meter;           ///< to be copied, as what follows, so that the audio thread designs nothing
     DirectPath direct;
     bool anyDirect = false;
+    double directLow = 1.0, directHigh = 1.0; ///< Hz, the range of the direct path
     std::array<BandListener, maxTranslatorBands> listeners;
     BandListener wide;                       ///< to the whole range
     std::optional<FrequencyMap> frequencies; ///< none: every frequency stays
@@ -192,6 +193,8 @@ inline void designBands(TranslatorDesign& design, bool anyWaveform)
     }
     design.wide.design(design.layout.lowerEdge(0), design.layout.upperEdge(design.layout.bands() - 1),
                        design.innerRate);
+    design.directLow = low.value;
+    design.directHigh = high.value;
     design.direct.design(low, border, high, design.innerRate);
 }
 
