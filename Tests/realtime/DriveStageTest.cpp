@@ -70,35 +70,6 @@ TEST_CASE("an event drives a motor for its rise time, 12 ms at least, and then n
     }
 }
 
-TEST_CASE("the drive fades in a straight line of four hops, and says when it has", "[realtime]")
-{
-    const TranslatorDesign design = designTranslator({}, stageRate);
-    DriveStage stage;
-    stage.adopt(design);
-    stage.jump(0.5);
-    stage.aim(0.5, 1.0, 0.0, 0.0);
-    for (const float y : hop(stage, 0.8))
-        CHECK(static_cast<double>(y) == Approx(0.4));
-    for (const bool out : {true, false})
-    {
-        stage.setFade(out);
-        for (std::size_t n = 0; n < 4; ++n)
-        {
-            stage.aim(0.5, 1.0, 0.0, 0.0);
-            const auto y = hop(stage, 0.8);
-            CHECK_FALSE(stage.faded());
-            for (std::size_t i = 0; i < controlHop; ++i)
-            {
-                const double way = static_cast<double>(n * controlHop + i + 1) / static_cast<double>(4 * controlHop);
-                CHECK(static_cast<double>(y[i]) == Approx(0.4 * (out ? 1.0 - way : way)).margin(1e-6));
-            }
-        }
-        stage.aim(0.5, 1.0, 0.0, 0.0);
-        CHECK(stage.faded() == out);
-        CHECK(static_cast<double>(hop(stage, 0.8).back()) == Approx(out ? 0.0 : 0.4).margin(1e-9));
-    }
-}
-
 TEST_CASE("without limits to keep, the drive stage limits at full scale and says how much", "[realtime]")
 {
     const TranslatorDesign design = designTranslator({}, stageRate);

@@ -96,12 +96,9 @@ EngineResult engineResult(const TranslatorSetup& setup, const TranslatorParams& 
             between(engine, done);
         const std::size_t n =
             std::min<std::size_t>(std::array<std::size_t, 4>{5, 64, 1, 133}[piece++ % 4], out.size() - done);
-        const std::size_t made =
-            engine.process(std::span(sound.frames).subspan(done, n), std::span(sound.peaks).subspan(done, n), {},
-                           std::span(out).subspan(done, n), onEvent);
-        if (!between)
-            REQUIRE(made == n);
-        done += made;
+        engine.process(std::span(sound.frames).subspan(done, n), std::span(sound.peaks).subspan(done, n), {},
+                       std::span(out).subspan(done, n), onEvent);
+        done += n;
         if (piece % 16 == 0)
         {
             for (std::size_t k = 0; k < design.bands.size(); ++k)
@@ -238,7 +235,7 @@ TEST_CASE("the engine with a motor plays what it played before", "[realtime]")
     pinEngine("motor of other levels", engineResult(motor, quiet, 11025.0));
 }
 
-TEST_CASE("the engine plays parameters that change, and fades, as before", "[realtime]")
+TEST_CASE("the engine plays parameters that change as before", "[realtime]")
 {
     TranslatorParams other;
     other.intensity = -9.0;
@@ -251,14 +248,6 @@ TEST_CASE("the engine plays parameters that change, and fades, as before", "[rea
     pinEngine("changing", engineResult({}, {}, 6000.0,
                                        [&](TranslatorEngine& engine, std::size_t done)
                                        { engine.setParams(done / 900 % 2 == 0 ? TranslatorParams{} : other); }));
-    std::size_t faded = 0;
-    pinEngine("fading", engineResult({}, {}, 6000.0,
-                                     [&](TranslatorEngine& engine, std::size_t done)
-                                     {
-                                         faded += engine.faded() ? 1u : 0u;
-                                         engine.setFade(done > 500 && done < 700);
-                                     }));
-    checkPinned("realtime/engine, calls that found it faded", {static_cast<double>(faded)});
 }
 
 TEST_CASE("a reset engine is a new one", "[realtime]")
@@ -281,8 +270,8 @@ TEST_CASE("a reset engine is a new one", "[realtime]")
                 heard.push_back(static_cast<double>(frame));
                 heard.push_back(level);
             };
-            REQUIRE(engine.process(std::span(sound.frames).first(frames), std::span(sound.peaks).first(frames), {}, out,
-                                   onEvent) == frames);
+            engine.process(std::span(sound.frames).first(frames), std::span(sound.peaks).first(frames), {}, out,
+                           onEvent);
             heard.insert(heard.end(), out.begin(), out.end());
             for (std::size_t k = 0; k < design.bands.size(); ++k)
                 heard.push_back(engine.bandPower(k));
@@ -326,9 +315,8 @@ TEST_CASE("an engine that takes another design begins with the gains that belong
     {
         const std::size_t begin = 4200, frames = 2400; // noise at first, of all that is heard
         std::vector<float> out(frames);
-        CHECK(engine.process(std::span(sound.frames).subspan(begin, frames),
-                             std::span(sound.peaks).subspan(begin, frames), {}, out,
-                             [](std::uint64_t, double) {}) == frames);
+        engine.process(std::span(sound.frames).subspan(begin, frames), std::span(sound.peaks).subspan(begin, frames),
+                       {}, out, [](std::uint64_t, double) {});
         return out;
     };
     for (const TranslatorDesign* before : {&motor, &other})
@@ -342,13 +330,14 @@ TEST_CASE("an engine that takes another design begins with the gains that belong
         engine.setParams(params);
         engine.adopt(*before);
         std::vector<float> silence(40 * controlHop), out(silence.size());
-        CHECK(engine.process(silence, silence, {}, out, [](std::uint64_t, double) {}) == out.size());
+        engine.process(silence, silence, {}, out, [](std::uint64_t, double) {});
         engine.adopt(plain);
         CHECK(play(engine) == play(fresh));
     }
 }
 
-TEST_CASE("a gate opens at its threshold, stays open above half of it and for its release, and closes in a line",
+TEST_CASE("a gate opens at its threshold, stays open above half of it and for its release, and closes over "
+          "another one",
           "[realtime]")
 {
     LiveGate gate;
@@ -362,9 +351,9 @@ TEST_CASE("a gate opens at its threshold, stays open above half of it and for it
         CHECK(gate.tick(0.25) == 1.0);
     for (int i = 0; i < 4; ++i)
         CHECK(gate.tick(0.2499) == 1.0);
-    CHECK(gate.tick(0.0) == 0.75);
+    CHECK(gate.tick(0.0) == 0.84375);
     CHECK(gate.tick(0.3) == 0.5); // half of the threshold holds it, but does not open it
-    CHECK(gate.tick(0.0) == 0.25);
+    CHECK(gate.tick(0.0) == 0.15625);
     CHECK(gate.tick(0.0) == 0.0);
     CHECK(gate.closed());
     CHECK(gate.tick(0.0) == 0.0);
@@ -373,7 +362,7 @@ TEST_CASE("a gate opens at its threshold, stays open above half of it and for it
     CHECK(gate.tick(0.25) == 1.0); // starts the release anew
     for (int i = 0; i < 4; ++i)
         CHECK(gate.tick(0.0) == 1.0);
-    CHECK(gate.tick(0.0) == 0.75);
+    CHECK(gate.tick(0.0) == 0.84375);
     (void)gate.tick(0.7);
     gate.reset();
     CHECK(gate.closed());
@@ -386,6 +375,26 @@ TEST_CASE("a gate opens at its threshold, stays open above half of it and for it
     CHECK(fresh.tick(0.2) == 1.0);
     CHECK(fresh.tick(0.0) == 1.0);
     CHECK(fresh.tick(0.0) == 0.0);
+}
+
+TEST_CASE("a gate whose threshold passes the level opens over a while, and at once where the level passes it",
+          "[realtime]")
+{
+    LiveGate gate;
+    gate.setParams(0.5, 4.0, 10.0);
+    CHECK(gate.tick(0.3) == 0.0);
+    gate.setParams(0.1, 4.0, 10.0);
+    for (int i = 1; i <= 10; ++i)
+        CHECK(gate.tick(0.3) == Approx(0.01 * i * i * (3.0 - 0.2 * i)));
+    CHECK(gate.tick(0.3) == 1.0);
+    // The threshold moved in a silence: what comes then is a level that passes it.
+    gate.setParams(0.5, 1.0, 10.0);
+    for (int i = 0; i < 8; ++i)
+        (void)gate.tick(0.0);
+    CHECK(gate.closed());
+    gate.setParams(0.1, 1.0, 10.0);
+    CHECK(gate.tick(0.0) == 0.0);
+    CHECK(gate.tick(0.3) == 1.0);
 }
 
 TEST_CASE("event pulses begin where they are told, add up, and the fifth takes the place of the first", "[realtime]")

@@ -49,37 +49,35 @@ public:
     /// Gains at once.
     void jump(double below, double above) noexcept
     {
-        belowGain.jump(below);
-        aboveGain.jump(above);
-        weights = weightsFor(below, above);
-        steps = {};
+        const Weights wanted = weightsFor(below, above);
+        for (std::size_t i = 0; i < weights.size(); ++i)
+            weights[i].jump(wanted[i]);
     }
 
-    /// At the start of a hop: the gains go the part `share` of their way.
+    /// At the start of a hop: the weights that the gains have go the part `share` of their way.
     void aim(double below, double above, double share) noexcept
     {
-        belowGain.aim(below, share);
-        aboveGain.aim(above, share);
-        const Weights from = weightsFor(belowGain.start(), aboveGain.start());
-        const Weights to = weightsFor(belowGain.end(), aboveGain.end());
-        weights = from;
+        const Weights wanted = weightsFor(below, above);
+        bool equal = true;
         for (std::size_t i = 0; i < weights.size(); ++i)
-            steps[i] = (to[i] - from[i]) / static_cast<double>(controlHop);
-        const bool equal = belowGain.start() == aboveGain.start() && belowGain.end() == aboveGain.end();
+        {
+            weights[i].aim(wanted[i], share);
+            equal = equal && (i == 0 || (weights[i].start() == identity[i] && weights[i].end() == identity[i]));
+        }
         if (equal && !flat)
             for (std::size_t s = 2; s < 4; ++s)
                 states[s] = {};
         flat = equal;
     }
 
-    [[nodiscard]] bool silent() const noexcept { return belowGain.silent() && aboveGain.silent(); }
+    [[nodiscard]] bool silent() const noexcept { return weights[0].silent(); }
 
     /// Frames `at` and on of the hop.
     void process(std::span<const double> in, std::span<double> out, std::size_t at) noexcept
     {
         for (std::size_t n = 0; n < in.size(); ++n)
         {
-            const auto i = static_cast<double>(at + n + 1);
+            const std::size_t i = at + n;
             double x = states[0].tick(lower, in[n]).high;
             x = states[1].tick(upper, x).low;
             if (!flat)
@@ -87,10 +85,10 @@ public:
                 {
                     const StateVariableOutputs parts = states[2 + s].tick(shelves[s], x);
                     const std::size_t w = 1 + 3 * s;
-                    x = (weights[w] + i * steps[w]) * parts.low + (weights[w + 1] + i * steps[w + 1]) * parts.band +
-                        (weights[w + 2] + i * steps[w + 2]) * parts.high;
+                    x = weights[w].at(i) * parts.low + weights[w + 1].at(i) * parts.band +
+                        weights[w + 2].at(i) * parts.high;
                 }
-            out[n] = (weights[0] + i * steps[0]) * x;
+            out[n] = weights[0].at(i) * x;
         }
     }
 
@@ -105,6 +103,8 @@ private:
 
     using Weights = std::array<double, 7>; // gain, then low, band and high of both sections
 
+    static constexpr Weights identity{1.0, 1.0, dampings[0], 1.0, 1.0, dampings[1], 1.0};
+
     [[nodiscard]] static Weights weightsFor(double below, double above) noexcept
     {
         const double louder = std::max(below, above);
@@ -117,9 +117,7 @@ private:
     StateVariableLoop lower, upper;
     std::array<StateVariableLoop, 2> shelves;
     std::array<StateVariableState, 4> states{};
-    HopRamp belowGain, aboveGain;
-    Weights weights = weightsFor(1.0, 1.0);
-    Weights steps{};
+    std::array<HopGlide, 7> weights{};
     bool flat = false;
 };
 

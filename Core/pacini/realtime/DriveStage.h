@@ -61,8 +61,6 @@ public:
     {
         drive.jump(intensity);
         levels.jump(1.0);
-        fade.jump(1.0);
-        fadeTarget = 1.0;
     }
 
     /// At the start of a hop: intensity (linear), the share of the way that gains go, and of late's drive its peak and
@@ -70,8 +68,6 @@ public:
     void aim(double intensity, double share, double peak, double energy) noexcept
     {
         drive.aim(intensity, share);
-        // In straight lines of 4 hops, so that the end is 0 and not nearly so.
-        fade.aim(fadeTarget, fadeTarget == fade.end() ? 1.0 : std::min(1.0, 0.25 / std::abs(fadeTarget - fade.end())));
         if (design->motor)
             aimStrength(energy / static_cast<double>(controlHop));
         else if (!design->levels.isIdentity())
@@ -87,10 +83,6 @@ public:
         burstLeft = burstHops;
     }
     [[nodiscard]] bool bursting() const noexcept { return burstLeft > 0; }
-
-    void setFade(bool out) noexcept { fadeTarget = out ? 0.0 : 1.0; }
-    /// Whether the drive has faded to 0 on request.
-    [[nodiscard]] bool faded() const noexcept { return fadeTarget == 0.0 && fade.silent(); }
 
     /// Frames `at` and on of the hop, in place; `gates` are further gains. Returns the peak before the scale.
     double process(std::span<float> out, std::span<const double> gates, std::size_t at) noexcept
@@ -111,7 +103,7 @@ public:
             for (std::size_t s = 0; s < sections; ++s)
                 y = states[s].tick(design->filter.sections[s], y);
             peak = std::max(peak, std::abs(y));
-            y *= design->scale * fade.at(at + i);
+            y *= design->scale;
             if (limited)
             {
                 const double g = limiter.tick(y * y);
@@ -149,8 +141,8 @@ private:
     MotorDrive motor;
     LimiterGain limiter;
     std::array<StateVariableState, maxBiquadSections> states{};
-    HopRamp drive, levels, fade, strength;
-    double fadeTarget = 1.0;
+    HopGlide drive;
+    HopRamp levels, strength;
     double strengthShare = 1.0;
     double firstStrength = 0.0, secondStrength = 0.0; // mean squares
     double burst = 0.0;

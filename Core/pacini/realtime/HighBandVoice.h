@@ -86,7 +86,7 @@ private:
     StateVariableLoop split;
     StateVariableState state;
     CarrierOscillator oscillator;
-    HopRamp gain;
+    HopGlide gain;
     double share = 1.0;
     double lowEnergy = 0.0, highEnergy = 0.0; // of this hop
     double low = 0.0, high = 0.0;             // smoothed powers

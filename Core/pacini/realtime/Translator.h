@@ -5,6 +5,7 @@
 #include <pacini/actuator/Protection.h>
 #include <pacini/filters/PolyphaseInterpolator.h>
 #include <pacini/foundation/DspBlock.h>
+#include <pacini/foundation/Fade.h>
 #include <pacini/foundation/HandOver.h>
 #include <pacini/foundation/LargestMagnitude.h>
 #include <pacini/foundation/Units.h>
@@ -60,12 +61,14 @@ public:
         ready.assign((frames + 1) * factor, 0.0f);
         dry.assign(latency + longestPiece, 0.0f);
         protection.prepare({fs, longestPiece});
-        bypassStep = static_cast<float>(1.0 / (0.010 * fs));
+        fade.prepare(static_cast<std::size_t>(0.015 * fs));
+        bypass.prepare(static_cast<std::size_t>(0.010 * fs));
+        tailShare = std::min(1.0, 1.0 / (0.010 * fs));
         sendDesign();
         reset();
     }
 
-    /// Another actuator or other bands: the set is designed here and handed over; the audio thread fades out within 6
+    /// Another actuator or other bands: the set is designed here and handed over; the audio thread fades out within 15
     /// ms, takes it and fades in. The latency stays. [message]
     void setSetup(const TranslatorSetup& wanted)
     {
@@ -88,9 +91,9 @@ public:
             return;
         current = valid;
         engine.setParams(valid);
-        bypassTarget = valid.bypass ? 1.0f : 0.0f;
+        bypass.aim(valid.bypass ? 1.0 : 0.0);
         if (!begun)
-            bypass = bypassTarget;
+            bypass.jump(valid.bypass ? 1.0 : 0.0);
     }
 
     /// Silence, the newest set-up, the parameters as they are. [audio]
@@ -104,7 +107,10 @@ public:
         std::fill(dry.begin(), dry.end(), 0.0f);
         dryFrames = leftOver = 0;
         zeroFrames = 0;
-        bypass = bypassTarget;
+        bypass.jump(current.bypass ? 1.0 : 0.0);
+        fade.jump(1.0);
+        settling = 0;
+        last = tail = 0.0;
         begun = false;
         readings->reset();
     }
@@ -115,12 +121,19 @@ public:
     {
         double peak = 0.0;
         double reduction = 0.0;
-        for (std::size_t i = 0; i < in.size(); i += longestPiece)
+        for (std::size_t i = 0; i < in.size();)
         {
-            const std::size_t n = std::min(longestPiece, in.size() - i);
+            changeDesign();
+            std::size_t n = std::min(longestPiece, in.size() - i);
+            if (!fade.resting())
+                n = std::min(n, fade.framesLeft()); // the design changes where the fade ends
+            else if (settling > 0)
+                n = std::min(n, settling);
             piece(in.subspan(i, n), out.subspan(i, n));
             peak = std::max(peak, static_cast<double>(largestMagnitude(out.subspan(i, n))));
             reduction = std::max(reduction, held->content.protection ? protection.gainReduction() : 0.0);
+            i += n;
+            settling -= std::min(settling, n);
         }
         if (in.empty())
             return;
@@ -131,6 +144,12 @@ public:
 
     /// Frames by which the drive is later than the sound.
     [[nodiscard]] std::size_t latencyFrames() const noexcept { return latency; }
+
+    /// Frames after a reset until a sound that was there before is played steadily. [audio]
+    [[nodiscard]] std::size_t settlingFrames() const noexcept
+    {
+        return static_cast<std::size_t>((held->content.motor ? 0.100 : 0.010) * fs);
+    }
 
     [[nodiscard]] const TranslatorMeters& meters() const noexcept { return *readings; }
 
@@ -147,6 +166,25 @@ private:
     };
 
     void sendDesign() { designs->send(designTranslator(setup, fs)); }
+
+    /// Fades out where a design waits, takes it, and fades in when its filters have settled.
+    void changeDesign() noexcept
+    {
+        if (designs->waiting())
+        {
+            fade.aim(0.0);
+            if (!begun) // there is nothing to fade
+                takeDesign();
+            else if (fade.restsAt(0.0))
+            {
+                takeDesign();
+                settling = settlingFrames();
+                tail = last;
+            }
+        }
+        if (!designs->waiting() && settling == 0)
+            fade.aim(1.0);
+    }
 
     void takeDesign() noexcept
     {
@@ -186,13 +224,23 @@ private:
                   ready.begin() + static_cast<std::ptrdiff_t>(made), ready.begin());
         leftOver = made - in.size();
 
-        if (bypass > 0.0f || bypassTarget > 0.0f)
+        if (!fade.restsAt(1.0))
+            for (float& sample : out)
+                sample *= static_cast<float>(fade.next());
+        if (!bypass.restsAt(0.0))
             mixDry(out);
+        for (std::size_t i = 0; i < out.size() && tail != 0.0; ++i)
+        {
+            tail = std::abs(tail) > 1e-7 ? tail - tailShare * tail : 0.0;
+            out[i] += static_cast<float>(tail);
+        }
         if (held->content.protection)
             protection.process(out, out);
         else
             for (float& sample : out)
                 sample = sample > 1.0f ? 1.0f : (sample < -1.0f ? -1.0f : sample);
+        if (!out.empty())
+            last = static_cast<double>(out.back());
     }
 
     void translate(std::span<const float> x, std::span<const float> p, std::span<const float> h,
@@ -202,14 +250,7 @@ private:
         {
             readings->noteEvent(frame * decimator.factor(), level);
         };
-        for (std::size_t done = 0; done < x.size();)
-        {
-            engine.setFade(designs->waiting());
-            done += engine.process(x.subspan(done), p.subspan(done), h.subspan(std::min(done, h.size())),
-                                   y.subspan(done), onEvent);
-            if (engine.faded())
-                takeDesign();
-        }
+        engine.process(x, p, h, y, onEvent);
     }
 
     /// To the host's rate; silence costs nothing.
@@ -238,9 +279,8 @@ private:
     {
         for (std::size_t i = 0; i < out.size(); ++i)
         {
-            bypass = bypassTarget > bypass ? std::min(bypass + bypassStep, bypassTarget)
-                                           : std::max(bypass - bypassStep, bypassTarget);
-            out[i] = bypass * dry[i] + (1.0f - bypass) * out[i];
+            const auto share = static_cast<float>(bypass.next());
+            out[i] = share * dry[i] + (1.0f - share) * out[i];
         }
     }
 
@@ -261,7 +301,12 @@ private:
     std::size_t leftOver = 0;
     std::size_t zeroFrames = 0;
     std::size_t latency = 0;
-    float bypass = 0.0f, bypassTarget = 0.0f, bypassStep = 1.0f;
+    Fade fade;                // out and in, around a change of the design
+    std::size_t settling = 0; // frames until the fade in
+    double last = 0.0;        // sample that went out
+    double tail = 0.0;        // of what the protection of the design before had still to give out
+    double tailShare = 1.0;
+    Fade bypass; // the share of `dry`
     bool begun = false;
 };
 

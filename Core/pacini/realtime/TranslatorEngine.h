@@ -22,14 +22,16 @@ namespace pacini
 {
 
 /// Noise gate. Opens at once when the level passes the threshold (the jump is as small as the threshold), stays open
-/// while the level is above half of it or was so during the release, and closes in a straight line over another
-/// release.
+/// while the level is above half of it or was so during the release, and closes over another release, without a corner.
+/// Where the threshold passes the level instead, it opens likewise: that jump may be large.
 class LiveGate
 {
 public:
-    /// `threshold` linear, `releaseFrames` at least 1.
-    void setParams(double threshold, double releaseFrames) noexcept
+    /// `threshold` linear, `releaseFrames` at least 1, `openFrames` for a threshold that moves.
+    void setParams(double threshold, double releaseFrames, double openFrames = 1.0) noexcept
     {
+        if (begun && threshold < limit)
+            rise = 1.0 / openFrames;
         limit = threshold;
         fall = 1.0 / releaseFrames;
         held = static_cast<std::size_t>(releaseFrames);
@@ -37,21 +39,29 @@ public:
     void reset() noexcept
     {
         gain = 0.0;
+        rise = 1.0;
         left = 0;
+        begun = false;
     }
 
     [[nodiscard]] double tick(double level) noexcept
     {
+        begun = true;
         if (level >= limit || (left > 0 && level >= 0.5 * limit))
         {
             left = held;
-            gain = 1.0;
+            gain = std::min(1.0, gain + rise);
+            if (gain == 1.0)
+                rise = 1.0;
         }
         else if (left > 0)
             --left;
         else
+        {
             gain = std::max(0.0, gain - fall);
-        return gain;
+            rise = 1.0;
+        }
+        return gain * gain * (3.0 - 2.0 * gain);
     }
 
     [[nodiscard]] bool closed() const noexcept { return gain == 0.0; }
@@ -62,6 +72,8 @@ private:
     std::size_t held = 0;
     std::size_t left = 0;
     double gain = 0.0;
+    double rise = 1.0;
+    bool begun = false;
 };
 
 /// Pulse voices. Pulses start at once; when all voices are busy, a new pulse replaces the oldest, which has almost
@@ -129,13 +141,12 @@ public:
         }
         heardVoice.design(wanted.lowest, wanted.highest, fs);
         gainShare = hopShare(0.005, fs);
+        glideShare = hopShare(0.006, fs);
         levelShare = hopShare(0.030, fs);
         peakDecay = 1.0 - hopShare(0.020, fs);
         clearSignal();
         setParams(params);
-        direct.jump(rumble * directShare(), texture * directShare());
-        bright.jump(brightGain());
-        heardVoice.jump(audibleShare());
+        jumpShares();
     }
 
     /// Linear gains and the like of clamped parameters. [audio]
@@ -160,7 +171,7 @@ public:
         attackShare = hopShare(0.001 * params.attack, rate);
         releaseShare = hopShare(0.001 * params.release, rate);
         threshold = baseThreshold * gain(30.0 * (0.5 - params.transientSensitivity));
-        gate.setParams(gain(params.gateThreshold), 0.001 * params.gateRelease * rate);
+        gate.setParams(gain(params.gateThreshold), 0.001 * params.gateRelease * rate, gateOpening * rate);
         if (!begun)
             jumpToParams();
     }
@@ -176,20 +187,15 @@ public:
         jumpToParams();
     }
 
-    /// Whether the output has faded to 0 on request, so that another design may come.
-    [[nodiscard]] bool faded() const noexcept { return stage.faded() && framesIntoHop == 0; }
-    void setFade(bool out) noexcept { stage.setFade(out); }
-
     /// Whether process() listens to what lies above the frames.
     [[nodiscard]] bool wantsHighs() const noexcept { return params.audible > 0.0 || !heardVoice.silent(); }
 
     /// All spans of one length: band-limited frames, full-band peaks and, where they are wanted and else none, samples
     /// of what lies above the frames in, drive out. `onEvent(frame, level)` is
-    /// called for every event, with the frame since reset. Stops early, where the design may be changed, if `out` has
-    /// faded; returns the number of frames done.
+    /// called for every event, with the frame since reset.
     template <typename OnEvent>
-    std::size_t process(std::span<const float> in, std::span<const float> peaks, std::span<const float> highs,
-                        std::span<float> out, OnEvent&& onEvent) noexcept
+    void process(std::span<const float> in, std::span<const float> peaks, std::span<const float> highs,
+                 std::span<float> out, OnEvent&& onEvent) noexcept
     {
         std::size_t done = 0;
         while (done < in.size())
@@ -202,10 +208,7 @@ public:
             done += n;
             frame += n;
             framesIntoHop = (framesIntoHop + n) % controlHop;
-            if (faded())
-                break;
         }
-        return done;
     }
 
     [[nodiscard]] double bandPower(std::size_t k) const noexcept { return bandPowers[k]; }
@@ -214,6 +217,7 @@ public:
 
 private:
     static constexpr double baseThreshold = 1.0;
+    static constexpr double gateOpening = 0.060; // s
     // The felt level of an event is its peak below 3 kHz, clamped to these shares of its full-band peak. Bright clicks
     // have little energy below 3 kHz but must be felt.
     static constexpr double leastShare = 0.06;
@@ -240,10 +244,26 @@ private:
             return;
         input.jump(inputGain);
         stage.jump(intensity);
-        ratio = transposition;
+        ratio.jump(transposition);
+        jumpShares();
+    }
+
+    void jumpShares() noexcept
+    {
+        rumbleGain.jump(rumble);
+        textureGain.jump(texture);
+        ownShare.jump(directShare());
+        levelling.jump(levelShareWanted());
         direct.jump(rumble * directShare(), texture * directShare());
         bright.jump(brightGain());
+        heardShare.jump(audibleShare());
         heardVoice.jump(audibleShare());
+    }
+
+    /// How far carriers are brought to the strength of the whole range: where no band is played by its own signal.
+    [[nodiscard]] double levelShareWanted() const noexcept
+    {
+        return directShare() == 0.0 || !design->anyDirect ? 1.0 : 0.0;
     }
 
     /// How much of a band's own signal is played where the actuator can show it.
@@ -267,11 +287,14 @@ private:
     void beginHop() noexcept
     {
         begun = true;
-        input.aim(inputGain, gainShare);
+        input.aim(inputGain, glideShare);
         stage.aim(intensity, gainShare, playedPeak, playedEnergy);
-        ratio += gainShare * (transposition - ratio);
-        if (std::abs(ratio - transposition) < 1e-9)
-            ratio = transposition;
+        ratio.aim(transposition, glideShare);
+        rumbleGain.aim(rumble, glideShare);
+        textureGain.aim(texture, glideShare);
+        ownShare.aim(directShare(), glideShare);
+        levelling.aim(levelShareWanted(), glideShare);
+        heardShare.aim(audibleShare(), glideShare);
 
         // A hop without any sign of life: what may be left is 180 dB below full scale.
         const bool wasAsleep =
@@ -288,25 +311,25 @@ private:
         }
         loudest = 0.0;
 
-        direct.aim(rumble * directShare(), texture * directShare(), gainShare);
+        direct.aim(rumble * directShare(), texture * directShare(), glideShare);
         double played = 0.0; // power (amplitude squared) of the bands
         double low = 0.0;    // of those that mask what is heard
         std::array<double, maxTranslatorBands> carrierGains{};
         for (std::size_t k = 0; k < design->bands.size(); ++k)
         {
             const TranslatorBand& band = design->bands[k];
-            const double role = band.rumble ? rumble : texture;
+            const double role = (band.rumble ? rumbleGain : textureGain).end();
             if (!design->motor)
-                carrierGains[k] = role * (band.shown ? 1.0 - directShare() : 1.0);
+                carrierGains[k] = role * (band.shown ? 1.0 - ownShare.end() : 1.0);
             const double power = 2.0 * meter.takePower(k) / static_cast<double>(controlHop);
             bandPowers[k] += levelShare * (power - bandPowers[k]);
             flushTiny(bandPowers[k]);
             played += role * role * bandPowers[k];
             low += band.centre.value < heardMaskedBy ? role * role * bandPowers[k] : 0.0;
         }
-        heardVoice.aim(audibleShare(), texture, gainShare, std::sqrt(played), low);
-        carriers.aim(carrierGains, ratio, attackShare, releaseShare, directShare() == 0.0 || !design->anyDirect);
-        bright.aim((1.0 - heardVoice.share()) * brightGain(), gainShare, design->brightFrequency / rate);
+        heardVoice.aim(heardShare.end(), textureGain.end(), 1.0, std::sqrt(played), low);
+        carriers.aim(carrierGains, ratio.end(), attackShare, releaseShare, levelling.end(), ownShare.end());
+        bright.aim((1.0 - heardVoice.share()) * brightGain(), glideShare, design->brightFrequency / rate);
         playedEnergy = 0.0;
         playedPeak *= peakDecay;
         heardPeak *= peakDecay;
@@ -326,6 +349,7 @@ private:
     {
         const std::size_t n = in.size();
         std::array<double, controlHop> x{}, y{}, h{}, gates{};
+        const bool rising = input.end() > 1.02 * input.start(); // what the gain makes of a steady sound is no event
         double heard = 0.0;
         std::size_t eventAt = n;
         HeardEvent event;
@@ -338,7 +362,7 @@ private:
                 h[i] = g * static_cast<double>(highs[i]);
             gates[i] = gate.tick(peak);
             heard = std::max({heard, std::abs(x[i]), peak});
-            if (watch.tick(peak, threshold, event) && gates[i] > 0.0)
+            if (watch.tick(peak, threshold, event) && gates[i] > 0.0 && !rising)
                 eventAt = i; // events are farther apart than a hop
         }
         loudest = std::max(loudest, heard);
@@ -392,7 +416,7 @@ private:
             return;
         const double share = std::min(1.0, heardPeak / std::max(event.amplitude, 1e-9));
         const double sharpness = std::clamp(1.0 - share + params.transientSharpness, 0.0, 1.0);
-        pulses.begin(makePulse(design->pulses, sharpness, event.gap, rate, ratio), missing, at);
+        pulses.begin(makePulse(design->pulses, sharpness, event.gap, rate, ratio.end()), missing, at);
     }
 
     const TranslatorDesign* design = nullptr;
@@ -401,7 +425,7 @@ private:
     double inputGain = 1.0, rumble = 1.0, texture = 1.0, transients = 1.0, brightness = 0.5, intensity = 1.0,
            transposition = 1.0;
     double attackShare = 1.0, releaseShare = 1.0, threshold = baseThreshold;
-    double gainShare = 1.0, levelShare = 1.0, peakDecay = 0.9;
+    double gainShare = 1.0, glideShare = 1.0, levelShare = 1.0, peakDecay = 0.9;
 
     LiveGate gate;
     LiveOnsetDetector watch;
@@ -413,8 +437,7 @@ private:
     HeardVoice heardVoice;
     DriveStage stage;
 
-    HopRamp input;
-    double ratio = 1.0;
+    HopGlide input, ratio, rumbleGain, textureGain, ownShare, levelling, heardShare;
     double playedEnergy = 0.0;                // in this hop
     double playedPeak = 0.0, heardPeak = 0.0; // of late
     double loudest = 0.0;                     // in this hop, of input and output
