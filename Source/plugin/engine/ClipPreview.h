@@ -4,7 +4,8 @@
 // Preview of the clip that is edited in the plugin's window, heard in the place of the live drive.
 
 #include "document/HostedProject.h"
-#include "plugin/engine/GainRamp.h"
+
+#include <pacini/foundation/Fade.h>
 
 #include <algorithm>
 #include <array>
@@ -23,8 +24,8 @@ public:
 
     void prepare(double sampleRate) noexcept
     {
-        share.prepare(sampleRate);
-        share.jump(0.0f);
+        share.prepare(static_cast<std::size_t>(0.010 * sampleRate));
+        share.jump(0.0);
     }
 
     /// At most `pieceFrames` frames. [audio]
@@ -35,8 +36,8 @@ public:
                                                      std::span(right).first(drive.size())};
         const auto signal = std::span(haptic).first(drive.size());
         const bool plays = clips.process(signal, beside);
-        share.aim(plays ? 1.0f : 0.0f);
-        if (!plays && share.atRest())
+        share.aim(plays ? 1.0 : 0.0);
+        if (!plays && share.resting())
             return;
         if (plays)
             for (std::size_t c = 0; c < main.size(); ++c)
@@ -45,16 +46,16 @@ public:
             std::fill(signal.begin(), signal.end(), 0.0f);
         for (const auto& other : others)
         {
-            GainRamp fade = share;
+            Fade fade = share;
             for (float& sample : other)
-                sample *= 1.0f - fade.next();
+                sample *= static_cast<float>(1.0 - fade.next());
         }
         for (std::size_t i = 0; i < drive.size(); ++i)
-            drive[i] = (1.0f - share.next()) * drive[i] + signal[i];
+            drive[i] = static_cast<float>(1.0 - share.next()) * drive[i] + signal[i];
     }
 
 private:
-    GainRamp share; ///< of the clip
+    Fade share; ///< of the clip
     std::array<float, pieceFrames> haptic{}, left{}, right{};
 };
 

@@ -3,41 +3,53 @@
 
 // Output routing of the drive signal: haptic output, main output and bypass.
 
-#include "plugin/engine/GainRamp.h"
 #include "plugin/engine/ParameterTable.h"
 
+#include <pacini/foundation/Fade.h>
+
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <functional>
 #include <span>
+#include <vector>
 
 namespace pacini::plugin
 {
 
 /// Writes the drives to the haptic output and, as the output mode says, into the main output: that of the first
-/// channel, or all of them where they take the place of the sound. Bypass fades them out, and the sound in again,
-/// within 10 ms.
+/// channel, or all of them where they take the place of the sound. Bypass silences the drives. Every change is a fade
+/// of 10 ms from what went out before to what goes out then.
 class DriveRouting
 {
 public:
-    void prepare(double sampleRate) noexcept
+    /// For pieces of at most `pieceFrames` frames. Allocates.
+    void prepare(double sampleRate, std::size_t mainChannels, std::size_t pieceFrames)
     {
-        active.prepare(sampleRate);
-        begun = false;
+        share.prepare(static_cast<std::size_t>(0.010 * sampleRate));
+        curve.assign(pieceFrames, 0.0);
+        past.assign(mainChannels, std::vector<float>(pieceFrames));
+        reset();
     }
     void reset() noexcept { begun = false; }
 
     /// `channel` and how many from there on the drives are added to.
-    void aim(OutputMode wanted, std::size_t channel, std::size_t channelCount, bool bypassed) noexcept
+    void aim(OutputMode mode, std::size_t channel, std::size_t count, bool bypassed) noexcept
     {
-        mode = wanted;
-        chosen = channel;
-        count = channelCount;
-        if (begun)
-            active.aim(bypassed ? 0.0f : 1.0f);
-        else
-            active.jump(bypassed ? 0.0f : 1.0f);
+        const bool adds = mode == OutputMode::addToChannel;
+        wanted = {mode, adds ? channel : 0, adds ? count : 1, !bypassed};
+        if (!begun)
+        {
+            now = before = wanted;
+            share.jump(1.0);
+        }
         begun = true;
+    }
+
+    /// How many drives the main output is made of, or may be during the next piece.
+    [[nodiscard]] std::size_t drivesInMain(std::size_t mainChannels) const noexcept
+    {
+        return std::max({wanted.drives(mainChannels), now.drives(mainChannels), before.drives(mainChannels)});
     }
 
     /// `main` holds the sound, as late as the drives; all of one length, with a drive for each of `haptic` and one at
@@ -45,46 +57,22 @@ public:
     void process(std::span<const std::span<float>> main, std::span<const std::span<float>> haptic,
                  std::span<const std::span<float>> drives) noexcept
     {
-        if (active.atRest() && active.value() == 0.0f)
+        if (share.resting())
         {
-            for (const auto& channels : {haptic, drives})
-                for (const auto& channel : channels)
-                    std::fill(channel.begin(), channel.end(), 0.0f);
-            return;
-        }
-        const GainRamp gain = active;
-        if (!active.atRest())
-            for (const auto& drive : drives)
+            before = now;
+            if (wanted != now)
             {
-                active = gain;
-                for (float& sample : drive)
-                    sample *= active.next();
+                now = wanted;
+                share.jump(0.0);
+                share.aim(1.0);
             }
+        }
+        if (before == now)
+            play(now, main, drives);
+        else
+            playFading(main, drives);
         for (std::size_t c = 0; c < haptic.size(); ++c)
             std::copy(drives[c].begin(), drives[c].end(), haptic[c].begin());
-        const auto first = drives[0];
-        switch (mode)
-        {
-        case OutputMode::separate:
-            break;
-        case OutputMode::replaceMain:
-            for (std::size_t c = 0; c < main.size(); ++c)
-                put(main[c], c < drives.size() ? drives[c] : first, gain);
-            break;
-        case OutputMode::monoAndHaptic:
-            if (main.size() >= 2)
-                fold(main, gain);
-            [[fallthrough]];
-        case OutputMode::rightHaptic:
-            if (main.size() >= 2)
-                put(main[1], first, gain);
-            break;
-        case OutputMode::addToChannel:
-            for (std::size_t c = 0; c < std::min(count, drives.size()) && chosen + c < main.size(); ++c)
-                std::transform(drives[c].begin(), drives[c].end(), main[chosen + c].begin(), main[chosen + c].begin(),
-                               std::plus<>());
-            break;
-        }
         for (std::size_t c = haptic.size(); c < drives.size(); ++c)
             if (!isInMain(c, main.size()))
                 std::fill(drives[c].begin(), drives[c].end(), 0.0f);
@@ -93,50 +81,134 @@ public:
     /// Whether the main output has a drive.
     [[nodiscard]] bool isInMain(std::size_t drive, std::size_t mainChannels) const noexcept
     {
-        switch (mode)
+        return now.hasInMain(drive, mainChannels) || before.hasInMain(drive, mainChannels);
+    }
+
+private:
+    struct Route
+    {
+        OutputMode mode = OutputMode::separate;
+        std::size_t chosen = 0, count = 1;
+        bool active = true; ///< not bypassed
+        bool operator==(const Route&) const = default;
+
+        [[nodiscard]] bool hasInMain(std::size_t drive, std::size_t mainChannels) const noexcept
+        {
+            switch (mode)
+            {
+            case OutputMode::separate:
+                break;
+            case OutputMode::replaceMain:
+                return drive < mainChannels;
+            case OutputMode::monoAndHaptic:
+            case OutputMode::rightHaptic:
+                return drive == 0 && mainChannels >= 2;
+            case OutputMode::addToChannel:
+                return drive < count && chosen + drive < mainChannels;
+            }
+            return false;
+        }
+        [[nodiscard]] std::size_t drives(std::size_t mainChannels) const noexcept
+        {
+            return mode == OutputMode::replaceMain ? mainChannels : count;
+        }
+    };
+
+    static void play(const Route& route, std::span<const std::span<float>> main,
+                     std::span<const std::span<float>> drives) noexcept
+    {
+        if (!route.active)
+        {
+            for (const auto& drive : drives)
+                std::fill(drive.begin(), drive.end(), 0.0f);
+            return;
+        }
+        putInMain(route, main, drives);
+    }
+
+    /// From `before` to `now`.
+    void playFading(std::span<const std::span<float>> main, std::span<const std::span<float>> drives) noexcept
+    {
+        const std::size_t frames = drives[0].size();
+        for (double& gain : std::span(curve).first(frames))
+            gain = share.next();
+        std::array<std::span<float>, 16> kept;
+        const std::size_t channels = std::min({main.size(), past.size(), kept.size()});
+        for (std::size_t c = 0; c < channels; ++c)
+        {
+            kept[c] = std::span(past[c]).first(frames);
+            std::copy(main[c].begin(), main[c].end(), kept[c].begin());
+        }
+        if (before.active)
+            putInMain(before, std::span(kept).first(channels), drives);
+        if (now.active)
+            putInMain(now, main, drives);
+        for (std::size_t c = 0; c < channels; ++c)
+            for (std::size_t i = 0; i < frames; ++i)
+                main[c][i] = mixed(kept[c][i], main[c][i], curve[i]);
+        if (before.active != now.active)
+            for (const auto& drive : drives)
+                for (std::size_t i = 0; i < frames; ++i)
+                    drive[i] = mixed(before.active ? drive[i] : 0.0f, now.active ? drive[i] : 0.0f, curve[i]);
+        else if (!now.active)
+            play(now, main, drives);
+    }
+
+    [[nodiscard]] static float mixed(float from, float to, double share) noexcept
+    {
+        return static_cast<float>((1.0 - share) * static_cast<double>(from) + share * static_cast<double>(to));
+    }
+
+    static void putInMain(const Route& route, std::span<const std::span<float>> main,
+                          std::span<const std::span<float>> drives) noexcept
+    {
+        const auto first = drives[0];
+        switch (route.mode)
         {
         case OutputMode::separate:
             break;
         case OutputMode::replaceMain:
-            return drive < mainChannels;
+            for (std::size_t c = 0; c < main.size(); ++c)
+            {
+                const auto drive = c < drives.size() ? drives[c] : first;
+                std::copy(drive.begin(), drive.end(), main[c].begin());
+            }
+            break;
         case OutputMode::monoAndHaptic:
+            if (main.size() >= 2)
+                fold(main);
+            [[fallthrough]];
         case OutputMode::rightHaptic:
-            return drive == 0 && mainChannels >= 2;
+            if (main.size() >= 2)
+                std::copy(first.begin(), first.end(), main[1].begin());
+            break;
         case OutputMode::addToChannel:
-            return drive < count && chosen + drive < mainChannels;
+            for (std::size_t c = 0; c < std::min(route.count, drives.size()) && route.chosen + c < main.size(); ++c)
+            {
+                const auto to = main[route.chosen + c];
+                std::transform(drives[c].begin(), drives[c].end(), to.begin(), to.begin(), std::plus<>());
+            }
+            break;
         }
-        return false;
-    }
-
-private:
-    /// The drive, which is faded already, in the place of the sound.
-    static void put(std::span<float> to, std::span<const float> drive, GainRamp gain) noexcept
-    {
-        if (gain.atRest())
-        {
-            std::copy(drive.begin(), drive.end(), to.begin());
-            return;
-        }
-        for (std::size_t i = 0; i < to.size(); ++i)
-            to[i] = drive[i] + (1.0f - gain.next()) * to[i];
     }
 
     /// The mean of all channels in the first.
-    static void fold(std::span<const std::span<float>> main, GainRamp gain) noexcept
+    static void fold(std::span<const std::span<float>> main) noexcept
     {
-        const float share = 1.0f / static_cast<float>(main.size());
+        const float part = 1.0f / static_cast<float>(main.size());
         for (std::size_t i = 0; i < main[0].size(); ++i)
         {
             float sum = 0.0f;
             for (const auto& channel : main)
                 sum += channel[i];
-            main[0][i] += gain.next() * (share * sum - main[0][i]);
+            main[0][i] = part * sum;
         }
     }
 
-    GainRamp active;
-    OutputMode mode = OutputMode::separate;
-    std::size_t chosen = 0, count = 1;
+    Route wanted, now, before;
+    Fade share; ///< of `now`
+    std::vector<double> curve;
+    std::vector<std::vector<float>> past; ///< the main output as `before` makes it
     bool begun = false;
 };
 

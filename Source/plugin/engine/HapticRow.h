@@ -7,6 +7,7 @@
 #include "plugin/engine/Panorama.h"
 #include "plugin/engine/ParameterValues.h"
 
+#include <pacini/foundation/Fade.h>
 #include <pacini/foundation/Units.h>
 #include <pacini/synthesis/DelayTap.h>
 #include <pacini/synthesis/PlayTimeline.h>
@@ -16,15 +17,57 @@
 #include <cmath>
 #include <cstddef>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace pacini::plugin
 {
 
-/// Applies a level and a delay to every channel. Changes run along chords of 32 frames, counted from reset() on, so
-/// that blocks leave no trace: levels cross their whole range in 10 ms at least, delays change by a tenth of the time
-/// that passes at most, which bends pitches by less than two semitones. All gains are at most 1 and apply after the
-/// protection. A channel at full level without a delay is copied.
+/// A delay on its way: by a tenth of the time that passes at most, which bends pitches by less than two semitones, and
+/// without a sudden change of its pace, which would be heard as a click.
+class DelayGlide
+{
+public:
+    void prepare(double sampleRate) noexcept { share = std::min(1.0 / (0.005 * sampleRate), 0.5); }
+
+    /// In frames.
+    void jump(double frames) noexcept
+    {
+        now = goal = frames;
+        pace = 0.0;
+    }
+    void aim(double frames) noexcept { goal = frames; }
+    [[nodiscard]] bool restsAt(double frames) const noexcept { return now == frames && goal == frames; }
+
+    /// What it is or will be, rounded up.
+    [[nodiscard]] std::size_t longest() const noexcept
+    {
+        return static_cast<std::size_t>(std::ceil(std::max(now, goal)));
+    }
+
+    double next() noexcept
+    {
+        if (now == goal)
+            return now;
+        // The pace follows the pull of the goal, critically damped: the goal is not passed.
+        pace += share * (std::clamp(0.25 * share * (goal - now), -fastest, fastest) - pace);
+        now = std::max(now + pace, 0.0);
+        if (std::abs(goal - now) < nearest)
+            jump(goal);
+        return now;
+    }
+
+private:
+    static constexpr double fastest = 0.1;
+    static constexpr double nearest = 1e-4; // frames: 90 dB below a tone of 1 kHz at 48 kHz
+
+    double share = 1.0;
+    double now = 0.0, goal = 0.0, pace = 0.0;
+};
+
+/// Applies a level and a delay to every channel. Their aims change with chords of 32 frames, counted from reset() on,
+/// so that blocks leave no trace; levels fade within 10 ms (see Fade), delays glide. All gains are at most 1 and apply
+/// after the protection. A channel at full level without a delay is copied.
 class HapticRow
 {
 public:
@@ -38,6 +81,11 @@ public:
         taps.clear();
         for (std::size_t c = 0; c < std::clamp<std::size_t>(channels, 1, maxHapticChannels); ++c)
             taps.emplace_back(longest + 1.0, chord);
+        for (Send& send : sends)
+        {
+            send.level.prepare(static_cast<std::size_t>(0.010 * fs));
+            send.delay.prepare(fs);
+        }
         panorama.prepare(fs);
         reset();
     }
@@ -45,7 +93,13 @@ public:
     /// As freshly prepared. [audio]
     void reset() noexcept
     {
-        sends = {};
+        for (Send& send : sends)
+        {
+            send.level.jump(0.0);
+            send.delay.jump(0.0);
+        }
+        for (DelayTap& tap : taps)
+            tap.reset();
         panorama.reset();
         into = 0;
         begun = false;
@@ -56,7 +110,9 @@ public:
     /// Where `used` channels are to be from the next chord on; no more than channels(). [audio]
     void aim(const ParameterValues& values, std::size_t used) noexcept
     {
-        count = std::min(used, taps.size());
+        const std::size_t before = std::exchange(count, std::min(used, taps.size()));
+        for (std::size_t c = before; c < count; ++c)
+            taps[c].reset(); // of what came before a pause
         pan = static_cast<PanChoice>(values.index(ParameterId::pan));
         law = static_cast<PanLaw>(values.index(ParameterId::panLaw));
         wanted = values[ParameterId::position];
@@ -75,11 +131,9 @@ public:
     }
 
     /// Whether a channel has faded out, as it was asked to. [audio]
-    [[nodiscard]] bool silent(std::size_t channel) const noexcept
-    {
-        const Send& send = sends[channel];
-        return send.level == 0.0 && send.levelEnd == 0.0;
-    }
+    [[nodiscard]] bool silent(std::size_t channel) const noexcept { return sends[channel].level.restsAt(0.0); }
+    /// The longest that a sample of a channel may still wait. [audio]
+    [[nodiscard]] std::size_t delayFrames(std::size_t channel) const noexcept { return sends[channel].delay.longest(); }
     /// Fades a channel out, or in again. [audio]
     void setMuted(std::size_t channel, bool muted) noexcept { aims[channel].muted = muted; }
 
@@ -96,7 +150,7 @@ public:
             const std::size_t n = std::min(chord - into, frames - done);
             for (std::size_t c = 0; c < count; ++c)
                 play(c, drives[c].subspan(done, n), out[c].subspan(done, n));
-            if (pan == PanChoice::panorama && right.size() == frames)
+            if (count > 1 && right.size() == frames) // at once where the sound is, when it is to follow it
                 panorama.process(left.subspan(done, n), right.subspan(done, n));
             done += n;
             into = (into + n) % chord;
@@ -114,32 +168,20 @@ private:
         bool muted = false;
     };
 
-    /// Along the chord, by frames since it began.
     struct Send
     {
-        double level = 0.0, levelStep = 0.0, levelEnd = 0.0;
-        double delay = 0.0, delayStep = 0.0, delayEnd = 0.0; // frames
-        bool listens = false;                                // the delay line holds what came
+        Fade level;
+        DelayGlide delay; // frames
     };
-
-    static double towards(double from, double to, double most) noexcept
-    {
-        return from + std::clamp(to - from, -most, most);
-    }
 
     void beginChord() noexcept
     {
-        const double most = begun ? static_cast<double>(chord) / (0.010 * fs) : 1.0;
-        position = towards(position, pan == PanChoice::panorama ? panorama.position() : wanted, most);
+        const double position = pan == PanChoice::panorama ? panorama.position() : wanted;
         const bool moves = pan != PanChoice::off && count > 1;
         const double place = moves ? row.onRow(position) : 0.0;
         for (std::size_t c = 0; c < count; ++c)
         {
             const Aim& aim = aims[c];
-            Send& send = sends[c];
-            const auto frames = static_cast<double>(chord);
-            send.level = send.levelEnd;
-            send.delay = send.delayEnd;
             double level = aim.muted ? 0.0 : aim.gain;
             double delay = aim.delay;
             if (moves)
@@ -148,41 +190,30 @@ private:
                 if (law != PanLaw::constantPower)
                     delay += longestPanDelay * fs * std::abs(position - aim.place);
             }
+            Send& send = sends[c];
             if (!begun)
             {
-                send.level = level;
-                send.delay = delay;
+                send.level.jump(level);
+                send.delay.jump(delay);
             }
-            send.levelEnd = towards(send.level, level, most);
-            send.delayEnd = towards(send.delay, delay, 0.1 * frames);
-            send.levelStep = (send.levelEnd - send.level) / frames;
-            send.delayStep = (send.delayEnd - send.delay) / frames;
-            const bool late = send.delay != 0.0 || send.delayEnd != 0.0;
-            if (late && !send.listens)
-                taps[c].reset();
-            send.listens = late;
+            send.level.aim(level);
+            send.delay.aim(delay);
         }
         begun = true;
     }
 
     void play(std::size_t c, std::span<const float> drive, std::span<float> out) noexcept
     {
-        const Send& send = sends[c];
-        const auto level = [&](std::size_t i)
-        {
-            return static_cast<float>(send.level + static_cast<double>(into + i) * send.levelStep);
-        };
-        if (send.listens)
-        {
-            taps[c].write(drive);
+        auto& [level, delay] = sends[c];
+        taps[c].write(drive); // so that a delay that begins finds what came before
+        if (!delay.restsAt(0.0))
             for (std::size_t i = 0; i < out.size(); ++i)
-                out[i] = level(i) * taps[c].read(i, send.delay + static_cast<double>(into + i) * send.delayStep);
-        }
-        else if (send.levelStep == 0.0 && send.level == 1.0)
+                out[i] = static_cast<float>(level.next()) * taps[c].read(i, delay.next());
+        else if (level.restsAt(1.0))
             std::copy(drive.begin(), drive.end(), out.begin());
         else
             for (std::size_t i = 0; i < out.size(); ++i)
-                out[i] = level(i) * drive[i];
+                out[i] = static_cast<float>(level.next()) * drive[i];
     }
 
     double fs = 48000.0;
@@ -193,7 +224,7 @@ private:
     Panorama panorama;
     PanChoice pan = PanChoice::off;
     PanLaw law = PanLaw::constantPower;
-    double wanted = 0.5, position = 0.5;
+    double wanted = 0.5;
     std::size_t count = 1;
     std::size_t into = 0; // the chord
     bool begun = false;

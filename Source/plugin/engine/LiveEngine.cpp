@@ -45,7 +45,7 @@ void LiveEngine::prepare(double sampleRate, std::size_t mainChannels, std::size_
             prepareVoice(voice);
     mix.prepare(sampleRate);
     row.prepare(sampleRate, std::max(hapticChannels, mainChannels));
-    routing.prepare(sampleRate);
+    routing.prepare(sampleRate, std::min(mainChannels, maxMainChannels), pieceFrames);
     preview.prepare(sampleRate);
     delay.prepare(std::min(mainChannels, maxMainChannels), latencyFrames());
     const auto ringFrames = static_cast<std::size_t>(captureSeconds * std::min(sampleRate, 96000.0));
@@ -76,6 +76,8 @@ void LiveEngine::reset() noexcept
             voice.late.reset();
         }
     }
+    settling = {};
+    begun = false;
     mix.reset();
     row.reset();
     routing.reset();
@@ -115,8 +117,7 @@ void LiveEngine::process(const EngineBlock& block, const ParameterValues& values
     routing.aim(mode, values.index(ParameterId::outputChannel) - 1, added,
                 bypassed || values.isOn(ParameterId::bypass));
     // Where the drives take the place of the sound, each of its channels has one.
-    const std::size_t wanted =
-        std::max(block.haptic.size(), mode == OutputMode::replaceMain ? block.main.size() : added);
+    const std::size_t wanted = std::max(block.haptic.size(), routing.drivesInMain(block.main.size()));
     channels = std::clamp<std::size_t>(wanted, 1, row.channels());
     inUse.store(channels, std::memory_order_relaxed);
     row.aim(values, channels);
@@ -149,8 +150,9 @@ void LiveEngine::piece(std::span<const std::span<float>> main, std::span<const s
     if (peak > inputPeak.load(std::memory_order_relaxed))
         inputPeak.store(peak, std::memory_order_relaxed);
     ring.push(in);
-    followSources();
+    followSources(frames);
     translate(in);
+    begun = true;
     delay.process(main);
 
     std::array<std::span<float>, maxHapticChannels> others;
@@ -178,15 +180,21 @@ void LiveEngine::piece(std::span<const std::span<float>> main, std::span<const s
     meterPeaks(main.size(), frames);
 }
 
-/// A channel that is to play another voice fades out before it does.
-void LiveEngine::followSources() noexcept
+/// A channel that is to play another voice fades out before it does, and in when that has settled.
+void LiveEngine::followSources(std::size_t frames) noexcept
 {
     for (std::size_t c = 0; c < channels; ++c)
     {
         const std::size_t wanted = sources[c].load(std::memory_order_acquire);
-        if (wanted != playing[c] && row.silent(c))
+        if (wanted != playing[c] && (!begun || row.silent(c)))
+        {
             playing[c] = wanted;
-        row.setMuted(c, wanted != playing[c]);
+            if (begun) // its delay holds the other voice still
+                settling[c] =
+                    row.delayFrames(c) + (voices[wanted].plays ? 0 : voices[wanted].translator->settlingFrames());
+        }
+        row.setMuted(c, wanted != playing[c] || settling[c] > 0);
+        settling[c] -= std::min(settling[c], frames);
     }
 }
 

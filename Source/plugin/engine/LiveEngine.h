@@ -110,7 +110,7 @@ private:
     };
 
     void prepareVoice(Voice& voice) const;
-    void followSources() noexcept;
+    void followSources(std::size_t frames) noexcept;
     void translate(std::span<const float> in) noexcept;
     void meterPeaks(std::size_t mainChannels, std::size_t frames) noexcept;
 
@@ -118,6 +118,8 @@ private:
     std::array<Voice, maxHapticChannels> voices;
     std::array<std::atomic<std::size_t>, maxHapticChannels> sources{}; ///< the voice that each channel shall play
     std::array<std::size_t, maxHapticChannels> playing{};              ///< that it does
+    std::array<std::size_t, maxHapticChannels> settling{};             ///< frames until that is heard
+    bool begun = false;
     SourceMix mix;
     std::size_t latency = 0;
     MainDelay delay;

@@ -3,8 +3,9 @@
 
 // Source mixer: main input and sidechain as the one mono sound that is turned into touch.
 
-#include "plugin/engine/GainRamp.h"
 #include "plugin/engine/ParameterTable.h"
+
+#include <pacini/foundation/Fade.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -13,14 +14,14 @@
 namespace pacini::plugin
 {
 
-/// Means of the channels of main input and sidechain, each with a gain that moves within 10 ms.
+/// Means of the channels of main input and sidechain, each with a gain that moves within 20 ms.
 class SourceMix
 {
 public:
     void prepare(double sampleRate) noexcept
     {
-        main.prepare(sampleRate);
-        side.prepare(sampleRate);
+        for (Fade* gain : {&main, &side})
+            gain->prepare(static_cast<std::size_t>(0.020 * sampleRate));
         begun = false;
     }
     void reset() noexcept { begun = false; }
@@ -29,8 +30,8 @@ public:
     void aim(SourceChoice choice, double mix) noexcept
     {
         const bool both = choice == SourceChoice::mix;
-        const auto mainGain = static_cast<float>(both ? std::min(1.0, 2.0 - 2.0 * mix) : choice == SourceChoice::main);
-        const auto sideGain = static_cast<float>(both ? std::min(1.0, 2.0 * mix) : choice == SourceChoice::sidechain);
+        const double mainGain = both ? std::min(1.0, 2.0 - 2.0 * mix) : choice == SourceChoice::main;
+        const double sideGain = both ? std::min(1.0, 2.0 * mix) : choice == SourceChoice::sidechain;
         if (begun)
         {
             main.aim(mainGain);
@@ -55,25 +56,25 @@ public:
 
 private:
     template <typename Sample>
-    static void add(std::span<const std::span<Sample>> in, GainRamp& gain, std::span<float> out) noexcept
+    static void add(std::span<const std::span<Sample>> in, Fade& gain, std::span<float> out) noexcept
     {
         if (in.empty())
             return;
         const float share = 1.0f / static_cast<float>(in.size());
-        if (!gain.atRest())
+        if (!gain.resting())
         {
             for (std::size_t i = 0; i < out.size(); ++i)
             {
                 float sum = 0.0f;
                 for (const auto& channel : in)
                     sum += channel[i];
-                out[i] += gain.next() * share * sum;
+                out[i] += static_cast<float>(gain.next()) * share * sum;
             }
             return;
         }
-        if (gain.value() == 0.0f)
+        if (gain.value() == 0.0)
             return;
-        const float scale = gain.value() * share;
+        const float scale = static_cast<float>(gain.value()) * share;
         for (const auto& channel : in)
         {
             const Sample* x = channel.data();
@@ -83,7 +84,7 @@ private:
         }
     }
 
-    GainRamp main, side;
+    Fade main, side;
     bool begun = false;
 };
 

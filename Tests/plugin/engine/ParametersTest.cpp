@@ -216,6 +216,7 @@ TEST_CASE("Strength is that of the translator's set-up, also when it is turned w
         (void)rig.run({sound});
         return rig.run({sound}).haptic[0];
     };
+    (void)driveAt(0.5); // what is set before the first frame counts at once, what comes later fades in
     const auto flat = driveAt(0.0), strong = driveAt(1.0), again = driveAt(0.0);
     const auto apart = [](std::vector<float> a, const std::vector<float>& b)
     {
