@@ -85,6 +85,12 @@ def main():
         check("a host that lets it play again leaves the parameter alone", np.abs(both[2, silent]).max() == 0)
         check("the plugin sends no value that does not change", render("--sets", *value("attack", 20))[1] == "")
 
+        asked = render("--sets", *value("attack", 20), "--at", half, "--get", f"{URI}:attack")[1].split()
+        check("asked for a value, the plugin tells it", asked == [f"{URI}:attack", "20"], " ".join(asked))
+        told = dict(line.rsplit(" ", 1) for line in
+                    render("--sets", *value("intensity", -12), "--at", half, "--get", "all")[1].splitlines())
+        check("asked for all, it tells all", len(told) == 61 and told.get(f"{URI}:intensity") == "-12", f"{len(told)} values")
+
         parameters = {}
         for line in render("--parameters")[1].splitlines():
             uri, low, high, default, *points = line.split("\t")
@@ -95,8 +101,11 @@ def main():
               and all(low <= default <= high and low < high for low, high, default, _ in parameters.values()),
               f"{len(parameters)} of them")
         choices = {name: (high, named) for name, (_, high, _, named) in parameters.items() if named}
-        check("choices are the whole numbers of their range",
-              all(sorted(named.values()) == list(range(int(high) + 1)) for high, named in choices.values())
+        free = {name: set(range(12 + further, 31 + further))  # numbers without an actuator
+                for further, names in ((0, ["profile"]), (1, [f"actuator{n}" for n in range(2, 9)])) for name in names}
+        check("choices are the whole numbers of their range, less those without an actuator",
+              all(set(named.values()) == set(range(int(high) + 1)) - free.get(name, set())
+                  for name, (high, named) in choices.items())
               and {"source", "outputMode", "profile", "actuator8", "pan", "panLaw", "places"} <= set(choices),
               f"{len(choices)} of them")
 

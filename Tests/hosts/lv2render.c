@@ -1,10 +1,11 @@
 /* A host for one LV2 plugin, offline. Samples come from and go to files of raw 32-bit floats, frame by frame: as many
    values as the plugin has audio ports of that direction, in their order.
 
-   lv2render URI RATE BLOCK IN OUT [--set PROPERTY=VALUE]... [--port SYMBOL=VALUE]... [--at FRAME] [--load STATE]
-             [--preset URI] [--save STATE] [--latency] [--sets] [--parameters]
+   lv2render URI RATE BLOCK IN OUT [--set PROPERTY=VALUE]... [--port SYMBOL=VALUE]... [--get PROPERTY|all]... [--at FRAME]
+             [--load STATE] [--preset URI] [--save STATE] [--latency] [--sets] [--parameters]
 
-   --at gives the frame at which the block begins that brings the --set and --port that follow it (0 at first). States are
+   --at gives the frame at which the block begins that brings the --set, --port and --get that follow it (0 at first); --get
+   asks for a value, which --sets then prints. States are
    Turtle files. --latency prints the value of the latency port after the last block, --sets each value that the plugin
    sends: "PROPERTY VALUE", --parameters what the plugin's files say of its parameters, between tabs: property, least value,
    largest value, default, and "VALUE LABEL" of each scale point. */
@@ -80,6 +81,20 @@ static void forgeSet(LV2_Atom_Forge* forge, LV2_URID property, float value)
     lv2_atom_forge_urid(forge, property);
     lv2_atom_forge_key(forge, mapUri(NULL, LV2_PATCH__value));
     lv2_atom_forge_float(forge, value);
+    lv2_atom_forge_pop(forge, &object);
+}
+
+/* A patch:Get of one property, of all for 0. */
+static void forgeGet(LV2_Atom_Forge* forge, LV2_URID property)
+{
+    LV2_Atom_Forge_Frame object;
+    lv2_atom_forge_frame_time(forge, 0);
+    lv2_atom_forge_object(forge, &object, 0, mapUri(NULL, LV2_PATCH__Get));
+    if (property != 0)
+    {
+        lv2_atom_forge_key(forge, mapUri(NULL, LV2_PATCH__property));
+        lv2_atom_forge_urid(forge, property);
+    }
     lv2_atom_forge_pop(forge, &object);
 }
 
@@ -181,7 +196,8 @@ int main(int argc, char** argv)
             tellSets = 1;
         else if (strcmp(argv[a], "--parameters") == 0)
             tellParameters = 1;
-        else if ((strcmp(argv[a], "--set") == 0 || strcmp(argv[a], "--port") == 0 || strcmp(argv[a], "--at") == 0) &&
+        else if ((strcmp(argv[a], "--set") == 0 || strcmp(argv[a], "--port") == 0 || strcmp(argv[a], "--at") == 0 ||
+                  strcmp(argv[a], "--get") == 0) &&
                  a + 1 < argc)
             ++a;
         else
@@ -320,6 +336,12 @@ int main(int argc, char** argv)
             const int isPort = strcmp(argv[a], "--port") == 0;
             if (strcmp(argv[a], "--at") == 0)
                 at = (size_t) atol(argv[++a]);
+            else if (strcmp(argv[a], "--get") == 0)
+            {
+                ++a;
+                if (at <= done && (first || at > before) && atomIn)
+                    forgeGet(&forge, strcmp(argv[a], "all") == 0 ? 0 : mapUri(NULL, argv[a]));
+            }
             else if (isPort || strcmp(argv[a], "--set") == 0)
             {
                 const int due = at <= done && (first || at > before);
