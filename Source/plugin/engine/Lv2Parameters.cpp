@@ -46,11 +46,16 @@ std::vector<std::string_view> statementsOf(std::string_view turtle)
     return statements;
 }
 
+std::string_view trimmedStart(std::string_view statement)
+{
+    return statement.substr(std::min(statement.find_first_not_of(blanks), statement.size()));
+}
+
 /// The id of the parameter that a statement describes; empty if it describes anything else.
 std::string_view parameterOf(std::string_view statement)
 {
     constexpr std::string_view prefix = "plug:";
-    statement.remove_prefix(std::min(statement.find_first_not_of(blanks), statement.size()));
+    statement = trimmedStart(statement);
     const std::size_t end = statement.find_first_of(blanks);
     if (!statement.starts_with(prefix) || end == statement.npos)
         return {};
@@ -70,6 +75,66 @@ std::string quoted(std::string_view text)
         result += c;
     }
     return result + '"';
+}
+
+/// A group of parameters, by the beginnings of their ids.
+struct Group
+{
+    std::string_view symbol, name;
+    std::vector<std::string_view> ids;
+};
+
+const std::vector<Group>& groups()
+{
+    static const std::vector<Group> all{
+        {"sound", "Sound", {"source", "sourceMix", "inputGain"}},
+        {"output", "Output", {"outputMode", "outputChannel", "outputCount", "bypass"}},
+        {"actuator", "Actuator", {"profile", "strength", "intensity"}},
+        {"layers", "Layers", {"rumble", "texture", "transientLevel", "transientMute"}},
+        {"character", "Character", {"brightness", "audible", "transposition", "direct", "attack", "release"}},
+        {"events", "Events", {"transientSensitivity", "transientSharpness"}},
+        {"gate", "Gate", {"gate"}},
+        {"panning", "Panning", {"pan", "position", "panLaw", "places"}},
+        {"channels", "Haptic channels", {"actuator", "gain", "delay", "place"}},
+    };
+    return all;
+}
+
+/// That with the longest of the beginnings.
+const Group& groupOf(std::string_view id)
+{
+    const Group* best = &groups().back();
+    std::size_t longest = 0;
+    for (const Group& group : groups())
+        for (const std::string_view begin : group.ids)
+            if (begin.size() > longest && id.starts_with(begin))
+            {
+                best = &group;
+                longest = begin.size();
+            }
+    return *best;
+}
+
+constexpr std::string_view groupPrefix = "plug:group_";
+
+/// What JUCE's wrapper writes, and what stands there instead. There is no page and no address to name.
+constexpr std::array<std::array<std::string_view, 2>, 9> corrections{{
+    {"lv2:name \"Audio In 1\"", "lv2:name \"Sound In Left\""},
+    {"lv2:name \"Audio In 2\"", "lv2:name \"Sound In Right\""},
+    {"lv2:name \"Audio In 3\"", "lv2:name \"Sidechain\""},
+    {"lv2:name \"Audio Out 1\"", "lv2:name \"Sound Out Left\""},
+    {"lv2:name \"Audio Out 2\"", "lv2:name \"Sound Out Right\""},
+    {"lv2:name \"Audio Out 3\"", "lv2:name \"Haptic\""},
+    {"lv2:name \"Main\"", "lv2:name \"Sound\""},
+    {"\t\tfoaf:homepage <https://pacini.example> ;\n", ""},
+    {"\t\tfoaf:mbox <> ;\n", ""},
+}};
+
+void correct(std::string& text)
+{
+    for (const auto& [written, wanted] : corrections)
+        for (std::size_t at = text.find(written); at != text.npos; at = text.find(written, at + wanted.size()))
+            text.replace(at, written.size(), wanted);
 }
 
 std::string_view lv2UnitOf(ParameterUnit unit)
@@ -115,6 +180,7 @@ void describe(const ParameterRow& row, std::ostream& out)
 {
     out << "plug:" << row.id << "\n\ta lv2:Parameter ;\n\trdfs:label " << quoted(row.name) << " ;\n\trdfs:comment "
         << quoted(row.help) << " ;\n\trdfs:range atom:Float ;\n";
+    out << "\tpg:group " << groupPrefix << groupOf(row.id).symbol << " ;\n";
     if (const auto unit = lv2UnitOf(row.unit); !unit.empty())
         out << "\tunits:unit " << unit << " ;\n";
     if (const auto properties = lv2PropertiesOf(row.unit); !properties.empty())
@@ -137,7 +203,8 @@ Result<std::string> describeLv2Parameters(std::string_view turtle)
         const std::string_view id = parameterOf(statement);
         if (id.empty())
         {
-            rest += statement;
+            if (!trimmedStart(statement).starts_with(groupPrefix)) // written anew below
+                rest += statement;
             continue;
         }
         const auto row = std::find_if(parameterTable.begin(), parameterTable.end(),
@@ -148,6 +215,7 @@ Result<std::string> describeLv2Parameters(std::string_view turtle)
     }
     // One gap whatever stood here, so that what is described again stays as it is.
     rest.erase(rest.find_last_not_of(blanks) + 1);
+    correct(rest);
     std::ostringstream out;
     out.imbue(std::locale::classic());
     out.setf(std::ios::fixed);
@@ -159,6 +227,9 @@ Result<std::string> describeLv2Parameters(std::string_view turtle)
             return Error{ErrorCode::invalidData, row.id, "is missing in the description that JUCE made"};
         describe(row, out);
     }
+    for (const Group& group : groups())
+        out << groupPrefix << group.symbol << "\n\ta pg:Group ;\n\tlv2:name " << quoted(group.name)
+            << " ;\n\tlv2:symbol " << quoted(group.symbol) << " .\n\n";
     return std::move(out).str();
 }
 

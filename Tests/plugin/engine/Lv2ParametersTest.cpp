@@ -66,6 +66,38 @@ TEST_CASE("For LV2, choices stand on the values that the plugin takes for them")
     CHECK(*describeLv2Parameters(text) == text);
 }
 
+TEST_CASE(
+    "For LV2, parameters have groups, ports the names of what they carry, and no page is named that does not exist")
+{
+    const auto described = describeLv2Parameters(
+        written() +
+        "<urn:pacini:translator>\n\tdoap:maintainer [\n\t\tfoaf:homepage <https://pacini.example> ;\n"
+        "\t\tfoaf:mbox <> ;\n\t] ;\n\tlv2:port [ lv2:name \"Audio In 3\" ] , [ lv2:name \"Audio Out 3\" ] .\n");
+    REQUIRE(described);
+    const std::string& text = *described;
+    const auto groupOf = [&](const std::string& id)
+    {
+        const std::string before = "pg:group plug:group_";
+        const auto at = text.find(before, text.find("plug:" + id + "\n")) + before.size();
+        return text.substr(at, text.find(' ', at) - at);
+    };
+    CHECK(groupOf("source") == "sound");
+    CHECK(groupOf("profile") == "actuator");
+    CHECK(groupOf("transientMute") == "layers");
+    CHECK(groupOf("transientSharpness") == "events");
+    CHECK(groupOf("gateRelease") == "gate");
+    CHECK(groupOf("places") == "panning");
+    CHECK(groupOf("place8") == "channels");
+    CHECK(groupOf("actuator2") == "channels");
+    for (const ParameterRow& row : parameterTable)
+        CHECK(text.find("plug:group_" + groupOf(row.id) + "\n\ta pg:Group ;") != text.npos);
+    CHECK(text.find("lv2:name \"Sidechain\"") != text.npos);
+    CHECK(text.find("lv2:name \"Haptic\"") != text.npos);
+    for (const char* gone : {"Audio In", "Audio Out", "homepage", "mbox"})
+        CHECK(text.find(gone) == text.npos);
+    CHECK(*describeLv2Parameters(text) == text);
+}
+
 TEST_CASE("A description for LV2 that lacks a parameter or has one too many is refused")
 {
     CHECK(describeLv2Parameters(std::string(head).append(tail)).error().where == parameterTable[0].id);
