@@ -116,9 +116,11 @@ const Group& groupOf(std::string_view id)
 }
 
 constexpr std::string_view groupPrefix = "plug:group_";
+/// What presets of JUCE's wrapper set, and what it leaves undefined.
+constexpr std::string_view program = "plug:Program";
 
 /// What JUCE's wrapper writes, and what stands there instead. There is no page and no address to name.
-constexpr std::array<std::array<std::string_view, 2>, 9> corrections{{
+constexpr std::array<std::array<std::string_view, 2>, 10> corrections{{
     {"lv2:name \"Audio In 1\"", "lv2:name \"Sound In Left\""},
     {"lv2:name \"Audio In 2\"", "lv2:name \"Sound In Right\""},
     {"lv2:name \"Audio In 3\"", "lv2:name \"Sidechain\""},
@@ -128,6 +130,7 @@ constexpr std::array<std::array<std::string_view, 2>, 9> corrections{{
     {"lv2:name \"Main\"", "lv2:name \"Sound\""},
     {"\t\tfoaf:homepage <https://pacini.example> ;\n", ""},
     {"\t\tfoaf:mbox <> ;\n", ""},
+    {"\ta lv2:Plugin ;\n\tdoap:name", "\ta lv2:Plugin , doap:Project ;\n\tdoap:name"},
 }};
 
 void correct(std::string& text)
@@ -203,7 +206,8 @@ Result<std::string> describeLv2Parameters(std::string_view turtle)
         const std::string_view id = parameterOf(statement);
         if (id.empty())
         {
-            if (!trimmedStart(statement).starts_with(groupPrefix)) // written anew below
+            const std::string_view subject = trimmedStart(statement);
+            if (!subject.starts_with(groupPrefix) && !subject.starts_with(program)) // written anew below
                 rest += statement;
             continue;
         }
@@ -227,6 +231,7 @@ Result<std::string> describeLv2Parameters(std::string_view turtle)
             return Error{ErrorCode::invalidData, row.id, "is missing in the description that JUCE made"};
         describe(row, out);
     }
+    out << program << "\n\ta rdf:Property ;\n\trdfs:label \"Program\" .\n\n";
     for (const Group& group : groups())
         out << groupPrefix << group.symbol << "\n\ta pg:Group ;\n\tlv2:name " << quoted(group.name)
             << " ;\n\tlv2:symbol " << quoted(group.symbol) << " .\n\n";
