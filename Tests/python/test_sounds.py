@@ -13,6 +13,7 @@ import threading
 import time
 import unittest
 from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
 
 import numpy as np
 import pacini
@@ -248,6 +249,31 @@ class Arrays(FolderTest):
         found = {path: clip for path, clip in pacini.encode_files(paths, threads=1)}
         self.assertEqual([type(found[path]) for path in paths], [pacini.Clip, pacini.Error, pacini.Clip, pacini.Clip])
         self.assertEqual(found[paths[1]].where, paths[1])
+
+    def test_a_path_is_text_bytes_or_an_object_and_may_be_the_only_one(self):
+        name = os.fsencode(self.folder) + b"/b\xff"
+        forms = (os.fsdecode(name + b".wav"), name + b".wav", Path(os.fsdecode(name + b".wav")))
+        pacini.write_audio(forms[1], knocks(0.2), RATE)
+        wanted = pacini.encode(knocks(0.2), RATE).bands
+        for path in forms:
+            self.assertEqual(pacini.encode(path).bands, wanted)
+            self.assertEqual([(given, clip.bands) for given, clip in pacini.encode_files(path)], [(path, wanted)])
+            self.assertEqual([given for given, _ in pacini.encode_files([path])], [path])
+            np.testing.assert_array_equal(pacini.read_audio(path)[0], knocks(0.2))
+            self.assertEqual(pacini.compare(path, path).lsd, 0.0)
+        clip = pacini.encode(forms[1])
+        clip.save(name + b".pacb")
+        pacini.convert(name + b".pacb", name + b".json")
+        self.assertEqual(pacini.read(name + b".json"), pacini.Clip.load(name + b".pacb"))
+        self.assertEqual(pacini.lint(name + b".json", "ahap"), clip.lint("ahap"))
+        with open(name + b".settings.json", "w") as file:
+            file.write(json.dumps({"format": "pacini.settings", "version": 1, "encode": {"bands": 2}}))
+        self.assertEqual(len(pacini.encode(forms[1], settings=name + b".settings.json").bands), 2)
+        profile = pacini.Profile("l5-wristband")
+        profile.save(name + b".profile.json")
+        np.testing.assert_array_equal(
+            pacini.render(clip, profile=name + b".profile.json"), pacini.render(clip, profile=profile)
+        )
 
     def test_options_that_are_none_are_told_before_the_first_file(self):
         self.refuses("bandz", "invalidArgument", pacini.encode_files, ["none.wav"], bandz=3)

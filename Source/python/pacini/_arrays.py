@@ -3,24 +3,27 @@
 from __future__ import annotations
 
 import os
-from typing import Any, Union
+from typing import TYPE_CHECKING, Any, Union
 
 import numpy as np
 import numpy.typing as npt
 
 from ._errors import Error
 
+if TYPE_CHECKING:
+    from typing_extensions import TypeIs
+
 FloatArray = npt.NDArray[np.floating[Any]]
 Points = npt.NDArray[np.void]
-PathLike = Union[str, "os.PathLike[str]"]
+PathLike = Union[str, bytes, "os.PathLike[str]", "os.PathLike[bytes]"]
 
 AMPLITUDE = np.dtype([("time", np.float64), ("amplitude", np.float64)])
 FREQUENCY = np.dtype([("time", np.float64), ("frequency", np.float64)])
 TRANSIENT = np.dtype([("time", np.float64), ("amplitude", np.float64), ("sharpness", np.float64)])
 
 
-def is_path(value: object) -> bool:
-    return isinstance(value, (str, os.PathLike))
+def is_path(value: object) -> TypeIs[PathLike]:
+    return isinstance(value, (str, bytes, os.PathLike))
 
 
 def as_sound(samples: object, axis: int) -> FloatArray:

@@ -306,9 +306,9 @@ class Clip:
     @classmethod
     def load(cls, path: PathLike, *, strict: bool = False) -> Clip:
         """Reads a clip of any format. What the reader lets pass is a warning, or an error if it is `strict`."""
-        handle, _, passed = _native.read_clip(os.fspath(path), strict)
+        handle, _, passed = _native.read_clip(os.fsdecode(path), strict)
         for message in passed:
-            warnings.warn(f"{os.fspath(path)}: {message}", stacklevel=2)
+            warnings.warn(f"{os.fsdecode(path)}: {message}", stacklevel=2)
         return cls._of(handle)
 
     def save(
@@ -327,7 +327,9 @@ class Clip:
         A clip that is there is replaced, and no file of another kind unless `overwrite` is True; with False nothing
         is. The recording that the clip was made from never is."""
         name = format_for(path, format)
-        _, losses = self._handle.save(os.fspath(path), name, export_options("save", options), quantise or 0, overwrite)
+        _, losses = self._handle.save(
+            os.fsdecode(path), name, export_options("save", options), quantise or 0, overwrite
+        )
         return losses_of(losses)
 
     def to_bytes(self, format: str = "packed", *, quantise: Optional[int] = None, **options: Any) -> bytes:

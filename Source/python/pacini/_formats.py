@@ -49,10 +49,10 @@ def format_for(path: PathLike, format: Optional[str]) -> str:
     """The format to write to a file, by its extension unless it is named."""
     if format is not None:
         return format
-    extension = os.path.splitext(os.fspath(path))[1].lower()
+    extension = os.path.splitext(os.fsdecode(path))[1].lower()
     found = _native.format_written_to(extension)
     if found is None:
-        raise Error(f"{os.fspath(path)} has the extension of no format that is written; say which", "format")
+        raise Error(f"{os.fsdecode(path)} has the extension of no format that is written; say which", "format")
     return found
 
 

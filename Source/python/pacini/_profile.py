@@ -25,7 +25,7 @@ class Profile:
     __slots__ = ("_handle",)
 
     def __init__(self, name_or_path: PathLike, *, strict: bool = False) -> None:
-        text = os.fspath(name_or_path)
+        text = os.fsdecode(name_or_path)
         if os.path.exists(text):
             self._handle, passed = _native.ProfileHandle.read(text, strict)
             for message in passed:
@@ -61,7 +61,7 @@ class Profile:
     def save(self, path: PathLike, *, overwrite: Optional[bool] = None) -> None:
         """Writes a profile file; it is complete or not there. A profile that is there is replaced, and no file of
         another kind unless `overwrite` is True; with False nothing is."""
-        self._handle.save(os.fspath(path), overwrite)
+        self._handle.save(os.fsdecode(path), overwrite)
 
     @property
     def name(self) -> str:
@@ -113,5 +113,5 @@ def as_profile(profile: object) -> Profile:
     if isinstance(profile, Profile):
         return profile
     if is_path(profile):
-        return Profile(profile)  # type: ignore[arg-type]
+        return Profile(profile)
     raise Error("must be a Profile, the name of one, or a file", "profile")

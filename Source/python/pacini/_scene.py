@@ -66,15 +66,15 @@ class Scene:
     @classmethod
     def load(cls, path: PathLike, *, clips: PathLike = "", strict: bool = False) -> Scene:
         """Reads a scene; clip files that it names are looked for in the folder `clips`, by default beside it."""
-        handle, passed = _native.SceneHandle.read(os.fspath(path), os.fspath(clips), strict)
+        handle, passed = _native.SceneHandle.read(os.fsdecode(path), os.fsdecode(clips), strict)
         for message in passed:
-            warnings.warn(f"{os.fspath(path)}: {message}", stacklevel=2)
+            warnings.warn(f"{os.fsdecode(path)}: {message}", stacklevel=2)
         return cls._of(handle)
 
     def save(self, path: PathLike, *, overwrite: Optional[bool] = None) -> None:
         """Writes a scene with its clips in it; the file is complete or not there. A scene that is there is replaced,
         and no file of another kind unless `overwrite` is True; with False nothing is."""
-        self._handle.save(os.fspath(path), overwrite)
+        self._handle.save(os.fsdecode(path), overwrite)
 
     def to_dict(self) -> dict[str, Any]:
         """All that is in the scene, as in its file, with the clips."""

@@ -62,10 +62,10 @@ def _settings_text(settings: Optional[AnySettings]) -> str:
     if not is_path(settings):
         return json.dumps(settings)
     try:
-        with open(settings, encoding="utf-8") as file:  # type: ignore[arg-type]
+        with open(settings, encoding="utf-8") as file:
             return file.read()
     except OSError as error:
-        raise Error(error.strerror or "cannot be read", os.fspath(settings), "io") from None  # type: ignore[arg-type]
+        raise Error(error.strerror or "cannot be read", os.fsdecode(settings), "io") from None
 
 
 def check_options(options: dict[str, Any]) -> None:
@@ -125,10 +125,10 @@ def _translated(
     if is_path(sound):
         if sample_rate is not None:
             raise Error("is for sounds in arrays; a file has its own", "sample_rate")
-        with shown(progress, os.path.basename(os.fspath(sound))) as tell:  # type: ignore[arg-type]
-            result = handle.encode_file(os.fspath(sound), tell)  # type: ignore[arg-type]
+        with shown(progress, os.path.basename(os.fsdecode(sound))) as tell:
+            result = handle.encode_file(os.fsdecode(sound), tell)
         for doubt in handle.sound_doubts:
-            warnings.warn(f"{os.fspath(sound)}: {doubt}", stacklevel=4)  # type: ignore[arg-type]
+            warnings.warn(f"{os.fsdecode(sound)}: {doubt}", stacklevel=4)
     else:
         samples = as_sound(sound, axis)
         rate = as_rate(sample_rate)
@@ -188,12 +188,17 @@ def translate(
 
 
 def encode_files(
-    paths: Iterable[PathLike], *, threads: Optional[int] = None, progress: Progress = None, **options: Any
+    paths: Union[PathLike, Iterable[PathLike]],
+    *,
+    threads: Optional[int] = None,
+    progress: Progress = None,
+    **options: Any,
 ) -> Iterator[tuple[PathLike, Union[Clip, Error]]]:
-    """Encodes many files on several threads, and yields each with its clip, or with what is wrong with it, as they get
-    ready. Options are those of :func:`encode`; what is wrong with them is raised at once."""
+    """Encodes many files, or one, on several threads, and yields each path as it was given with its clip, or with what
+    is wrong with it, as they get ready. Options are those of :func:`encode`; what is wrong with them is raised at
+    once."""
     check_options(options)
-    todo = list(paths)
+    todo: list[PathLike] = [paths] if is_path(paths) else list(paths)
     workers = threads if threads is not None else os.cpu_count() or 1
     over = threading.Event()
 
@@ -374,9 +379,7 @@ def felt(
 ) -> FloatArray:
     """The acceleration of the skin that the profile's model of the body predicts, as :func:`render` has it: 1 is
     `full_scale` m/s^2. `wearer` is 0 as in the profile, or 1 to 14, simulated people."""
-    options = _render_options(
-        profile, sample_rate, protect=protect, gain=gain, start=start, end=end, strength=strength
-    )
+    options = _render_options(profile, sample_rate, protect=protect, gain=gain, start=start, end=end, strength=strength)
     options.feel({"wearer": wearer, "full_scale": full_scale})
     return _rendered(content, options, dtype, progress)[0]
 
@@ -482,9 +485,9 @@ class Comparison:
 
 def _read_samples(path: PathLike, *allowed: bool) -> tuple[Any, int]:
     """(frames, channels) of a file and its rate; what the reader lets pass of it is a warning."""
-    samples, rate, doubts = _native.read_audio(os.fspath(path), *allowed)
+    samples, rate, doubts = _native.read_audio(os.fsdecode(path), *allowed)
     for doubt in doubts:
-        warnings.warn(f"{os.fspath(path)}: {doubt}", stacklevel=4)
+        warnings.warn(f"{os.fsdecode(path)}: {doubt}", stacklevel=4)
     return samples, rate
 
 
@@ -492,7 +495,7 @@ def _read_for_comparison(
     sound: Sound, rate: Optional[float], axis: int, where: str, allow_truncated: bool
 ) -> tuple[Any, int]:
     if is_path(sound):
-        samples, own = _read_samples(sound, False, allow_truncated, True)  # type: ignore[arg-type]
+        samples, own = _read_samples(sound, False, allow_truncated, True)
         return samples.T, own
     return as_sound(sound, axis), as_rate(rate, where)
 
@@ -566,7 +569,7 @@ def write_audio(
 
     A sound that is there may be a recording: it is replaced only if `overwrite` is True, or if ``pacini`` marked it as
     rendered and nobody changed it since; with False nothing is replaced."""
-    return _native.write_audio(os.fspath(path), as_sound(sound, axis), as_rate(sample_rate), encoding, overwrite)
+    return _native.write_audio(os.fsdecode(path), as_sound(sound, axis), as_rate(sample_rate), encoding, overwrite)
 
 
 def convert(path: PathLike, output: PathLike, **options: Any) -> list[Any]:
@@ -574,7 +577,7 @@ def convert(path: PathLike, output: PathLike, **options: Any) -> list[Any]:
     :meth:`Clip.save`."""
     clip = Clip.load(path)
     if os.path.exists(output) and os.path.samefile(path, output):
-        raise Error("is both input and output; name another output", os.fspath(output), "io")
+        raise Error("is both input and output; name another output", os.fsdecode(output), "io")
     return clip.save(output, **options)
 
 

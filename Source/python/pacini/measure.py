@@ -47,7 +47,7 @@ class Sweep:
         there is replaced only if `overwrite` is True, a sound as by :func:`pacini.write_audio`."""
         from ._sound import write_audio
 
-        text = os.fspath(path)
+        text = os.fsdecode(path)
         description = os.path.splitext(text)[0] + ".json"
         if description == text:
             raise Error("is named as its description is; name a sound", text)
@@ -96,9 +96,9 @@ class Recording:
 
     @classmethod
     def load(cls, path: PathLike) -> Recording:
-        samples, rate, doubts = _native.read_audio(os.fspath(path), False, False, False)
+        samples, rate, doubts = _native.read_audio(os.fsdecode(path), False, False, False)
         for doubt in doubts:
-            warnings.warn(f"{os.fspath(path)}: {doubt}", stacklevel=2)
+            warnings.warn(f"{os.fsdecode(path)}: {doubt}", stacklevel=2)
         return cls(samples.T, rate)
 
 
@@ -184,14 +184,14 @@ def analyse(
     measured, such as limits of the drive.
     """
     listed: list[AnyRecording] = (
-        [recordings] if isinstance(recordings, Recording) or is_path(recordings) else list(recordings)  # type: ignore[list-item,arg-type]
+        [recordings] if isinstance(recordings, Recording) or is_path(recordings) else list(recordings)
     )
     if not listed:
         raise Error("has nothing in it", "recordings")
     if isinstance(sweep, Sweep):
         description = sweep.description
     else:
-        with open(os.path.splitext(os.fspath(sweep))[0] + ".json", encoding="utf-8") as file:
+        with open(os.path.splitext(os.fsdecode(sweep))[0] + ".json", encoding="utf-8") as file:
             description = file.read()
     scale = [float(s) for s in full_scale] if isinstance(full_scale, Sequence) else [float(full_scale)]
     handles = []

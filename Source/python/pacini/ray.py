@@ -29,7 +29,7 @@ from typing import Any, Optional, Union
 
 import pacini
 
-from ._arrays import PathLike
+from ._arrays import PathLike, is_path
 from ._errors import Error
 from ._parameters import ENCODE
 from ._progress import Progress, counted
@@ -208,8 +208,8 @@ def _encode_batch(items: Sequence[_Item], settings: _Settings) -> list[dict[str,
 def _items(sounds: Union[PathLike, Iterable[PathLike]], output: str, extension: str) -> list[_Item]:
     """Sounds of a folder keep their place below it; those of a list have their names alone."""
     named: list[tuple[str, str, int, float]] = []  # path, name of the clip without its ending, bytes, time
-    if isinstance(sounds, (str, os.PathLike)):
-        root = os.fspath(sounds)
+    if is_path(sounds):
+        root = os.fsdecode(sounds)
         if _is_url(root):
             system, inside = _files(root)
             found = system.find(inside, detail=True)
@@ -230,7 +230,7 @@ def _items(sounds: Union[PathLike, Iterable[PathLike]], output: str, extension: 
             named.append((root, os.path.basename(root), *_about(root)))
     else:
         for each in sounds:
-            path = os.fspath(each)
+            path = os.fsdecode(each)
             named.append((path, path.replace(os.sep, "/").rsplit("/", 1)[-1], *_about(path)))
     items: dict[str, _Item] = {}
     for path, name, size, age in named:
@@ -422,7 +422,7 @@ def encode(
     known = {each.name: each for each in pacini.formats() if each.is_written}
     if format not in known:
         raise Error(f"is {format!r}; must be one of {', '.join(known)}", "format")
-    target = os.fspath(output)
+    target = os.fsdecode(output)
     if options.get("settings") is not None:  # by content: workers may not see the file
         try:
             options["settings"] = json.loads(_settings_text(options["settings"]))
