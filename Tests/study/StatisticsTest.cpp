@@ -1,5 +1,6 @@
 #include "study/statistics/Agreement.h"
 #include "study/statistics/Distributions.h"
+#include "study/statistics/Proportion.h"
 #include "study/statistics/Scaling.h"
 #include "study/statistics/TwoSamples.h"
 #include "support/Catch.h"
@@ -7,6 +8,7 @@
 #include <pacini/foundation/Random.h>
 
 #include <cmath>
+#include <span>
 #include <vector>
 
 using namespace pacini::study;
@@ -68,6 +70,77 @@ TEST_CASE("Mann and Whitney's test is SciPy's, exact and with ties")
     CHECK(ties.u == 18.5);
     CHECK(ties.p == exactly(0.09788201500770835));
     CHECK(mannWhitney(std::vector<double>{1, 1}, std::vector<double>{1, 1}).p == 1.0);
+}
+
+TEST_CASE("Wilcoxon's test is SciPy's, exact with and without ties, and of many pairs")
+{
+    const std::vector<double> c{5.0, 6.1, 7.7, 4.4, 8.2, 6.6, 5.9, 3.0};
+    const SignedRanks exact = signedRanks(a, c);
+    CHECK(exact.w == 1.0);
+    CHECK(exact.p == exactly(0.015625));
+    // scipy.stats.wilcoxon(..., method=PermutationMethod(n_resamples=inf)); one pair is equal.
+    const SignedRanks ties = signedRanks(std::vector<double>{1, 2, 3, 4, 5, 6, 7, 8, 9, 10},
+                                         std::vector<double>{2, 2, 5, 3, 7, 8, 6, 10, 12, 9});
+    CHECK(ties.n == 9);
+    CHECK(ties.w == 7.5);
+    CHECK(ties.p == exactly(0.07421875));
+    // wilcoxon(..., method="approx", correction=False)
+    std::vector<double> x, y;
+    for (int i = 0; i < 70; ++i)
+    {
+        x.push_back((i * 7) % 11);
+        y.push_back((i * 5) % 13);
+    }
+    const SignedRanks many = signedRanks(x, y);
+    CHECK_FALSE(many.exact);
+    CHECK(many.n == 61);
+    CHECK(many.p == exactly(0.12471085775494631));
+    CHECK(signedRanks(a, a).p == 1.0);
+    CHECK(signedRanks({}, {}).p == 1.0);
+}
+
+TEST_CASE("Shares of right answers have an interval of people")
+{
+    // Roots of (p - x)^2 = q^2 x (1 - x) / n by NumPy, n by the variance of a ratio of sums over people.
+    const std::vector<CountedAnswers> unlike{{9, 16}, {16, 16}, {8, 16}, {12, 16}, {15, 16}, {7, 16}};
+    CHECK(proportionOf(unlike).share95.low == exactly(0.43161489657170615));
+    CHECK(proportionOf(unlike).share95.high == exactly(0.8754530771166713));
+    const std::vector<CountedAnswers> uneven{{10, 20}, {30, 31}, {4, 8}};
+    CHECK(proportionOf(uneven).share95.low == exactly(0.13575778140737593));
+    CHECK(proportionOf(uneven).share95.high == exactly(0.9820712741195902));
+    // Of one person statsmodels' Wilson interval.
+    const std::vector<CountedAnswers> one{{12, 16}};
+    CHECK(proportionOf(one).share95.low == exactly(0.5050168346449122));
+    CHECK(proportionOf(one).share95.high == exactly(0.8981793250878696));
+    CHECK(proportionOf(std::vector<CountedAnswers>{{16, 16}, {16, 16}}).share95.high == 1.0);
+    CHECK(proportionOf({}).all == 0);
+
+    // Twelve people with sixteen answers each, of whom some hear it and some do not: the interval contains the share
+    // of all people about as often as it says. All answers in one, as if 192 people had answered once, it would not.
+    pacini::Random random(11);
+    int found = 0, pooled = 0;
+    constexpr int studies = 2000;
+    for (int study = 0; study < studies; ++study)
+    {
+        std::vector<CountedAnswers> people(12);
+        CountedAnswers all;
+        for (CountedAnswers& person : people)
+        {
+            const double own = random.uniform(0.5, 0.9);
+            for (person.all = 0; person.all < 16; ++person.all)
+                person.right += random.uniform(0.0, 1.0) < own ? 1u : 0u;
+            all = {all.right + person.right, all.all + person.all};
+        }
+        const auto holds = [](const Interval& interval)
+        {
+            return interval.low <= 0.7 && 0.7 <= interval.high;
+        };
+        found += holds(proportionOf(people).share95) ? 1 : 0;
+        pooled += holds(proportionOf(std::span(&all, 1)).share95) ? 1 : 0;
+    }
+    CHECK(found >= 0.94 * studies);
+    CHECK(found <= 0.975 * studies);
+    CHECK(pooled < 0.91 * studies);
 }
 
 TEST_CASE("Corrections for many tests are those of statsmodels")

@@ -58,6 +58,21 @@ double exactLowerTail(std::size_t n1, std::size_t n2, double u)
     const auto end = std::min(static_cast<std::size_t>(u) + 1, most + 1);
     return std::accumulate(ways[n1].begin(), ways[n1].begin() + static_cast<std::ptrdiff_t>(end), 0.0) / all;
 }
+
+/// Share of all choices of signs in which the ranks of one sign add up to `w` at most. Ranks are whole or halves.
+double signedLowerTail(const std::vector<double>& ranks, double w)
+{
+    const auto halves = [](double rank)
+    {
+        return static_cast<std::size_t>(std::lround(2.0 * rank));
+    };
+    std::vector<double> ways(halves(w) + 1, 0.0); // by twice the sum; in double, exact to 2^53
+    ways[0] = 1.0;
+    for (const double rank : ranks)
+        for (std::size_t step = halves(rank), k = ways.size(); k-- > step;)
+            ways[k] += ways[k - step];
+    return std::ldexp(std::accumulate(ways.begin(), ways.end(), 0.0), -static_cast<int>(ranks.size()));
+}
 } // namespace
 
 TTest pooledTTest(std::span<const double> first, std::span<const double> second)
@@ -134,6 +149,35 @@ MannWhitney mannWhitney(std::span<const double> first, std::span<const double> s
     // Half a step less than the distance from the middle: U moves in steps, the normal distribution does not.
     const double distance = 0.5 * n1 * n2 - smaller - 0.5;
     test.p = variance > 0.0 ? std::min(1.0, twoTailedNormal(std::max(distance, 0.0) / std::sqrt(variance))) : 1.0;
+    return test;
+}
+
+SignedRanks signedRanks(std::span<const double> first, std::span<const double> second)
+{
+    std::vector<double> distances;
+    std::vector<bool> rises;
+    for (std::size_t i = 0; i < std::min(first.size(), second.size()); ++i)
+        if (first[i] != second[i])
+        {
+            distances.push_back(std::abs(first[i] - second[i]));
+            rises.push_back(first[i] > second[i]);
+        }
+    SignedRanks test;
+    test.n = distances.size();
+    const std::vector<double> ranks = ranksOf(distances);
+    for (std::size_t i = 0; i < ranks.size(); ++i)
+        test.w += rises[i] ? ranks[i] : 0.0;
+    const auto n = static_cast<double>(test.n);
+    const double sum = 0.5 * n * (n + 1.0), smaller = std::min(test.w, sum - test.w);
+    constexpr std::size_t exactUpTo = 50;
+    test.exact = test.n <= exactUpTo;
+    if (test.exact)
+    {
+        test.p = std::min(1.0, 2.0 * signedLowerTail(ranks, smaller));
+        return test;
+    }
+    const double variance = n * (n + 1.0) * (2.0 * n + 1.0) / 24.0 - tieSumOf(distances) / 48.0;
+    test.p = twoTailedNormal((0.5 * sum - smaller) / std::sqrt(variance));
     return test;
 }
 

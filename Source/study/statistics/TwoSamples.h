@@ -4,6 +4,7 @@
 
 #include "study/statistics/Sample.h"
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -43,6 +44,18 @@ struct MannWhitney
 /// Mann and Whitney (1947). Exact without ties and up to 20 values in each, else by the normal distribution with
 /// corrections for continuity and ties.
 [[nodiscard]] MannWhitney mannWhitney(std::span<const double> first, std::span<const double> second);
+
+struct SignedRanks
+{
+    double w = 0.0;    ///< sum of the ranks of positive differences
+    std::size_t n = 0; ///< pairs that differ
+    double p = 1.0;    ///< two-sided
+    bool exact = false;
+};
+
+/// Wilcoxon's (1945) signed-rank test of pairs, as many values in both; equal pairs are left out. Exact up to 50 pairs,
+/// also with ties, else by the normal distribution with a correction for ties.
+[[nodiscard]] SignedRanks signedRanks(std::span<const double> first, std::span<const double> second);
 
 /// Difference of the means in pooled SDs (Cohen's d), times Hedges' (1981) correction for small samples; 0 without
 /// variance.
