@@ -1,10 +1,15 @@
 #include "study/RatingAnalysis.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstddef>
 #include <iterator>
 #include <map>
+#include <set>
+#include <span>
 #include <tuple>
+#include <utility>
 
 namespace pacini::study
 {
@@ -50,10 +55,12 @@ GroupRatings groupOf(std::string name, const GroupUnion& members, const Means& m
     for (const auto& [ofGroup, participant] : people)
     {
         std::vector<double> row;
+        auto& withGaps = group.rows.emplace_back(stimuli.size());
         for (std::size_t i = 0; i < stimuli.size(); ++i)
             if (const auto found = means.find({ofGroup, participant, stimuli[i]}); found != means.end())
             {
                 row.push_back(found->second.first / static_cast<double>(found->second.second));
+                withGaps[i] = row.back();
                 group.byStimulus[i].push_back(row.back());
             }
         group.participants.push_back(participant);
@@ -73,11 +80,15 @@ bool canBeTested(const std::vector<double>& first, const std::vector<double>& se
     return first.size() > 1 && second.size() > 1;
 }
 
-GroupComparison compared(const GroupRatings& first, const GroupRatings& second)
+bool haveRatedTheSame(const GroupRatings& first, const GroupRatings& second)
 {
-    GroupComparison made;
-    made.first = first.name;
-    made.second = second.name;
+    return std::equal(first.byStimulus.begin(), first.byStimulus.end(), second.byStimulus.begin(),
+                      [](const auto& a, const auto& b) { return a.empty() == b.empty(); });
+}
+
+/// Means of participants and of stimuli; those of places say nothing.
+void compareMeans(GroupComparison& made, const GroupRatings& first, const GroupRatings& second, bool pairStimuli)
+{
     if (canBeTested(first.participantMeans, second.participantMeans))
     {
         made.byParticipant = pooledTTest(first.participantMeans, second.participantMeans);
@@ -85,11 +96,21 @@ GroupComparison compared(const GroupRatings& first, const GroupRatings& second)
         made.byParticipantRanks = mannWhitney(first.participantMeans, second.participantMeans);
         made.effect = hedgesG(first.participantMeans, second.participantMeans);
     }
-    if (canBeTested(first.stimulusMeans, second.stimulusMeans))
-    {
-        made.byStimulus = pooledTTest(first.stimulusMeans, second.stimulusMeans);
-        made.byStimulusEqualVarianceP = equalVarianceP(first.stimulusMeans, second.stimulusMeans);
-    }
+    if (!canBeTested(first.stimulusMeans, second.stimulusMeans))
+        return;
+    made.stimuliArePaired = pairStimuli && haveRatedTheSame(first, second);
+    made.byStimulus = made.stimuliArePaired ? pairedTTest(first.stimulusMeans, second.stimulusMeans)
+                                            : pooledTTest(first.stimulusMeans, second.stimulusMeans);
+    made.byStimulusEqualVarianceP = equalVarianceP(first.stimulusMeans, second.stimulusMeans);
+}
+
+GroupComparison compared(const GroupRatings& first, const GroupRatings& second, const RatingAnalysisParams& params)
+{
+    GroupComparison made;
+    made.first = first.name;
+    made.second = second.name;
+    if (params.kind == AnswerKind::ratings)
+        compareMeans(made, first, second, params.pairStimuli);
     for (std::size_t i = 0; i < first.byStimulus.size(); ++i)
     {
         const auto &a = first.byStimulus[i], &b = second.byStimulus[i];
@@ -104,37 +125,130 @@ bool holds(const GroupUnion& members, const std::string& name)
     return std::find(members.begin(), members.end(), name) != members.end();
 }
 
-std::vector<StimulusComparison> comparedStimuli(const GroupRatings& everybody)
+std::vector<StimulusComparison> comparedStimuli(const GroupRatings& everybody, AnswerKind kind)
 {
     std::vector<StimulusComparison> pairs;
     const std::size_t n = everybody.byStimulus.size();
-    constexpr std::size_t mostPairs = 45; // of ten stimuli; more is no table that anybody reads
-    if (everybody.complete.size() < 2 || n < 2 || n * (n - 1) / 2 > mostPairs)
+    if (n > mostPairedStimuli)
         return pairs;
-    const auto column = [&](std::size_t i)
-    {
-        std::vector<double> values;
-        for (const auto& row : everybody.complete)
-            values.push_back(row[i]);
-        return values;
-    };
     std::vector<double> p;
     for (std::size_t i = 0; i < n; ++i)
         for (std::size_t k = i + 1; k < n; ++k)
         {
-            pairs.push_back({i, k, pairedTTest(column(i), column(k))});
-            p.push_back(pairs.back().paired.p);
+            std::vector<double> first, second;
+            for (const auto& row : everybody.rows)
+                if (row[i] && row[k])
+                {
+                    first.push_back(*row[i]);
+                    second.push_back(*row[k]);
+                }
+            if (first.size() < 2)
+                continue;
+            pairs.push_back({i, k, pairedTTest(first, second), signedRanks(first, second)});
+            p.push_back(kind == AnswerKind::places ? pairs.back().ranks.p : pairs.back().paired.p);
         }
     const std::vector<double> corrected = holm(p);
     for (std::size_t i = 0; i < pairs.size(); ++i)
         pairs[i].holm = corrected[i];
     return pairs;
 }
+
+/// Corrects the comparisons of groups for how many there are.
+void correct(std::vector<GroupComparison>& comparisons, AnswerKind kind)
+{
+    std::vector<double> p, ofStimuli;
+    for (const GroupComparison& one : comparisons)
+    {
+        p.push_back(one.byParticipant ? one.byParticipant->p : 1.0);
+        std::transform(one.stimuli.begin(), one.stimuli.end(), std::back_inserter(ofStimuli),
+                       [&](const auto& test) { return kind == AnswerKind::places ? test.ranks.p : test.pooled.p; });
+    }
+    const auto corrected = holm(p), stepDown = holm(ofStimuli), plain = bonferroni(ofStimuli);
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < comparisons.size(); ++i)
+    {
+        comparisons[i].holm = corrected[i];
+        for (auto& test : comparisons[i].stimuli)
+        {
+            test.holm = stepDown[next];
+            test.bonferroni = plain[next++];
+        }
+    }
+}
+
+std::string nameOf(const GroupRatings& group, std::size_t person)
+{
+    return group.name.empty() ? group.participants[person] : group.participants[person] + " of " + group.name;
+}
+
+/// What follows the first of several cases.
+std::string andMore(std::size_t count)
+{
+    return count > 1 ? fmt::format(" (and {} more)", count - 1) : std::string();
+}
+
+/// People with the same answers as another, if there are any.
+std::optional<std::string> copiesIn(std::span<const GroupRatings> groups)
+{
+    std::map<std::vector<std::optional<double>>, std::string> seen;
+    std::string first;
+    std::size_t count = 0;
+    for (const GroupRatings& group : groups)
+        for (std::size_t i = 0; i < group.participants.size(); ++i)
+        {
+            // Fewer answers, or always the same, are alike by chance.
+            constexpr std::size_t manyAnswers = 8, differentAnswers = 3;
+            const auto& row = group.rows[i];
+            if (row.size() < manyAnswers || std::set(row.begin(), row.end()).size() < differentAnswers)
+                continue;
+            const auto [other, isNew] = seen.try_emplace(row, nameOf(group, i));
+            if (!isNew && count++ == 0)
+                first = fmt::format("{} has the same answers as {}", nameOf(group, i), other->second);
+        }
+    if (count == 0)
+        return std::nullopt;
+    return first + andMore(count) + "; all count: leave out what is a copy";
+}
+
+/// What makes a sample other than it seems.
+std::vector<std::string> doubtsOf(const RatingAnalysis& analysis)
+{
+    std::vector<std::string> doubts;
+    const std::span groups(analysis.groups.data(), analysis.plainGroups);
+    std::map<std::string, std::vector<std::string>> groupsOf; // of a participant
+    std::size_t people = 0;
+    for (const GroupRatings& group : groups)
+        for (const std::string& participant : group.participants)
+        {
+            ++people;
+            groupsOf[participant].push_back(group.name);
+        }
+    if (auto copies = copiesIn(groups))
+        doubts.push_back(std::move(*copies));
+    const bool unnamed = groupsOf.erase("") > 0;
+    if (unnamed)
+        doubts.emplace_back("there are no participants: all answers of a group count as those of one person");
+    std::erase_if(groupsOf, [](const auto& one) { return one.second.size() < 2; });
+    if (!groupsOf.empty())
+        doubts.push_back(fmt::format("{} is in several groups ({}){}: as another person in each, so that tests between "
+                                     "groups hold only if they are different people",
+                                     groupsOf.begin()->first, fmt::join(groupsOf.begin()->second, ", "),
+                                     andMore(groupsOf.size())));
+    if (const std::size_t whole = analysis.everybody.complete.size(); whole < people && !unnamed)
+        doubts.push_back(fmt::format("{} of {} participants have not answered for every stimulus: their means are of "
+                                     "what they answered, and agreement is of the {} others",
+                                     people - whole, people, whole));
+    if (analysis.stimuli.size() > mostPairedStimuli)
+        doubts.push_back(fmt::format("{} stimuli are too many to be compared in pairs; up to {} are",
+                                     analysis.stimuli.size(), mostPairedStimuli));
+    return doubts;
+}
 } // namespace
 
-RatingAnalysis analyseRatings(const std::vector<Rating>& ratings, const std::vector<GroupUnion>& unions)
+RatingAnalysis analyseRatings(const std::vector<Rating>& ratings, const RatingAnalysisParams& params)
 {
     RatingAnalysis analysis;
+    analysis.kind = params.kind;
     Means means;
     std::vector<std::string> groupNames;
     for (const Rating& one : ratings)
@@ -155,7 +269,7 @@ RatingAnalysis analyseRatings(const std::vector<Rating>& ratings, const std::vec
         analysis.groups.push_back(groupOf(name, members.back(), means, analysis.stimuli));
     }
     analysis.plainGroups = analysis.groups.size();
-    for (const GroupUnion& one : unions)
+    for (const GroupUnion& one : params.unions)
     {
         std::string name;
         for (const std::string& member : one)
@@ -174,31 +288,15 @@ RatingAnalysis analyseRatings(const std::vector<Rating>& ratings, const std::vec
             if (overlap)
                 continue;
             // A union is named first, as the sum that a single group is held against.
-            auto& made = analysis.comparisons.emplace_back(combined ? compared(analysis.groups[k], analysis.groups[i])
-                                                                    : compared(analysis.groups[i], analysis.groups[k]));
-            made.combined = combined;
+            analysis.comparisons.push_back(combined ? compared(analysis.groups[k], analysis.groups[i], params)
+                                                    : compared(analysis.groups[i], analysis.groups[k], params));
+            analysis.comparisons.back().combined = combined;
         }
-    std::vector<double> p, ofStimuli;
-    for (const GroupComparison& one : analysis.comparisons)
-    {
-        p.push_back(one.byParticipant ? one.byParticipant->p : 1.0);
-        std::transform(one.stimuli.begin(), one.stimuli.end(), std::back_inserter(ofStimuli),
-                       [](const auto& test) { return test.pooled.p; });
-    }
-    const auto corrected = holm(p), stepDown = holm(ofStimuli), plain = bonferroni(ofStimuli);
-    std::size_t next = 0;
-    for (std::size_t i = 0; i < analysis.comparisons.size(); ++i)
-    {
-        analysis.comparisons[i].holm = corrected[i];
-        for (auto& test : analysis.comparisons[i].stimuli)
-        {
-            test.holm = stepDown[next];
-            test.bonferroni = plain[next++];
-        }
-    }
-    analysis.pairs = comparedStimuli(analysis.everybody);
+    correct(analysis.comparisons, params.kind);
+    analysis.pairs = comparedStimuli(analysis.everybody, params.kind);
     analysis.agreement = intraclassCorrelation(analysis.everybody.complete);
     analysis.order = friedman(analysis.everybody.complete);
+    analysis.doubts = doubtsOf(analysis);
     return analysis;
 }
 

@@ -14,16 +14,17 @@
 namespace pacini::study
 {
 
-/// A group's ratings of the stimuli.
+/// A group's ratings of the stimuli, one for each participant and stimulus.
 struct GroupRatings
 {
     std::string name;
     std::vector<std::string> participants;
     std::vector<std::vector<double>> byStimulus; ///< a list for each stimulus; participants in their order
     std::vector<double> all;
-    std::vector<double> participantMeans;
-    std::vector<double> stimulusMeans; ///< of the stimuli that the group has rated
-    RatingTable complete;              ///< of the participants who have rated every stimulus
+    std::vector<double> participantMeans;                 ///< of the stimuli that each has rated
+    std::vector<double> stimulusMeans;                    ///< of the stimuli that the group has rated
+    std::vector<std::vector<std::optional<double>>> rows; ///< of each participant, with what is missing
+    RatingTable complete;                                 ///< of the participants who have rated every stimulus
 };
 
 /// Tests of one group's ratings against another's, the first minus the second.
@@ -36,44 +37,66 @@ struct GroupComparison
     double effect = 0.0;             ///< Hedges' g of the participants' means
     double holm = 1.0;               ///< of byParticipant, over the comparisons that are shown
     std::optional<TTest> byStimulus; ///< of a mean for each stimulus: what holds for more stimuli of their kind
-    double byStimulusEqualVarianceP = 1.0;
+    bool stimuliArePaired = false;   ///< byStimulus is of the differences: both groups have rated the same stimuli
+    double byStimulusEqualVarianceP = 1.0; ///< where they are not paired
     struct OfStimulus
     {
         std::size_t stimulus = 0;
         TTest pooled, welch;
         MannWhitney ranks;
         double effect = 0.0;
-        double holm = 1.0, bonferroni = 1.0; ///< over all stimuli of all comparisons
+        double holm = 1.0, bonferroni = 1.0; ///< of `pooled`, of places of `ranks`; over all stimuli of all comparisons
     };
     std::vector<OfStimulus> stimuli;
 };
 
-/// Two stimuli that the same people have rated.
+/// Two stimuli, by the people who have rated both.
 struct StimulusComparison
 {
     std::size_t first = 0, second = 0;
     TTest paired;
-    double holm = 1.0;
+    SignedRanks ranks;
+    double holm = 1.0; ///< of `paired`, of places of `ranks`; over all pairs
 };
 
-struct RatingAnalysis
+/// Numbers on a scale, or places in an order. Places of one person have always the same mean, and are compared by their
+/// ranks.
+enum class AnswerKind
 {
-    std::vector<std::string> stimuli;
-    std::vector<GroupRatings> groups; ///< of the study; unions after them
-    std::size_t plainGroups = 0;
-    GroupRatings everybody;
-    std::vector<GroupComparison> comparisons;
-    std::vector<StimulusComparison> pairs; ///< of stimuli, over everybody; none where more than 45
-    IntraclassCorrelation agreement;       ///< of all participants who have rated everything
-    Friedman order;
+    ratings,
+    places
 };
 
 /// Groups that are put together, such as {"A", "B"}.
 using GroupUnion = std::vector<std::string>;
 
-/// Of ratings of one block. A participant who has rated a stimulus several times counts once, with the mean. `unions`
-/// are compared with the groups that they do not hold.
+struct RatingAnalysisParams
+{
+    std::vector<GroupUnion> unions; ///< are compared with the groups that they do not hold
+    AnswerKind kind = AnswerKind::ratings;
+    bool pairStimuli = true; ///< false: means for each stimulus are independent samples, as Weber (2020) has them
+};
+
+/// Pairs of more stimuli are not compared.
+inline constexpr std::size_t mostPairedStimuli = 500;
+
+struct RatingAnalysis
+{
+    AnswerKind kind = AnswerKind::ratings;
+    std::vector<std::string> stimuli;
+    std::vector<GroupRatings> groups; ///< of the study; unions after them
+    std::size_t plainGroups = 0;
+    GroupRatings everybody;
+    std::vector<GroupComparison> comparisons;
+    std::vector<StimulusComparison> pairs; ///< of stimuli, over everybody; none of more than mostPairedStimuli
+    IntraclassCorrelation agreement;       ///< of all participants who have rated everything
+    Friedman order;
+    std::vector<std::string> doubts; ///< sentences about the sample: what is missing, and who may be one person
+};
+
+/// Of ratings of one block. A participant who has rated a stimulus several times counts once, with the mean.
+/// Participants are those of a group: the same name in two groups is two people, which `doubts` says.
 [[nodiscard]] RatingAnalysis analyseRatings(const std::vector<Rating>& ratings,
-                                            const std::vector<GroupUnion>& unions = {});
+                                            const RatingAnalysisParams& params = {});
 
 } // namespace pacini::study

@@ -1,5 +1,6 @@
 """End to end: pacini study, from a template to a report, and what people do wrong with it."""
 import json
+import random
 import re
 import struct
 import unittest
@@ -86,7 +87,7 @@ class Steps(StudyTest):
                    says="line 4: has no rating; 2 of 10 lines have none and are left out")
 
     def test_a_report_of_ratings_of_others(self):
-        rows = [f"{group};{stimulus};{person};{5 + (person + stimulus) % 3 + (2 if group == 'C' else 0)}"
+        rows = [f"{group};{stimulus};{group}{person};{5 + (person + 1) * stimulus % 7 % 4 + 'ABC'.index(group)}"
                 for group in "ABC" for stimulus in range(1, 11) for person in range(6)]
         self.put("others.csv", "\n".join(["Group;Stimulus;Participant;Rating", *rows]).encode())
         report = self.report("study", "report", "others.csv", "--combine", "A+B")
@@ -97,6 +98,91 @@ class Steps(StudyTest):
         # Numbers in their order: 2 before 10.
         page = (self.folder / "others.report/report.md").read_text()
         self.assertLess(page.index("| 2 |"), page.index("| 10 |"))
+
+
+class People(StudyTest):
+    """People are the sample."""
+
+    def table(self, name, rows):
+        self.put(name, "\n".join(["group,participant,stimulus,rating", *(",".join(map(str, row)) for row in rows)]))
+        return name
+
+    def test_pairs_of_any_number_of_stimuli_are_compared_and_in_the_report(self):
+        source = random.Random(3)
+        rows = [("A", f"P{p}", f"S{s:02}", s % 5 + source.randrange(4)) for p in range(9) for s in range(14)]
+        found = self.report("study", "report", self.table("many.csv", rows))["ratings"]["Ratings"]["pairs"]
+        self.assertEqual(len(found), 91)
+        self.assertTrue(all(one["holm"] >= one["p"] and {"t", "degrees", "difference95", "wilcoxonP"} <= set(one)
+                            for one in found))
+        differ = sum(one["holm"] <= 0.05 for one in found)
+        page = (self.folder / "many.report/report.md").read_text()
+        self.assertIn(f"Of 91 pairs of stimuli {differ} differ after Holm's correction", page)
+        self.assertEqual(len(re.findall(r"(?m)^\| S\d", page)), 14 + differ)
+        # Where everybody lacks something, pairs are of those who answered for both.
+        rows = [row for row in rows if (int(row[1][1:]), int(row[2][1:])) not in {(p, p) for p in range(9)}]
+        self.table("gaps.csv", rows)
+        found = json.loads(self.warns("study", "report", "gaps.csv", "--json",
+                                      says="9 of 9 participants have not answered for every stimulus"))["ratings"]["Ratings"]
+        self.assertEqual([one["degrees"] for one in found["pairs"][:1] + found["pairs"][-1:]], [6, 8])
+        self.assertEqual(len(found["notes"]), 1)
+
+    def test_groups_that_rate_the_same_stimuli_are_compared_in_pairs_of_them(self):
+        rows = [(g, f"{g}{p}", s, 2 * s + (g == "B") * (1 + s % 2) + p)
+                for g in "AB" for p in range(4) for s in range(8)]
+        def means(*more):
+            done = self.run_command("study", "report", self.table("two.csv", rows), "--json", *more)
+            return json.loads(done.stdout)["ratings"]["Ratings"]["comparisons"][0]["byStimulus"]
+        paired, independent = means(), means("--unpaired")
+        self.assertEqual((paired["paired"], paired["degrees"]), (True, 7))
+        self.assertEqual((independent["paired"], independent["degrees"]), (False, 14))
+        self.assertLess(paired["p"], 0.001)
+        self.assertGreater(independent["p"], 0.3)
+        self.assertIn("| independent |", (self.folder / "two.report/report.md").read_text())
+        # Other stimuli are independent ones.
+        rows = [row for row in rows if row[0] == "A" or row[2] != 3]
+        self.assertEqual(means()["paired"], False)
+
+    def test_several_answers_of_one_person_are_no_sample(self):
+        rows = [("A", f"P{p}", s, 3 + p % 4 + s % 2) for p in range(12) for s in range(6) for _ in range(2)]
+        everybody = self.report("study", "report", self.table("again.csv", rows))["ratings"]["Ratings"]["everybody"]
+        self.assertEqual((everybody["total"]["n"], everybody["answers"]["n"]), (12, 72))
+        self.assertAlmostEqual(everybody["total"]["sd"], 1.1677, places=4)
+
+    def test_who_may_be_one_person_is_told(self):
+        answers = [4, 7, 2, 9, 3, 8, 5, 6]
+        rows = [("A", p, s, answer + p * s % 4) for p in (1, 2, 3) for s, answer in enumerate(answers)]
+        rows += [("B", p, s, answer - (p + s) % 3) for p in (3, 4, 5) for s, answer in enumerate(answers)]
+        self.warns("study", "report", self.table("both.csv", rows), says="3 is in several groups (A, B)")
+        rows = [row for row in rows if row[:2] != ("B", 3)]
+        rows += [("B", 6, s, answer + 2 * s % 4) for s, answer in enumerate(answers)]
+        self.warns("study", "report", self.table("copy.csv", rows), says="6 of B has the same answers as 2 of A")
+        self.put("nobody.csv", "stimulus,rating\n1,2\n2,3\n1,4\n")
+        self.warns("study", "report", "nobody.csv", says="there are no participants")
+
+    def test_choices_have_an_interval_of_people(self):
+        self.succeeds("study", "new", "abx", "--template", "abx", "sounds/a.wav", "-g", "all:6")
+        self.succeeds("study", "simulate", "abx", "-o", "simulated", "--runs", "10")
+        # Three people are always right, three always wrong.
+        for i, log in enumerate(sorted((self.folder / "simulated/sessions").glob("*.jsonl"))):
+            log.write_text(re.sub(r'"correct":(true|false)', '"correct":' + ("true" if i % 2 else "false"), log.read_text()))
+        [[found]] = [block.values() for block in self.report("study", "report", "simulated")["choices"].values()]
+        self.assertEqual((found["people"], found["trials"], found["share"]), (6, 96, 0.5))
+        self.assertLess(found["share95"][0], 0.15)
+        self.assertGreater(found["share95"][1], 0.85)
+
+    def test_rankings_are_compared_by_ranks(self):
+        self.succeeds("study", "new", "order", "--template", "ranking", "sounds/", "-g", "A:8", "-g", "B:8")
+        self.succeeds("study", "simulate", "order", "-o", "simulated", "--runs", "10")
+        [found] = self.report("study", "report", "simulated")["ranks"].values()
+        for absent in ("icc", "total", "byParticipant", "byStimulus", "pooled", '"t"', "mean95", "hedgesG"):
+            self.assertNotIn(absent, json.dumps(found))
+        self.assertEqual(len(found["pairs"]), 3)
+        self.assertEqual({"first", "second", "n", "difference", "wilcoxonW", "wilcoxonP", "holm"}, set(found["pairs"][0]))
+        self.assertEqual(set(found["comparisons"][0]["stimuli"]["a"]), {"u", "mannWhitneyP", "holm", "bonferroni"})
+        page = (self.folder / "simulated/report/report.md").read_text()
+        self.assertIn("Places: median", page)
+        self.assertIn("Friedman", page)
+        self.assertNotIn("t-test", page)
 
 
 class Profile(StudyTest):

@@ -100,7 +100,7 @@ def lines(text):
 class Thesis(unittest.TestCase):
     def setUp(self):
         with tempfile.TemporaryDirectory() as folder:
-            command = [PACINI, "study", "report", TABLE, "--combine", "A+B", "-o", folder, "--json"]
+            command = [PACINI, "study", "report", TABLE, "--combine", "A+B", "--unpaired", "-o", folder, "--json"]
             report = json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)
             self.page = Path(folder, "report.md").read_text()
         self.report = report["ratings"]["Ratings"]
@@ -122,7 +122,7 @@ class Thesis(unittest.TestCase):
         for name, *numbers in lines(PRINTED_5_2):
             people = [self.groups["A"], self.groups["B"], self.groups["C"], self.everybody]
             for i, group in enumerate(people):
-                sample = group["total"] if name == "Total" else group["stimuli"][name]
+                sample = group["answers"] if name == "Total" else group["stimuli"][name]
                 self.digits(f"{name}, {'ABC*'[i]}, mean", numbers[2 * i], sample["mean"])
                 self.digits(f"{name}, {'ABC*'[i]}, SD", numbers[2 * i + 1], sample["sd"])
         # The print is wrong there, and nowhere else.

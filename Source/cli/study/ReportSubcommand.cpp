@@ -41,12 +41,17 @@ public:
                   "and its name; repeat for several",
                   "ROLE=NAME")
             ->allow_extra_args(false);
+        command->add_flag(
+            "--unpaired", unpaired,
+            "Compare groups by a mean for each stimulus as independent samples, also where both rated the "
+            "same stimuli (as Weber 2020 does)");
         command->add_flag("--mixed", mixed, "Also fit mixed models of the ratings, with Python's statsmodels");
         overwriting.declare(*command);
         command->footer(
-            "Means, SDs and intervals; box plots; t-tests (pooled, Welch, paired), Mann-Whitney, effect sizes, Holm\n"
-            "and Bonferroni; ICC, Kendall's W, Friedman; thresholds; choices; words; maps of similarity; mixed "
-            "models.\n"
+            "Means, SDs and intervals, whose sample is people; box plots; t-tests (pooled, Welch, paired), "
+            "Mann-Whitney,\n"
+            "Wilcoxon, effect sizes, Holm and Bonferroni; ICC, Kendall's W, Friedman; thresholds; choices; words; maps "
+            "of\nsimilarity; mixed models.\n"
             "A table of ratings (.csv, .tsv or .txt) has the columns stimulus and rating, and optionally group, "
             "participant and\nblock; those of webMUSHRA and jsPsych are read as they are.\n\nExamples:\n  pacini study "
             "report coherence\n"
@@ -58,6 +63,7 @@ public:
     {
         StudyReportParams params;
         params.mixed = mixed;
+        params.pairStimuli = !unpaired;
         for (const std::string& text : combined)
         {
             study::GroupUnion members;
@@ -90,6 +96,7 @@ public:
         auto report = isTable ? ofTable(console, path, names, params) : ofStudy(console, path, params);
         if (!report)
             return console.fail(named, report.error());
+        console.warnings(named, report->warnings);
         const fs::path beside =
             isTable ? fs::path(path).replace_extension(".report") : study::studyFileOf(path).parent_path() / "report";
         return write(console, *report, output.empty() ? beside : fs::path(output));
@@ -171,7 +178,7 @@ private:
 
     std::string named, output, categories;
     std::vector<std::string> combined, columns;
-    bool mixed = false;
+    bool mixed = false, unpaired = false;
     OverwriteOptions overwriting;
 };
 } // namespace

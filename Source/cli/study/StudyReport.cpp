@@ -6,7 +6,7 @@
 #include "cli/study/StudyFigures.h"
 #include "study/Exposure.h"
 #include "study/StudyFields.h"
-#include "study/statistics/Distributions.h"
+#include "study/statistics/Proportion.h"
 #include "study/statistics/Scaling.h"
 
 #include <fmt/format.h>
@@ -55,6 +55,16 @@ Json jsonOf(const SampleSummary& sample)
             {"range", {sample.lowest, sample.highest}}};
 }
 
+/// The part of a summary that says something of places in an order.
+Json jsonOfPlaces(const SampleSummary& sample)
+{
+    return {{"n", sample.count},
+            {"mean", sample.mean},
+            {"median", sample.median},
+            {"quartiles", {sample.lowerQuartile, sample.upperQuartile}},
+            {"range", {sample.lowest, sample.highest}}};
+}
+
 /// A t beyond all numbers, of samples without variance, is null.
 Json jsonOf(const TTest& test)
 {
@@ -73,6 +83,7 @@ public:
     explicit Writer(StudyReport& toFill) : report(toFill) {}
 
     void heading(int level, std::string text) { report.page.parts.emplace_back(PageHeading{level, std::move(text)}); }
+    void warning(std::string text) { report.warnings.push_back(std::move(text)); }
     void paragraph(std::string text) { report.page.parts.emplace_back(PageParagraph{std::move(text)}); }
     void table(PageTable made)
     {
@@ -97,20 +108,32 @@ std::string groupTitle(const std::string& name)
     return name.empty() ? std::string("all") : name;
 }
 
-PageTable meansTable(const RatingAnalysis& analysis)
+/// The groups that tables show side by side: those of the study, and all together.
+std::vector<const GroupRatings*> shownGroups(const RatingAnalysis& analysis)
 {
-    PageTable table{"Mean, standard deviation and 95 % interval of the mean", {"Stimulus"}, {}};
     std::vector<const GroupRatings*> groups;
     for (std::size_t i = 0; i < analysis.plainGroups; ++i)
         groups.push_back(&analysis.groups[i]);
     if (analysis.plainGroups > 1)
         groups.push_back(&analysis.everybody);
+    return groups;
+}
+
+std::string columnTitle(const RatingAnalysis& analysis, const GroupRatings& group)
+{
+    return &group == &analysis.everybody ? "All" : groupTitle(group.name);
+}
+
+PageTable meansTable(const RatingAnalysis& analysis)
+{
+    PageTable table{"Mean, standard deviation and 95 % interval of the mean. People are the sample: several answers of "
+                    "one count as their mean. Last line: all answers, which are no sample of people",
+                    {"Stimulus"},
+                    {}};
+    const auto groups = shownGroups(analysis);
     for (const GroupRatings* group : groups)
-    {
-        const std::string name = group == &analysis.everybody ? "All" : groupTitle(group->name);
-        table.columns.insert(table.columns.end(), {name + " mean", "SD", "95 %"});
-    }
-    const auto row = [&](const std::string& name, auto valuesOf)
+        table.columns.insert(table.columns.end(), {columnTitle(analysis, *group) + " mean", "SD", "95 %"});
+    const auto row = [&](const std::string& name, bool withInterval, auto valuesOf)
     {
         std::vector<std::string> cells{name};
         for (const GroupRatings* group : groups)
@@ -119,14 +142,39 @@ PageTable meansTable(const RatingAnalysis& analysis)
             if (sample.count == 0)
                 cells.insert(cells.end(), {"", "", ""});
             else
-                cells.insert(cells.end(),
-                             {decimalText(sample.mean, 2), decimalText(sample.sd, 2), intervalText(sample.mean95, 2)});
+                cells.insert(cells.end(), {decimalText(sample.mean, 2), decimalText(sample.sd, 2),
+                                           withInterval ? intervalText(sample.mean95, 2) : ""});
         }
         table.rows.push_back(std::move(cells));
     };
     for (std::size_t i = 0; i < analysis.stimuli.size(); ++i)
-        row(analysis.stimuli[i], [i](const GroupRatings& group) { return group.byStimulus[i]; });
-    row("Total", [](const GroupRatings& group) { return group.all; });
+        row(analysis.stimuli[i], true, [i](const GroupRatings& group) { return group.byStimulus[i]; });
+    row("Mean of each person", true, [](const GroupRatings& group) { return group.participantMeans; });
+    row("All answers", false, [](const GroupRatings& group) { return group.all; });
+    return table;
+}
+
+PageTable placesTable(const RatingAnalysis& analysis)
+{
+    PageTable table{"Places: median, quartiles and mean of what each person gave", {"Stimulus"}, {}};
+    const auto groups = shownGroups(analysis);
+    for (const GroupRatings* group : groups)
+        table.columns.insert(table.columns.end(), {columnTitle(analysis, *group) + " median", "Quartiles", "Mean"});
+    for (std::size_t i = 0; i < analysis.stimuli.size(); ++i)
+    {
+        std::vector<std::string> cells{analysis.stimuli[i]};
+        for (const GroupRatings* group : groups)
+        {
+            const SampleSummary sample = summaryOf(group->byStimulus[i]);
+            if (sample.count == 0)
+                cells.insert(cells.end(), {"", "", ""});
+            else
+                cells.insert(cells.end(), {decimalText(sample.median, 1),
+                                           intervalText({sample.lowerQuartile, sample.upperQuartile}, 2),
+                                           decimalText(sample.mean, 2)});
+        }
+        table.rows.push_back(std::move(cells));
+    }
     return table;
 }
 
@@ -151,13 +199,14 @@ PageTable stimulusMeansTable(const RatingAnalysis& analysis)
     PageTable table{
         "Groups compared by a mean for each stimulus: says something about more stimuli of this kind, not about "
         "more people",
-        {"Groups", "t", "df", "SD", "p", "p, equal variances"},
+        {"Groups", "Stimuli", "t", "df", "SD", "p", "p, equal variances"},
         {}};
     for (const GroupComparison& one : analysis.comparisons)
         if (one.byStimulus)
-            table.rows.push_back({one.first + " - " + one.second, decimalText(one.byStimulus->t, 2),
-                                  decimalText(one.byStimulus->degrees, 0), decimalText(one.byStimulus->sd, 2),
-                                  pText(one.byStimulus->p), pText(one.byStimulusEqualVarianceP)});
+            table.rows.push_back({one.first + " - " + one.second, one.stimuliArePaired ? "in pairs" : "independent",
+                                  decimalText(one.byStimulus->t, 2), decimalText(one.byStimulus->degrees, 0),
+                                  decimalText(one.byStimulus->sd, 2), pText(one.byStimulus->p),
+                                  one.stimuliArePaired ? "" : pText(one.byStimulusEqualVarianceP)});
     return table;
 }
 
@@ -177,26 +226,60 @@ PageTable eachStimulusTable(const RatingAnalysis& analysis)
     return table;
 }
 
-PageTable pairsTable(const RatingAnalysis& analysis)
+/// Places are compared by their ranks alone.
+PageTable eachStimulusPlacesTable(const RatingAnalysis& analysis)
 {
     PageTable table{
-        "Stimuli compared by the participants who rated all of them (paired t-tests), what differs at 5 % after "
-        "Holm",
-        {"Stimuli", "Difference", "95 %", "t", "df", "p", "p, Holm"},
+        "Groups compared for each stimulus (Mann-Whitney), two-sided; corrected over all lines of this table",
+        {"Groups", "Stimulus", "U", "p", "p, Holm", "p, Bonferroni"},
         {}};
+    for (const GroupComparison& one : analysis.comparisons)
+        for (const auto& test : one.stimuli)
+            table.rows.push_back({one.first + " - " + one.second, analysis.stimuli[test.stimulus],
+                                  decimalText(test.ranks.u, 1), pText(test.ranks.p), pText(test.holm),
+                                  pText(test.bonferroni)});
+    return table;
+}
+
+constexpr double level = 0.05;
+
+/// Only what differs: of many stimuli all pairs would be no table that anybody reads. They are in the JSON.
+PageTable pairsTable(const RatingAnalysis& analysis)
+{
+    const bool places = analysis.kind == AnswerKind::places;
+    PageTable table{
+        fmt::format("Stimuli that differ at 5 % after Holm's correction over all pairs, by the participants "
+                    "who answered for both ({})",
+                    places ? "Wilcoxon's signed ranks" : "paired t-tests; Wilcoxon's signed ranks"),
+        {"Stimuli", "Difference"},
+        {}};
+    const auto more = places ? std::vector<std::string>{"Participants", "W", "p", "p, Holm"}
+                             : std::vector<std::string>{"95 %", "t", "df", "p", "p, Holm", "p, Wilcoxon"};
+    table.columns.insert(table.columns.end(), more.begin(), more.end());
     for (const StimulusComparison& one : analysis.pairs)
-        if (one.holm <= 0.05)
-            table.rows.push_back({analysis.stimuli[one.first] + " - " + analysis.stimuli[one.second],
-                                  signedText(one.paired.difference, 2), intervalText(one.paired.difference95, 2),
-                                  decimalText(one.paired.t, 2), decimalText(one.paired.degrees, 0), pText(one.paired.p),
-                                  pText(one.holm)});
+    {
+        if (one.holm > level)
+            continue;
+        auto& row = table.rows.emplace_back();
+        row = {analysis.stimuli[one.first] + " - " + analysis.stimuli[one.second],
+               signedText(one.paired.difference, 2)};
+        const auto cells =
+            places ? std::vector<std::string>{decimalText(one.paired.degrees + 1.0, 0), decimalText(one.ranks.w, 1),
+                                              pText(one.ranks.p), pText(one.holm)}
+                   : std::vector<std::string>{intervalText(one.paired.difference95, 2),
+                                              decimalText(one.paired.t, 2),
+                                              decimalText(one.paired.degrees, 0),
+                                              pText(one.paired.p),
+                                              pText(one.holm),
+                                              pText(one.ranks.p)};
+        row.insert(row.end(), cells.begin(), cells.end());
+    }
     return table;
 }
 
 /// What the tests amount to, in sentences.
 void writeFindings(Writer& writer, const RatingAnalysis& analysis)
 {
-    constexpr double level = 0.05;
     std::string text;
     for (const GroupComparison& one : analysis.comparisons)
         if (!one.combined && one.byParticipant)
@@ -208,31 +291,46 @@ void writeFindings(Writer& writer, const RatingAnalysis& analysis)
         for (const auto& test : one.stimuli)
         {
             ++tests;
-            below += test.pooled.p <= level ? 1u : 0u;
+            below += (analysis.kind == AnswerKind::places ? test.ranks.p : test.pooled.p) <= level ? 1u : 0u;
             left += test.holm <= level ? 1u : 0u;
         }
     if (tests > 0)
         text += fmt::format(
             "Of {} tests of single stimuli {} are at or below .05 by themselves, {} after Holm's correction; "
-            "{:.0f} would be by chance alone.",
+            "{:.0f} would be by chance alone. ",
             tests, below, left, static_cast<double>(tests) * level);
+    if (!analysis.pairs.empty())
+        text += fmt::format("Of {} pairs of stimuli {} differ after Holm's correction.", analysis.pairs.size(),
+                            std::count_if(analysis.pairs.begin(), analysis.pairs.end(),
+                                          [](const StimulusComparison& one) { return one.holm <= level; }));
+    if (text.ends_with(' '))
+        text.pop_back();
     if (!text.empty())
         writer.paragraph(text);
+    for (const std::string& doubt : analysis.doubts)
+        writer.paragraph("Note: " + doubt + ".");
 }
 
 Json jsonOf(const RatingAnalysis& analysis)
 {
+    const bool places = analysis.kind == AnswerKind::places;
     Json groups = Json::array();
     const auto groupJson = [&](const GroupRatings& group)
     {
         Json stimuli = Json::object();
         for (std::size_t i = 0; i < analysis.stimuli.size(); ++i)
             if (!group.byStimulus[i].empty())
-                stimuli[analysis.stimuli[i]] = jsonOf(summaryOf(group.byStimulus[i]));
-        return Json{{"group", group.name},
-                    {"participants", group.participants.size()},
-                    {"total", jsonOf(summaryOf(group.all))},
-                    {"stimuli", std::move(stimuli)}};
+                stimuli[analysis.stimuli[i]] =
+                    places ? jsonOfPlaces(summaryOf(group.byStimulus[i])) : jsonOf(summaryOf(group.byStimulus[i]));
+        Json entry{{"group", group.name}, {"participants", group.participants.size()}};
+        if (!places)
+        {
+            entry["total"] = jsonOf(summaryOf(group.participantMeans));
+            const SampleSummary answers = summaryOf(group.all);
+            entry["answers"] = {{"n", answers.count}, {"mean", answers.mean}, {"sd", answers.sd}};
+        }
+        entry["stimuli"] = std::move(stimuli);
+        return entry;
     };
     for (const GroupRatings& group : analysis.groups)
         groups.push_back(groupJson(group));
@@ -249,15 +347,20 @@ Json jsonOf(const RatingAnalysis& analysis)
         if (one.byStimulus)
         {
             entry["byStimulus"] = jsonOf(*one.byStimulus);
-            entry["byStimulus"]["equalVarianceP"] = one.byStimulusEqualVarianceP;
+            entry["byStimulus"]["paired"] = one.stimuliArePaired;
+            if (!one.stimuliArePaired)
+                entry["byStimulus"]["equalVarianceP"] = one.byStimulusEqualVarianceP;
         }
         Json stimuli = Json::object();
         for (const auto& test : one.stimuli)
         {
-            Json ofStimulus = jsonOf(test.pooled);
-            ofStimulus["welchP"] = test.welch.p;
+            Json ofStimulus = places ? Json{{"u", test.ranks.u}} : jsonOf(test.pooled);
+            if (!places)
+            {
+                ofStimulus["welchP"] = test.welch.p;
+                ofStimulus["hedgesG"] = test.effect;
+            }
             ofStimulus["mannWhitneyP"] = test.ranks.p;
-            ofStimulus["hedgesG"] = test.effect;
             ofStimulus["holm"] = test.holm;
             ofStimulus["bonferroni"] = test.bonferroni;
             stimuli[analysis.stimuli[test.stimulus]] = std::move(ofStimulus);
@@ -265,18 +368,31 @@ Json jsonOf(const RatingAnalysis& analysis)
         entry["stimuli"] = std::move(stimuli);
         comparisons.push_back(std::move(entry));
     }
-    return {{"groups", std::move(groups)},
-            {"everybody", groupJson(analysis.everybody)},
-            {"comparisons", std::move(comparisons)},
-            {"icc",
-             {{"single", analysis.agreement.single},
-              {"mean", analysis.agreement.mean},
-              {"single95", {analysis.agreement.single95.low, analysis.agreement.single95.high}}}},
-            {"friedman",
-             {{"chiSquared", analysis.order.chiSquared},
-              {"degrees", analysis.order.degrees},
-              {"p", analysis.order.p},
-              {"kendallsW", analysis.order.kendallsW}}}};
+    Json pairs = Json::array();
+    for (const StimulusComparison& one : analysis.pairs)
+    {
+        Json entry{{"first", analysis.stimuli[one.first]}, {"second", analysis.stimuli[one.second]}};
+        if (places)
+            entry.update({{"n", one.paired.degrees + 1.0}, {"difference", one.paired.difference}});
+        else
+            entry.update(jsonOf(one.paired));
+        entry.update({{"wilcoxonW", one.ranks.w}, {"wilcoxonP", one.ranks.p}, {"holm", one.holm}});
+        pairs.push_back(std::move(entry));
+    }
+    Json json{{"groups", std::move(groups)},
+              {"everybody", groupJson(analysis.everybody)},
+              {"comparisons", std::move(comparisons)},
+              {"pairs", std::move(pairs)}};
+    if (!places)
+        json["icc"] = {{"single", analysis.agreement.single},
+                       {"mean", analysis.agreement.mean},
+                       {"single95", {analysis.agreement.single95.low, analysis.agreement.single95.high}}};
+    json["friedman"] = {{"chiSquared", analysis.order.chiSquared},
+                        {"degrees", analysis.order.degrees},
+                        {"p", analysis.order.p},
+                        {"kendallsW", analysis.order.kendallsW}};
+    json["notes"] = analysis.doubts;
+    return json;
 }
 
 std::string fileNameOf(std::string_view text)
@@ -325,34 +441,52 @@ Result<void> writeMixedModel(Writer& writer, Json& json, const std::vector<Ratin
     return {};
 }
 
-/// All about the ratings of one block.
-Result<void> writeRatings(Writer& writer, Json& json, const std::vector<Rating>& ratings, const std::string& title,
-                          const StudyReportParams& params)
+std::string agreementText(const RatingAnalysis& analysis)
 {
-    const RatingAnalysis analysis = analyseRatings(ratings, params.unions);
+    std::string text =
+        "Agreement of the " + counted(analysis.everybody.complete.size(), "participant", "participants") + " who ";
+    if (analysis.kind == AnswerKind::places)
+        text += "ordered everything: ";
+    else
+        text += fmt::format("rated everything: ICC(2,1) {} (95 %: {}), of their mean ICC(2,k) {}; ",
+                            decimalText(analysis.agreement.single, 2), intervalText(analysis.agreement.single95, 2),
+                            decimalText(analysis.agreement.mean, 2));
+    return text + fmt::format("Kendall's W {}, Friedman's chi-squared({}) = {}, {}.",
+                              decimalText(analysis.order.kendallsW, 2), decimalText(analysis.order.degrees, 0),
+                              decimalText(analysis.order.chiSquared, 2), pSaid(analysis.order.p));
+}
+
+/// All about the answers of one block.
+Result<void> writeRatings(Writer& writer, Json& json, const std::vector<Rating>& ratings, const std::string& title,
+                          AnswerKind kind, const StudyReportParams& params)
+{
+    const RatingAnalysis analysis = analyseRatings(ratings, {params.unions, kind, params.pairStimuli});
     writer.heading(2, title);
     writeFindings(writer, analysis);
+    for (const std::string& doubt : analysis.doubts)
+        writer.warning(title + ": " + doubt);
     if (auto drawn = writer.picture(fileNameOf(title) + ".svg", "Box plots of " + title,
                                     boxPlots(analysis, title, pictureStyle));
         !drawn)
         return drawn;
-    writer.table(meansTable(analysis));
-    writer.table(participantsTable(analysis));
-    writer.table(stimulusMeansTable(analysis));
-    writer.table(eachStimulusTable(analysis));
+    if (kind == AnswerKind::places)
+    {
+        writer.table(placesTable(analysis));
+        writer.table(eachStimulusPlacesTable(analysis));
+    }
+    else
+    {
+        writer.table(meansTable(analysis));
+        writer.table(participantsTable(analysis));
+        writer.table(stimulusMeansTable(analysis));
+        writer.table(eachStimulusTable(analysis));
+    }
     writer.table(pairsTable(analysis));
     if (analysis.everybody.complete.size() > 1 && analysis.stimuli.size() > 1)
-        writer.paragraph(fmt::format("Agreement of the {} who rated everything: ICC(2,1) {} (95 %: {}), of their mean "
-                                     "ICC(2,k) {}; Kendall's W {}, "
-                                     "Friedman's chi-squared({}) = {}, {}.",
-                                     counted(analysis.everybody.complete.size(), "participant", "participants"),
-                                     decimalText(analysis.agreement.single, 2),
-                                     intervalText(analysis.agreement.single95, 2),
-                                     decimalText(analysis.agreement.mean, 2), decimalText(analysis.order.kendallsW, 2),
-                                     decimalText(analysis.order.degrees, 0), decimalText(analysis.order.chiSquared, 2),
-                                     pSaid(analysis.order.p)));
+        writer.paragraph(agreementText(analysis));
     json[title] = jsonOf(analysis);
-    return params.mixed ? writeMixedModel(writer, json[title]["mixedModel"], ratings) : Result<void>();
+    const bool fits = params.mixed && kind == AnswerKind::ratings;
+    return fits ? writeMixedModel(writer, json[title]["mixedModel"], ratings) : Result<void>();
 }
 
 /// Blocks in the order of their first rating.
@@ -583,33 +717,46 @@ Result<void> writeThresholds(Writer& writer, Json& json, const StudyResults& res
     return {};
 }
 
+/// Chance of a right answer by guessing in a block.
+double guessOf(const Study& study, const std::string& name)
+{
+    for (const Block& block : study.blocks)
+        if (block.name == name && block.task == Task::forcedChoice)
+            return 1.0 / block.intervals;
+    return 0.5;
+}
+
 void writeChoices(Writer& writer, Json& json, const StudyResults& results)
 {
-    std::map<std::pair<std::string, std::string>, std::pair<std::size_t, std::size_t>> counts;
+    using Person = std::pair<std::string, std::string>; // group and participant
+    std::map<std::pair<std::string, std::string>, std::map<Person, CountedAnswers>> answers;
     for (const PersonalChoices& one : results.choices)
     {
-        auto& [right, trials] = counts[{one.block, one.stimulus}];
-        right += one.right;
-        trials += one.trials;
+        CountedAnswers& own = answers[{one.block, one.stimulus}][{one.group, one.participant}];
+        own.right += one.right;
+        own.all += one.trials;
     }
-    PageTable table{"Right choices; interval of Wilson (1927)",
-                    {"Block", "Stimulus", "Right", "Of", "%", "95 %", "By guessing, %", "Beyond chance"},
+    PageTable table{"Right choices. People are the sample: Wilson's (1927) interval of the effective number of answers "
+                    "(Korn and Graubard 1998); of one person it holds for that person alone",
+                    {"Block", "Stimulus", "People", "Right", "Of", "%", "95 %", "By guessing, %", "Beyond chance"},
                     {}};
-    for (const auto& [key, count] : counts)
+    for (const auto& [key, byPerson] : answers)
     {
-        const auto n = static_cast<double>(count.second), share = static_cast<double>(count.first) / n;
-        int intervals = 2;
-        for (const Block& block : results.study.blocks)
-            if (block.name == key.first && block.task == Task::forcedChoice)
-                intervals = block.intervals;
-        const double z = normalQuantile(0.975), middle = (share + z * z / (2.0 * n)) / (1.0 + z * z / n);
-        const double half = z / (1.0 + z * z / n) * std::sqrt(share * (1.0 - share) / n + z * z / (4.0 * n * n));
-        const double guess = 100.0 / intervals;
-        table.rows.push_back({key.first, key.second, fmt::to_string(count.first), fmt::to_string(count.second),
-                              decimalText(100.0 * share, 1),
-                              intervalText({100.0 * (middle - half), 100.0 * (middle + half)}, 1),
-                              decimalText(guess, 1), 100.0 * (middle - half) > guess ? "yes" : "no"});
-        json["choices"][key.first][key.second] = {{"right", count.first}, {"trials", count.second}};
+        std::vector<CountedAnswers> people;
+        for (const auto& [person, own] : byPerson)
+            people.push_back(own);
+        const Proportion found = proportionOf(people);
+        const double guess = guessOf(results.study, key.first);
+        table.rows.push_back({key.first, key.second, fmt::to_string(people.size()), fmt::to_string(found.right),
+                              fmt::to_string(found.all), decimalText(100.0 * found.share, 1),
+                              intervalText({100.0 * found.share95.low, 100.0 * found.share95.high}, 1),
+                              decimalText(100.0 * guess, 1), found.share95.low > guess ? "yes" : "no"});
+        json["choices"][key.first][key.second] = {{"people", people.size()},
+                                                  {"right", found.right},
+                                                  {"trials", found.all},
+                                                  {"share", found.share},
+                                                  {"share95", {found.share95.low, found.share95.high}},
+                                                  {"guessing", guess}};
     }
     if (table.rows.empty())
         return;
@@ -675,8 +822,8 @@ Result<StudyReport> reportOfRatings(const std::vector<Rating>& ratings, const st
     writer.heading(1, title);
     writer.paragraph(counted(ratings.size(), "rating.", "ratings."));
     for (const auto& [block, ofBlock] : byBlock(ratings))
-        if (auto written =
-                writeRatings(writer, report.json["ratings"], ofBlock, block.empty() ? "Ratings" : block, params);
+        if (auto written = writeRatings(writer, report.json["ratings"], ofBlock, block.empty() ? "Ratings" : block,
+                                        AnswerKind::ratings, params);
             !written)
             return written.error();
     return report;
@@ -715,10 +862,12 @@ Result<StudyReport> reportOfStudy(const StudyResults& results, const StudyReport
                                      decimalText(largest, 3), decimalText(results.study.limits.daily, 2)));
     report.json["dropouts"] = results.dropouts;
     for (const auto& [title, ratings] : questionsOf(results))
-        if (auto written = writeRatings(writer, report.json["ratings"], ratings, title, params); !written)
+        if (auto written = writeRatings(writer, report.json["ratings"], ratings, title, AnswerKind::ratings, params);
+            !written)
             return written.error();
     for (const auto& [title, ranks] : byBlock(results.ranks))
-        if (auto written = writeRatings(writer, report.json["ranks"], ranks, title + " (places, 1 is first)", params);
+        if (auto written = writeRatings(writer, report.json["ranks"], ranks, title + " (places, 1 is first)",
+                                        AnswerKind::places, params);
             !written)
             return written.error();
     writeWords(writer, report.json, results, params);

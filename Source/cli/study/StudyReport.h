@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace pacini::cli
@@ -18,7 +19,8 @@ struct StudyReportParams
 {
     std::vector<study::GroupUnion> unions;
     std::optional<study::WordCategories> categories;
-    bool mixed = false; ///< also fit mixed models, by Python
+    bool mixed = false;      ///< also fit mixed models, by Python
+    bool pairStimuli = true; ///< as in RatingAnalysisParams
 };
 
 /// Results from ratings alone, as exported by other programs.
@@ -26,6 +28,7 @@ struct StudyReport
 {
     Page page;
     nlohmann::ordered_json json;
+    std::vector<std::string> warnings; ///< about the sample of people
 };
 
 /// Errors: those of drawing pictures and of fitMixedModel().
