@@ -129,6 +129,40 @@ private:
     std::map<std::pair<const Block*, std::string>, std::vector<Record>> staircases;
     std::map<std::pair<const Block*, std::string>, std::pair<std::size_t, std::size_t>> choices;
 };
+
+/// Of several logs of one session the one with the most answers stays. Two sessions of one participant are told.
+void leaveOutCopies(StudyResults& results, std::vector<std::string>& names)
+{
+    std::map<std::string, std::size_t> placeOf; // of a participant's session
+    std::vector<LoggedSession> kept;
+    std::vector<std::string> keptNames;
+    for (std::size_t i = 0; i < names.size(); ++i)
+    {
+        LoggedSession& session = results.sessions[i];
+        const auto [before, isNew] = placeOf.try_emplace(session.head.participant, kept.size());
+        LoggedSession* const other = isNew ? nullptr : &kept[before->second];
+        if (other != nullptr && other->head.started == session.head.started && other->head.group == session.head.group)
+        {
+            const bool longer = session.records.size() > other->records.size();
+            results.warnings.push_back(fmt::format("{}: is a copy of {} and left out",
+                                                   longer ? keptNames[before->second] : names[i],
+                                                   longer ? names[i] : keptNames[before->second]));
+            if (longer)
+            {
+                *other = std::move(session);
+                keptNames[before->second] = names[i];
+            }
+            continue;
+        }
+        if (other != nullptr)
+            results.warnings.push_back(fmt::format("{}: is another session of {}, as {} is; both count", names[i],
+                                                   session.head.participant, keptNames[before->second]));
+        kept.push_back(std::move(session));
+        keptNames.push_back(names[i]);
+    }
+    results.sessions = std::move(kept);
+    names = std::move(keptNames);
+}
 } // namespace
 
 std::optional<ThresholdEstimate> thresholdOf(const Block& block, const std::vector<Record>& records)
@@ -192,6 +226,7 @@ Result<StudyResults> readResults(const std::filesystem::path& named)
         return study.error();
     results.study = std::move(*study);
     const std::string hash = hashOf(results.study);
+    std::vector<std::string> names; // of the sessions' files
     for (const std::filesystem::path& path : sessionLogs(folder))
     {
         auto session = readSession(path);
@@ -209,7 +244,9 @@ Result<StudyResults> readResults(const std::filesystem::path& named)
         if (!session->finished)
             results.warnings.push_back(fmt::format("{}: is not finished; its answers count", name));
         results.sessions.push_back(std::move(*session));
+        names.push_back(name);
     }
+    leaveOutCopies(results, names);
     if (results.sessions.empty())
         return Error{ErrorCode::io, "sessions", "has no session that could be read"};
     for (const LoggedSession& session : results.sessions)

@@ -159,6 +159,24 @@ class People(StudyTest):
         self.put("nobody.csv", "stimulus,rating\n1,2\n2,3\n1,4\n")
         self.warns("study", "report", "nobody.csv", says="there are no participants")
 
+    def test_a_copied_session_counts_once(self):
+        self.new()
+        self.succeeds("study", "simulate", "mine", "-o", "simulated", "--runs", "10")
+        wanted = self.report("study", "report", "simulated")
+        sessions = self.folder / "simulated/sessions"
+        log = (sessions / "P002.jsonl").read_text()
+        (sessions / "P002 (copy).jsonl").write_text(log)
+        self.warns("study", "report", "simulated", says="P002.jsonl: is a copy of P002 (copy).jsonl and left out")
+        def ratings(says):
+            return json.loads(self.warns("study", "report", "simulated", "--json", says=says))["ratings"]
+        self.assertEqual(ratings("is a copy of P002 (copy).jsonl"), wanted["ratings"])
+        # The longer one counts; another session of the same person is told.
+        lines = log.splitlines()
+        (sessions / "P002 (copy).jsonl").write_text("\n".join([*lines[:-4], lines[-1]]) + "\n")
+        self.assertEqual(ratings("P002 (copy).jsonl: is a copy of P002.jsonl and left out"), wanted["ratings"])
+        (sessions / "P002 (copy).jsonl").write_text(re.sub(r'"started":"[^"]*"', '"started":"2020-01-01T00:00:00Z"', log))
+        self.warns("study", "report", "simulated", says="P002.jsonl: is another session of P002")
+
     def test_choices_have_an_interval_of_people(self):
         self.succeeds("study", "new", "abx", "--template", "abx", "sounds/a.wav", "-g", "all:6")
         self.succeeds("study", "simulate", "abx", "-o", "simulated", "--runs", "10")
