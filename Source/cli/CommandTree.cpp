@@ -72,9 +72,12 @@ OptionText optionText(const CLI::Option& option)
         text.with = other->get_name();
     if (option.get_items_expected_max() == 0)
         return text;
-    const std::string type = option.get_type_name(); // VALUE:CHECK
-    const std::string check = type.find(':') == std::string::npos ? "" : type.substr(type.find(':') + 1);
-    text.value = valueName(type.substr(0, type.find(':')));
+    const std::string type = option.get_type_name(); // VALUE:CHECK, where VALUE may be NAME:SIZE
+    std::size_t end = type.find(':');
+    while (end != std::string::npos && end + 1 < type.size() && type[end + 1] >= 'A' && type[end + 1] <= 'Z')
+        end = type.find(':', end + 1);
+    const std::string check = end == std::string::npos ? "" : type.substr(end + 1);
+    text.value = valueName(type.substr(0, end));
     if (check.starts_with('{'))
         text.choices = choicesIn(check);
     else

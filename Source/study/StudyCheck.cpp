@@ -45,6 +45,7 @@ double answerSeconds(const Block& block, std::size_t stimuli)
 constexpr double replayShare = 0.5;  // of trials, played once more
 constexpr double sameBelow = -30.0;  // dB; smaller differences than 3 % of the amplitude are below all JNDs of level
 constexpr double longSession = 60.0; // minutes
+constexpr double longStretch = 30.0; // minutes without a break (ITU-R BS.1116-3: sessions of 20 to 30)
 constexpr std::size_t mostCompared = 40; // stimuli of a block, each with each
 
 /// Prepared stimuli, and their exposure.
@@ -248,7 +249,18 @@ private:
         else if (load.minutes > longSession)
             doubts("blocks", fmt::format("take some {:.0f} minutes in group {}; people tire after an hour",
                                          load.minutes, group.name));
+        else if (load.minutes > longStretch && !hasBreaks(group))
+            doubts(
+                "blocks",
+                fmt::format("are {} trials and some {:.0f} minutes in group {} without a break; breakAfter makes some",
+                            load.trials, load.minutes, group.name));
         result.loads.push_back(std::move(load));
+    }
+
+    [[nodiscard]] bool hasBreaks(const Group& group) const
+    {
+        return std::any_of(study.blocks.begin(), study.blocks.end(),
+                           [&](const Block& one) { return isFor(one, group.name) && one.breakAfter > 0; });
     }
 
     const Study& study;

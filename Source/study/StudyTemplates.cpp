@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <set>
+#include <utility>
 
 namespace pacini::study
 {
@@ -214,7 +216,7 @@ Study jnd()
 Study threshold()
 {
     Study study = begun("threshold");
-    study.description = "The weakest tone that is felt, at eight frequencies; some five minutes.";
+    study.description = "The weakest tone that is felt, at eight frequencies; some nine minutes.";
     Block made = block("thresholds", Task::staircase, Presentation::touch,
                        said("In which one did you feel something?", "In welchem hast du etwas gefühlt?"));
     for (const double frequency : thresholdFrequencies)
@@ -285,6 +287,32 @@ Result<Study> makeStudy(std::string_view name, const std::vector<std::string>& s
     if (name == "similarity")
         return similarity(sounds);
     return ranking(sounds);
+}
+
+Result<void> setGroups(Study& study, const std::vector<Group>& groups)
+{
+    const auto isAmong = [](const std::vector<Group>& some, const std::string& name)
+    {
+        return std::any_of(some.begin(), some.end(), [&](const Group& one) { return one.name == name; });
+    };
+    const std::vector<Group> before = std::exchange(study.groups, groups);
+    std::erase_if(study.blocks,
+                  [&](Block& block)
+                  {
+                      const bool isForAll = block.groups.empty();
+                      std::erase_if(block.groups, [&](const std::string& name) { return !isAmong(groups, name); });
+                      return !isForAll && block.groups.empty();
+                  });
+    std::vector<std::string> names;
+    for (const Group& one : before)
+        names.push_back(one.name);
+    for (const Group& one : groups)
+        if (std::none_of(study.blocks.begin(), study.blocks.end(),
+                         [&](const Block& block) { return isFor(block, one.name); }))
+            return Error{ErrorCode::invalidArgument, "--group",
+                         fmt::format("there is nothing to do for '{}'; groups of this template are {}", one.name,
+                                     fmt::join(names, ", "))};
+    return {};
 }
 
 } // namespace pacini::study

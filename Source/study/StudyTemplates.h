@@ -28,4 +28,8 @@ struct StudyTemplate
 /// invalidArgument for another name or too few sounds.
 [[nodiscard]] Result<Study> makeStudy(std::string_view name, const std::vector<std::string>& sounds);
 
+/// Replaces the groups of a study; blocks for groups that are gone go, too. Errors: invalidArgument for a group without
+/// a block.
+[[nodiscard]] Result<void> setGroups(Study& study, const std::vector<Group>& groups);
+
 } // namespace pacini::study

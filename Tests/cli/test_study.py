@@ -6,7 +6,7 @@ import struct
 import unittest
 import wave
 
-from command import CommandTest, sine, wav
+from command import SOURCE, CommandTest, sine, wav
 
 
 class StudyTest(CommandTest):
@@ -261,6 +261,34 @@ class Latency(StudyTest):
         self.put("mine/latency.json", b"my notes")
         self.fails(1, ["study", "latency", "mine", "back.wav"], "latency.json")
         self.assertEqual((self.folder / "mine/latency.json").read_text(), "my notes")
+
+
+class Plans(StudyTest):
+    def test_groups_have_sizes_and_the_blocks_of_their_own(self):
+        self.assertIn("--group NAME:SIZE ", self.succeeds("study", "new", "--help"))
+        made = self.new("coherence", "-g", "A:10", "-g", "B:10")
+        self.assertEqual([block["name"] for block in made["blocks"]],
+                         ["words of sounds", "words of touches", "coherence, one after the other"])
+        self.succeeds("study", "check", "mine")
+        self.fails(2, ["study", "new", "x", "--template", "coherence", "sounds/", "-g", "D:3"],
+                   "--group: there is nothing to do for 'D'; groups of this template are A, B, C")
+
+    def test_minutes_of_the_templates_are_those_of_the_check(self):
+        self.new("threshold")
+        said = re.search(r"some (\w+) minutes", (self.folder / "mine/study.json").read_text())[1]
+        page = (SOURCE / "Resources/docs/study.md").read_text()
+        self.assertIn(f"at eight frequencies; some {said} minutes", page)
+        [group] = self.report("study", "check", "mine")["groups"]
+        self.assertEqual(said, ["eight", "nine", "ten"][round(group["minutes"]) - 8])
+
+    def test_half_an_hour_without_a_break_is_told(self):
+        made = self.new("abx")
+        made["blocks"][0]["repeats"] = 500
+        self.put("mine/study.json", json.dumps(made).encode())
+        self.warns("study", "check", "mine", says="are 532 trials and some 54 minutes in group all without a break")
+        made["blocks"][0]["breakAfter"] = 100
+        self.put("mine/study.json", json.dumps(made).encode())
+        self.succeeds("study", "check", "mine")
 
 
 class Mistakes(StudyTest):

@@ -102,8 +102,8 @@ public:
         const auto own = groupsOf(groups);
         if (!own)
             return console.fail("", own.error(), Exit::usage);
-        if (!own->empty())
-            made->groups = *own;
+        if (const auto set = own->empty() ? Result<void>() : study::setGroups(*made, *own); !set)
+            return console.fail("", set.error(), Exit::usage);
         made->seed = seed;
         made->profile = profile;
         const study::Study written = study::relocated(std::move(*made), fs::path(), folder);
