@@ -105,12 +105,13 @@ class Arrays(FolderTest):
             mono.astype(">f4"),
             np.zeros((2, 2, 2), np.float32),
             np.float32(1),
-            b"x",
+            bytearray(b"x"),
             None,
             np.zeros((65, 10), np.float32),
             np.zeros((0, 10), np.float32),
         ):
             self.refuses("sound", "invalidArgument", pacini.encode, wrong, RATE)
+        self.refuses("sample_rate", "invalidArgument", pacini.encode, b"x", RATE)  # a path
         self.refuses("axis", "invalidArgument", pacini.encode, mono, RATE, axis=1)
         self.refuses("sample_rate", "invalidArgument", pacini.encode, mono)
         for rate in (0, -1, 100, 1e9, 44100.5, float("nan"), "fast"):
