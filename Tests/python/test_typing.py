@@ -6,6 +6,7 @@ import re
 import shutil
 import subprocess
 import sys
+import textwrap
 import unittest
 from pathlib import Path
 
@@ -25,6 +26,9 @@ match: float | None = pacini.compare("a.wav", clip).match
 error = pacini.Error("is wrong", "there")
 where: str = error.where
 bands: tuple[pacini.Band, ...] = clip.bands
+clip.bands = [pacini.Band(90, 100, 110, amplitude=[(0, 1)], pitch=[[0, 100.5]]), bands[0]]
+clip.noise = [pacini.NoiseBand(90, 100, [(0, 0.5)])]
+strongest: float = pacini.Band(90, 100, 110, amplitude=[(0, 1)]).amplitude["amplitude"].max()
 profile: pacini.Profile | None = pacini.measure.fit(pacini.Profile("lra-175")).profile
 """
 
@@ -88,6 +92,13 @@ class Typing(FolderTest):
             ["4", "5", "7"],
             done.stdout,
         )
+
+    def test_every_line_of_the_page_is_typed(self):
+        page = (SOURCE / "Resources/docs/python.md").read_text()
+        lines = re.findall(r"(?m)^    .*$|^$", page)
+        (self.folder / "page.py").write_text(textwrap.dedent("\n".join(lines)))
+        done = mypy("--strict", "page.py", folder=self.folder)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
     def test_pyright_finds_the_same(self):
         """The checker inside editors, which most users see."""

@@ -62,6 +62,13 @@ def points_of(rows: npt.NDArray[np.float64], dtype: np.dtype[np.void]) -> Points
     return rows.view(dtype)[:, 0]
 
 
+def as_points(points: object, dtype: np.dtype[np.void], where: str) -> Points:
+    """Points of any kind that :func:`rows_of` takes as a structured array: their own, where they are one."""
+    if isinstance(points, np.ndarray) and points.dtype == dtype and points.ndim == 1:
+        return points
+    return points_of(rows_of(points, dtype, where), dtype)
+
+
 def rows_of(points: object, dtype: np.dtype[np.void], where: str) -> npt.NDArray[np.float64]:
     """Points of a structured array, or rows of plain numbers, as the native module takes them."""
     assert dtype.names is not None

@@ -13,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _native
-from ._arrays import AMPLITUDE, FREQUENCY, TRANSIENT, PathLike, Points, points_of, rows_of
+from ._arrays import AMPLITUDE, FREQUENCY, TRANSIENT, PathLike, Points, as_points, points_of, rows_of
 from ._errors import Error
 from ._formats import Loss, export_options, format_for, losses_of
 
@@ -29,8 +29,8 @@ def _no_points(dtype: np.dtype[np.void]) -> Any:
 class Band:
     """A frequency band: its edges and centre in Hz, its amplitude (1 is full drive) and pitch (Hz) over time.
 
-    Priority 0 is kept longest when an actuator has too few voices. A new one with another amplitude is
-    ``dataclasses.replace(band, amplitude=...)``.
+    Priority 0 is kept longest when an actuator has too few voices. Points may be given as (time, amplitude) and
+    (time, frequency). A new one with another amplitude is ``dataclasses.replace(band, amplitude=...)``.
     """
 
     low: float
@@ -39,6 +39,22 @@ class Band:
     priority: int = 0
     amplitude: Points = _no_points(AMPLITUDE)
     pitch: Points = _no_points(FREQUENCY)
+
+    if TYPE_CHECKING:  # more is taken than is kept
+
+        def __init__(
+            self,
+            low: float,
+            centre: float,
+            high: float,
+            priority: int = 0,
+            amplitude: npt.ArrayLike = ...,
+            pitch: npt.ArrayLike = ...,
+        ) -> None: ...
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "amplitude", as_points(self.amplitude, AMPLITUDE, "amplitude"))
+        object.__setattr__(self, "pitch", as_points(self.pitch, FREQUENCY, "pitch"))
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Band):
@@ -57,6 +73,13 @@ class NoiseBand:
     low: float
     high: float
     amplitude: Points = _no_points(AMPLITUDE)
+
+    if TYPE_CHECKING:
+
+        def __init__(self, low: float, high: float, amplitude: npt.ArrayLike = ...) -> None: ...
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "amplitude", as_points(self.amplitude, AMPLITUDE, "amplitude"))
 
 
 @dataclass(frozen=True)
