@@ -30,7 +30,8 @@
  *
  * ERRORS. A function that returns pacini_result changes nothing on failure, neither the state of the library nor its
  * output arguments; pacini_last_error() then returns a message, for the calling thread. pacini_render() and
- * pacini_render_interleaved() set no message and write silence as described there. A number out of its range, infinite
+ * pacini_render_interleaved() set no message, which would need memory: pacini_result_text() says what is wrong. They
+ * write silence as described there. A number out of its range, infinite
  * or NaN causes PACINI_INVALID. Fades and glides are 0 to 3600 s.
  */
 #ifndef PACINI_H
