@@ -18,6 +18,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -48,13 +49,20 @@ constexpr std::size_t mostClips = 1'000'000;
 constexpr std::size_t mostControllers = 1024;
 constexpr std::uint32_t blockFrames = 256; // of interleaved output at a time
 
+constexpr std::uint32_t timedBlocks = 256;
+
 thread_local std::string lastError;
 
 struct EngineEntry
 {
     std::unique_ptr<Engine> engine;
     std::array<std::array<float, blockFrames>, PACINI_MAX_ACTUATORS> channels{}; // [audio]
-    std::atomic<std::uint32_t> budgetFrames{512};
+    // Time that plays may take, and by which factor they take longer here than predicted.
+    double budget = 0.0; ///< us for `budgetFrames`
+    std::uint32_t budgetFrames = 512, budgetVoices = 0;
+    double timeFactor = 1.0;
+    std::array<std::atomic<float>, timedBlocks> ratios{}; ///< of the last blocks with plays, by renderTimed() [audio]
+    std::atomic<std::uint32_t> timed{0};                  ///< how many there were [audio]
     std::uint32_t actuators = 1;
     double sampleRate = 0.0;
 
@@ -235,6 +243,13 @@ Result<std::optional<Profile>> profileOf(const char* text)
                  "'" + std::string(given) + "' is no profile that comes with Pacini; there are " + names};
 }
 
+/// A budget of us as the engine has it: of predicted ns, which last `factor` times as long.
+EngineBudget budgetOf(double microseconds, std::uint32_t frames, std::uint32_t voices, double factor)
+{
+    constexpr double most = 1e9;
+    return {std::min(most, 1e3 * microseconds / static_cast<double>(frames) / factor), voices};
+}
+
 pacini_result createEngine(const pacini_engine_config* given, const Scene* scene, pacini_engine* handle)
 {
     pacini_engine_config config;
@@ -260,7 +275,7 @@ pacini_result createEngine(const pacini_engine_config* given, const Scene* scene
     params.adaptation.strength = config.strength;
     params.maxPlays = config.max_plays;
     params.maxCommands = config.max_commands;
-    params.budget = {1e3 * config.budget / static_cast<double>(config.budget_frames), config.budget_voices};
+    params.budget = budgetOf(config.budget, config.budget_frames, config.budget_voices, 1.0);
     if (scene != nullptr)
     {
         params.panLaw = scene->panLaw;
@@ -279,7 +294,9 @@ pacini_result createEngine(const pacini_engine_config* given, const Scene* scene
         return fail(engine.error());
     auto entry = std::make_unique<EngineEntry>();
     entry->engine = std::move(engine).value();
+    entry->budget = config.budget;
     entry->budgetFrames = config.budget_frames;
+    entry->budgetVoices = config.budget_voices;
     entry->actuators = config.actuator_count;
     entry->sampleRate = config.sample_rate;
     const std::lock_guard lock(all().control);
@@ -289,6 +306,41 @@ pacini_result createEngine(const pacini_engine_config* given, const Scene* scene
     static_cast<void>(entry.release()); // the slots have it
     *handle = Handle{HandleKind::engine, index, generation}.number();
     return PACINI_OK;
+}
+
+constexpr double leastFactor = 0.01, largestFactor = 100.0;
+
+/// Renders a block, and notes what it took over what was predicted. [audio]
+void renderTimed(EngineEntry& entry, std::span<const std::span<float>> out) noexcept
+{
+    const auto start = std::chrono::steady_clock::now();
+    renderEngine(*entry.engine, out);
+    const std::chrono::duration<double, std::nano> taken = std::chrono::steady_clock::now() - start;
+    const EngineMeters meters = entry.engine->meters();
+    if (meters.playing == 0 || out.empty() || !(meters.cost > 0.0))
+        return;
+    const std::uint32_t n = entry.timed.load(std::memory_order_relaxed);
+    const double ratio = taken.count() / (meters.cost * static_cast<double>(out.front().size()));
+    entry.ratios[n % timedBlocks].store(static_cast<float>(ratio), std::memory_order_relaxed);
+    entry.timed.store(n + 1, std::memory_order_release);
+}
+
+/// The ratio that nine in ten of the last blocks do not exceed; 0 of too few blocks.
+double measuredFactor(const EngineEntry& entry)
+{
+    constexpr std::uint32_t fewest = 64;
+    const std::uint32_t n = std::min<std::uint32_t>(entry.timed.load(std::memory_order_acquire), timedBlocks);
+    float found = 0.0f;
+    for (std::uint32_t i = 0; n >= fewest && i < n; ++i)
+    {
+        const float ratio = entry.ratios[i].load(std::memory_order_relaxed);
+        std::uint32_t below = 0;
+        for (std::uint32_t k = 0; k < n; ++k)
+            below += entry.ratios[k].load(std::memory_order_relaxed) < ratio ? 1u : 0u;
+        if (10 * below <= 9 * n)
+            found = std::max(found, ratio);
+    }
+    return static_cast<double>(found);
 }
 
 using EngineUse = library::SharedSlots<EngineEntry, mostEngines>::Use;
@@ -386,7 +438,7 @@ devices::DriveRenderer pullFrom(pacini_engine engine)
     {
         const EngineUse use = useEngine(engine);
         if (use.get() != nullptr)
-            return library::renderEngine(*use.get()->engine, out);
+            return renderTimed(*use.get(), out);
         for (const std::span<float> channel : out)
             std::fill(channel.begin(), channel.end(), 0.0f);
     };
@@ -793,7 +845,7 @@ extern "C"
         for (std::uint32_t c = 0; c < played; ++c)
             spans[c] = std::span(channels[c], frames);
         if (frames > 0)
-            renderEngine(*use.get()->engine, std::span(spans).first(played));
+            renderTimed(*use.get(), std::span(spans).first(played));
         return PACINI_OK;
     }
 
@@ -818,7 +870,7 @@ extern "C"
             std::array<std::span<float>, PACINI_MAX_ACTUATORS> spans;
             for (std::size_t c = 0; c < played; ++c)
                 spans[c] = std::span(entry.channels[c]).first(n);
-            renderEngine(*entry.engine, std::span(spans).first(played));
+            renderTimed(entry, std::span(spans).first(played));
             for (std::uint32_t i = 0; i < n; ++i)
                 for (std::size_t c = 0; c < played; ++c)
                     samples[(done + i) * wanted + c] = spans[c][i];
@@ -846,7 +898,8 @@ extern "C"
                               read.frame = entry.engine->framesRendered();
                               read.playing = static_cast<std::uint32_t>(meters.playing);
                               read.left_out = static_cast<std::uint32_t>(meters.leftOut);
-                              read.cost = 1e-3 * meters.cost * static_cast<double>(entry.budgetFrames.load());
+                              read.cost =
+                                  1e-3 * meters.cost * entry.timeFactor * static_cast<double>(entry.budgetFrames);
                               read.left_out_error = meters.leftOutError;
                               read.gain_reduction = meters.gainReduction;
                               return writeStruct(read, info);
@@ -861,11 +914,34 @@ extern "C"
             {
                 if (!(microseconds >= 0.0 && microseconds <= 1e6) || frames < 1)
                     return fail(PACINI_INVALID, "budget: must be 0 to 1e6 microseconds for 1 frame or more");
-                auto done = entry.engine->setBudget({1e3 * microseconds / static_cast<double>(frames), voices});
-                if (done)
-                    entry.budgetFrames = frames;
-                return finish(done);
+                const auto done = entry.engine->setBudget(budgetOf(microseconds, frames, voices, entry.timeFactor));
+                if (!done)
+                    return fail(done.error());
+                entry.budget = microseconds;
+                entry.budgetFrames = frames;
+                entry.budgetVoices = voices;
+                return PACINI_OK;
             });
+    }
+
+    pacini_result pacini_engine_calibrate(pacini_engine engine, double factor, double* used)
+    {
+        return withEngine(engine,
+                          [&](EngineEntry& entry)
+                          {
+                              if (factor == 0.0 && (factor = measuredFactor(entry)) == 0.0)
+                                  return fail(PACINI_INVALID, "factor: is measured of 64 blocks with plays or more");
+                              if (!(factor >= leastFactor && factor <= largestFactor))
+                                  return fail(PACINI_INVALID, "factor: must be 0.01 to 100, or 0 to measure it");
+                              const auto done = entry.engine->setBudget(
+                                  budgetOf(entry.budget, entry.budgetFrames, entry.budgetVoices, factor));
+                              if (!done)
+                                  return fail(done.error());
+                              entry.timeFactor = factor;
+                              if (used != nullptr)
+                                  *used = factor;
+                              return PACINI_OK;
+                          });
     }
 
     pacini_result pacini_engine_set_actuator_gain(pacini_engine engine, uint32_t actuator, double gain, double glide,

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -499,6 +500,7 @@ TEST_CASE("A thousand calls with something wrong in each name it and change noth
         case 10:
             fails(kind, PACINI_INVALID, pacini_engine_set_budget(engine, dice.outside(0.0, 1e6), 512, 1), "budget");
             fails(kind, PACINI_INVALID, pacini_engine_set_budget(engine, 1.0, 0, 1), "budget");
+            fails(kind, PACINI_INVALID, pacini_engine_calibrate(engine, dice.outside(0.01, 100.0), nullptr), "factor");
             break;
         case 11:
         {
@@ -626,6 +628,110 @@ TEST_CASE("A thousand calls with something wrong in each name it and change noth
     for (const pacini_engine each : engines)
         require(pacini_engine_destroy(each));
     require(pacini_clip_release(clip));
+}
+
+namespace
+{
+/// An engine with 24 hums at different places, whose first blocks have been rendered.
+pacini_engine humming(double budget, double factor)
+{
+    pacini_engine_config config;
+    pacini_engine_config_init(&config);
+    config.actuator_count = 2;
+    config.budget = budget;
+    config.budget_frames = 256;
+    pacini_engine engine = 0;
+    require(pacini_engine_create(&config, &engine));
+    require(pacini_engine_calibrate(engine, factor, nullptr));
+    const pacini_clip clip = loaded(hum);
+    for (int i = 0; i < 24; ++i)
+    {
+        pacini_play_settings settings;
+        pacini_play_settings_init(&settings);
+        settings.loop = -1.0;
+        settings.pan = i / 23.0;
+        settings.gain = 0.01 * (i + 1);
+        require(pacini_play_start(engine, clip, &settings, nullptr));
+    }
+    require(pacini_clip_release(clip));
+    return engine;
+}
+
+pacini_engine_info engineInfo(pacini_engine engine)
+{
+    pacini_engine_info info;
+    pacini_engine_info_init(&info);
+    require(pacini_engine_get_info(engine, &info));
+    return info;
+}
+
+/// Share of blocks of 256 frames that take longer than `microseconds`.
+double shareBeyond(pacini_engine engine, double microseconds, int blocks)
+{
+    std::vector<float> samples(512);
+    int beyond = 0;
+    for (int i = 0; i < blocks; ++i)
+    {
+        const auto start = std::chrono::steady_clock::now();
+        require(pacini_render_interleaved(engine, samples.data(), 2, 256));
+        const std::chrono::duration<double, std::micro> taken = std::chrono::steady_clock::now() - start;
+        beyond += taken.count() > microseconds ? 1 : 0;
+    }
+    return static_cast<double>(beyond) / blocks;
+}
+} // namespace
+
+TEST_CASE("A factor of time is a factor of the cost, and the budget counts with it")
+{
+    const pacini_engine one = humming(0.0, 1.0), three = humming(0.0, 3.0);
+    shareBeyond(one, 0.0, 8);
+    shareBeyond(three, 0.0, 8);
+    const double cost = engineInfo(one).cost;
+    CHECK(engineInfo(three).cost == Approx(3.0 * cost));
+    // The same factor leaves out the same plays, each time; a budget set before or after it is the same.
+    const pacini_engine limited = humming(1.5 * cost, 3.0), again = humming(1.5 * cost, 1.0);
+    require(pacini_engine_calibrate(again, 3.0, nullptr));
+    for (const pacini_engine engine : {limited, again})
+    {
+        shareBeyond(engine, 0.0, 8);
+        CHECK(engineInfo(engine).left_out >= 12);
+        CHECK(engineInfo(engine).left_out <= 16);
+        CHECK(engineInfo(engine).cost <= 1.5 * cost);
+    }
+    CHECK(engineInfo(limited).left_out == engineInfo(again).left_out);
+    require(pacini_engine_set_budget(again, 2.0 * cost, 256, 0));
+    shareBeyond(again, 0.0, 8);
+    CHECK(engineInfo(again).left_out >= 7);
+    CHECK(engineInfo(again).left_out <= 11);
+    for (const pacini_engine engine : {one, three, limited, again})
+        require(pacini_engine_destroy(engine));
+}
+
+TEST_CASE("With a factor that is measured most blocks keep within their budget")
+{
+    const pacini_engine engine = humming(0.0, 1.0);
+    double factor = 7.0;
+    CHECK(pacini_engine_calibrate(engine, 0.0, &factor) == PACINI_INVALID);
+    CHECK(lastError().find("64 blocks") != std::string::npos);
+    CHECK(factor == 7.0);
+    // Other programs may take the processor away between the one measurement and the other.
+    double beyond = 1.0;
+    for (int attempt = 0; attempt < 5 && beyond > 0.25; ++attempt)
+    {
+        shareBeyond(engine, 0.0, 300);
+        require(pacini_engine_calibrate(engine, 0.0, &factor));
+        beyond = shareBeyond(engine, engineInfo(engine).cost, 300);
+    }
+    INFO("factor " << factor << ", share of blocks that take longer than predicted " << beyond);
+    CHECK(beyond <= 0.25);
+    CHECK(shareBeyond(engine, 0.1 * engineInfo(engine).cost, 300) > 0.5);
+    // What was measured can be kept.
+    const double cost = engineInfo(engine).cost;
+    require(pacini_engine_calibrate(engine, 1.0, nullptr));
+    require(pacini_engine_calibrate(engine, factor, nullptr));
+    CHECK(engineInfo(engine).cost == cost);
+    require(pacini_engine_destroy(engine));
+    CHECK(pacini_engine_calibrate(engine, 1.0, &factor) == PACINI_STALE);
 }
 
 TEST_CASE("A command for which there is no room leaves the play and the clip as they were, in every engine")

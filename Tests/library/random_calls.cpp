@@ -212,6 +212,7 @@ bool sequence(Handles& handles)
         case 12:
             pacini_engine_set_actuator_gain(engine, static_cast<std::uint32_t>(next() % 5), x, y, frame);
             pacini_engine_set_budget(engine, x, static_cast<std::uint32_t>(next() % 3), next() % 2 == 0 ? 0u : 2u);
+            pacini_engine_calibrate(engine, x == 0.0 ? -0.1 : x, nullptr);
             break;
         case 13:
             if (next() % 8 == 0)

@@ -205,6 +205,13 @@ extern "C"
     PACINI_API pacini_result pacini_engine_set_budget(pacini_engine engine, double microseconds, uint32_t frames,
                                                       uint32_t voices);
 
+    /* Sets the factor by which blocks take longer on this machine than predicted, 0.01 to 100; initially 1. It
+     * multiplies `cost`, and the budget counts with it. 0 measures it: nine in ten of the last 256 blocks in which
+     * something played took no longer than the factor says. `used`, which may be NULL, receives the factor. With one
+     * that is stored the same commands leave out the same plays in each run and on each machine.
+     * PACINI_INVALID: fewer than 64 such blocks have been rendered. [any thread but audio] Since 1.2. */
+    PACINI_API pacini_result pacini_engine_calibrate(pacini_engine engine, double factor, double* used);
+
     /* Sets the gain of an actuator after its protection, 0 to 1. [any thread but audio] */
     PACINI_API pacini_result pacini_engine_set_actuator_gain(pacini_engine engine, uint32_t actuator, double gain,
                                                              double glide, int64_t frame);

@@ -83,6 +83,7 @@ void pacini_engine_info_init(pacini_engine_info* info);
 pacini_result pacini_engine_get_info(pacini_engine engine, pacini_engine_info* info);
 pacini_result pacini_engine_set_budget(pacini_engine engine, double microseconds, uint32_t frames,
     uint32_t voices);
+pacini_result pacini_engine_calibrate(pacini_engine engine, double factor, double* used);
 pacini_result pacini_engine_set_actuator_gain(pacini_engine engine, uint32_t actuator, double gain,
     double glide, int64_t frame);
 
@@ -350,6 +351,13 @@ end
 --- What may play at a time: microseconds for a block of so many frames, and voices; 0: all.
 function Engine:setBudget(microseconds, frames, voices)
     check(library.pacini_engine_set_budget(self.box[0], microseconds, frames or 512, voices or 0))
+end
+
+--- How many times as long as predicted blocks take on this machine; 0 measures it of the last ones. Returns it.
+function Engine:calibrate(factor)
+    local used = ffi.new("double[1]")
+    check(library.pacini_engine_calibrate(self.box[0], factor or 0, used))
+    return used[0]
 end
 
 --- Gain of an actuator, the first is 1, behind its protection.

@@ -80,6 +80,7 @@ const c = {
   engineGetInfo: library.func('int pacini_engine_get_info(uint64_t engine, _Inout_ pacini_engine_info *info)'),
   engineSetBudget: library.func(
     'int pacini_engine_set_budget(uint64_t engine, double microseconds, uint32_t frames, uint32_t voices)'),
+  engineCalibrate: library.func('int pacini_engine_calibrate(uint64_t engine, double factor, _Out_ double *used)'),
   engineSetActuatorGain: library.func(
     'int pacini_engine_set_actuator_gain(uint64_t engine, uint32_t actuator, double gain, double glide, int64_t frame)'),
   playSettingsInit: library.func('void pacini_play_settings_init(_Out_ pacini_play_settings *settings)'),
@@ -271,6 +272,13 @@ export class Engine {
   /** What may play at a time: microseconds for a block of so many frames, and voices; 0: all. */
   setBudget(microseconds, frames = 512, voices = 0) {
     check(c.engineSetBudget(this.#handle, microseconds, frames, voices));
+  }
+
+  /** How many times as long as predicted blocks take on this machine; 0 measures it of the last ones. Returns it. */
+  calibrate(factor = 0) {
+    const used = [0];
+    check(c.engineCalibrate(this.#handle, factor, used));
+    return used[0];
   }
 
   /** Gain of an actuator, the first is 0, behind its protection. */

@@ -106,6 +106,7 @@ static class EveryFunction
         Check(play.State == PlayState.Playing, "resumed");
         Check(engine.Info.Playing == 1 && engine.Info.Frame == 12000 && engine.Info.Latency == 8, "info of the engine");
         engine.SetBudget(0, 512, 1);
+        Check(engine.Calibrate(2.5) == 2.5, "calibrate");
         var second = engine.Play(clip, new PlaySettings { Priority = 5 });
         Largest(engine, 100);
         Check(second.State == PlayState.LeftOut && engine.Info.LeftOut == 1, "left out");

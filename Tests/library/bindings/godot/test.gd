@@ -77,6 +77,7 @@ func every_function():
 	var info = engine.get_info()
 	check(info.playing == 1 and info.frame == 12000 and info.latency == 8 and info.left_out_error == -1000, "info of the engine")
 	check(engine.set_budget(0, 512, 1), "budget")
+	check(engine.calibrate(2.5) == 2.5, "calibrate")
 	var second = engine.play(clip, {"priority": 5})
 	engine.render(100)
 	check(second.get_state() == "left out", "left out")

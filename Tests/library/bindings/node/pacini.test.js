@@ -64,6 +64,7 @@ test('a clip plays and is changed; what is stale throws', () => {
   assert.equal(engine.info.frame, 12000);
   assert.equal(engine.info.latency, 8);
   engine.setBudget(0, 512, 1);
+  assert.equal(engine.calibrate(2.5), 2.5);
   const second = engine.play(clip, { priority: 5 });
   largest(engine, 100);
   assert.equal(second.info.state, 'left out');

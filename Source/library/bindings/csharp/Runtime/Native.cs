@@ -134,6 +134,7 @@ namespace Pacini
         [DllImport(Library, CallingConvention = C)] internal static extern void pacini_engine_info_init(ref pacini_engine_info info);
         [DllImport(Library, CallingConvention = C)] internal static extern int pacini_engine_get_info(ulong engine, ref pacini_engine_info info);
         [DllImport(Library, CallingConvention = C)] internal static extern int pacini_engine_set_budget(ulong engine, double microseconds, uint frames, uint voices);
+        [DllImport(Library, CallingConvention = C)] internal static extern int pacini_engine_calibrate(ulong engine, double factor, out double used);
         [DllImport(Library, CallingConvention = C)] internal static extern int pacini_engine_set_actuator_gain(ulong engine, uint actuator, double gain, double glide, long frame);
 
         [DllImport(Library, CallingConvention = C)] internal static extern void pacini_play_settings_init(ref pacini_play_settings settings);

@@ -447,6 +447,13 @@ namespace Pacini
             Native.Check(Native.pacini_engine_set_budget(handle, microseconds, (uint)Math.Max(0, frames), (uint)Math.Max(0, voices)));
         }
 
+        /// <summary>How many times as long as predicted blocks take on this machine; 0 measures it of the last ones. Returns it.</summary>
+        public double Calibrate(double factor = 0.0)
+        {
+            Native.Check(Native.pacini_engine_calibrate(handle, factor, out double used));
+            return used;
+        }
+
         /// <summary>Gain of an actuator, the first is 0, behind its protection.</summary>
         public void SetActuatorGain(int actuator, double gain, double glide = 0.0, long frame = 0)
         {

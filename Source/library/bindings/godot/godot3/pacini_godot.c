@@ -359,6 +359,14 @@ EXPORT godot_variant pacini_godot_engine_set_budget(const void* arguments)
                                               (uint32_t)to_int(arguments, 2), (uint32_t)to_int(arguments, 3)));
 }
 
+EXPORT godot_variant pacini_godot_engine_calibrate(const void* arguments)
+{
+    double used = 0.0;
+    const godot_variant done =
+        of_result(pacini_engine_calibrate((pacini_engine)to_int(arguments, 0), to_real(arguments, 1), &used));
+    return used > 0.0 ? of_real(used) : done;
+}
+
 EXPORT godot_variant pacini_godot_engine_set_actuator_gain(const void* arguments)
 {
     return of_result(pacini_engine_set_actuator_gain((pacini_engine)to_int(arguments, 0),

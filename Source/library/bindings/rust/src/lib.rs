@@ -383,6 +383,14 @@ impl Engine {
         check(unsafe { sys::pacini_engine_set_budget(self.0, microseconds, frames, voices) })
     }
 
+    /// How many times as long as predicted blocks take on this machine; 0 measures it of the last ones. Returns it.
+    pub fn calibrate(&self, factor: f64) -> Result<f64, Error> {
+        let mut used = 0.0;
+        // SAFETY: `used` outlives the call.
+        check(unsafe { sys::pacini_engine_calibrate(self.0, factor, &mut used) })?;
+        Ok(used)
+    }
+
     /// Gain of an actuator, the first is 0, behind its protection.
     pub fn set_actuator_gain(&self, actuator: u32, gain: f64, glide: f64, frame: i64) -> Result<(), Error> {
         check(unsafe { sys::pacini_engine_set_actuator_gain(self.0, actuator, gain, glide, frame) })

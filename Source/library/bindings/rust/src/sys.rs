@@ -147,6 +147,7 @@ extern "C" {
         frames: u32,
         voices: u32,
     ) -> pacini_result;
+    pub fn pacini_engine_calibrate(engine: pacini_engine, factor: f64, used: *mut f64) -> pacini_result;
     pub fn pacini_engine_set_actuator_gain(
         engine: pacini_engine,
         actuator: u32,

@@ -65,6 +65,7 @@ fn a_clip_plays_and_is_changed() {
     let info = engine.info().unwrap();
     assert_eq!((info.playing, info.frame, info.latency), (1, 12000, 8));
     engine.set_budget(0.0, 512, 1).unwrap();
+    assert_eq!(engine.calibrate(2.5).unwrap(), 2.5);
     let second = engine.play(&clip, &Settings { priority: 5, ..Settings::default() }).unwrap();
     largest(&mut renderer, 100);
     assert_eq!(second.state().unwrap(), State::LeftOut);

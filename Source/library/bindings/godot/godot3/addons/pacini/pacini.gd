@@ -162,6 +162,10 @@ class HapticEngine:
 	func set_budget(microseconds, frames = 512, voices = 0):
 		return _native.run("engine_set_budget", [_handle, microseconds, frames, voices]) != null
 
+	# How many times as long as predicted blocks take on this machine; 0 measures it of the last ones. Returns it, or null.
+	func calibrate(factor = 0.0):
+		return _native.run("engine_calibrate", [_handle, factor])
+
 	# Gain of an actuator, the first is 0, behind its protection.
 	func set_actuator_gain(actuator, gain, glide = 0.0, frame = 0):
 		return _native.run("engine_set_actuator_gain", [_handle, actuator, gain, glide, frame]) != null
