@@ -2,8 +2,12 @@
 
 // Encoding of text files by their first bytes.
 
+#include "io/Utf8.h"
+
 #include <pacini/foundation/Result.h>
 
+#include <array>
+#include <string>
 #include <string_view>
 
 namespace pacini
@@ -21,6 +25,36 @@ namespace pacini
     if (bytes.starts_with("\xEF\xBB\xBF"sv))
         bytes.remove_prefix(3);
     return bytes;
+}
+
+/// Whether all of a text is UTF-8.
+[[nodiscard]] inline bool isUtf8(std::string_view text) noexcept
+{
+    while (!text.empty())
+    {
+        const auto bytes = firstUtf8(text).bytes;
+        if (bytes == 0)
+            return false;
+        text.remove_prefix(bytes);
+    }
+    return true;
+}
+
+/// The UTF-8 of a text in Windows-1252, which holds ISO 8859-1 (Latin-1): what spreadsheets of western Europe save.
+[[nodiscard]] inline std::string utf8OfWindows1252(std::string_view text)
+{
+    // Its bytes 0x80 to 0x9F, as the WHATWG encoding standard has them.
+    constexpr std::array<char16_t, 32> others{0x20AC, 0x0081, 0x201A, 0x0192, 0x201E, 0x2026, 0x2020, 0x2021,
+                                              0x02C6, 0x2030, 0x0160, 0x2039, 0x0152, 0x008D, 0x017D, 0x008F,
+                                              0x0090, 0x2018, 0x2019, 0x201C, 0x201D, 0x2022, 0x2013, 0x2014,
+                                              0x02DC, 0x2122, 0x0161, 0x203A, 0x0153, 0x009D, 0x017E, 0x0178};
+    std::string result;
+    for (const char c : text)
+    {
+        const auto byte = static_cast<unsigned char>(c);
+        appendUtf8(result, byte >= 0x80 && byte < 0xA0 ? others[byte - 0x80u] : byte);
+    }
+    return result;
 }
 
 } // namespace pacini

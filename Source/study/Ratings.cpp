@@ -199,10 +199,15 @@ bool isTooLong(const std::vector<std::string>& fields, std::size_t columns)
 Result<std::vector<Rating>> ratingsOfCsv(std::string_view bytes, const RatingColumns& columns,
                                          std::vector<std::string>* warnings)
 {
-    const auto text = utf8Text(bytes);
-    if (!text)
-        return text.error();
-    CsvLines lines(*text, separatorOf(text->substr(0, text->find('\n'))));
+    const auto unmarked = utf8Text(bytes);
+    if (!unmarked)
+        return unmarked.error();
+    const bool isOld = !isUtf8(*unmarked);
+    const std::string decoded = isOld ? utf8OfWindows1252(*unmarked) : std::string();
+    const std::string_view text = isOld ? std::string_view(decoded) : *unmarked;
+    if (isOld && warnings != nullptr)
+        warnings->emplace_back("is not UTF-8, and was read as Latin-1 (Windows-1252)");
+    CsvLines lines(text, separatorOf(text.substr(0, text.find('\n'))));
     const auto heading = lines.next().value_or(std::vector<std::string>());
     const auto places = placesIn(heading, columns);
     if (!places)

@@ -91,7 +91,8 @@ Result<WordCategories> WordCategories::ofCsv(std::string_view bytes)
     const auto unmarked = utf8Text(bytes);
     if (!unmarked)
         return unmarked.error();
-    const std::string_view text = *unmarked;
+    const std::string decoded = isUtf8(*unmarked) ? std::string(*unmarked) : utf8OfWindows1252(*unmarked);
+    const std::string_view text = decoded;
     WordCategories categories;
     std::size_t number = 0;
     for (std::size_t start = 0; start < text.size();)

@@ -31,7 +31,8 @@ struct Description
 class WordCategories
 {
 public:
-    /// Of a table with lines `category,word`; the first may be such names. Errors (invalidData) at `line 3`.
+    /// Of a table with lines `category,word`; the first may be such names; UTF-8, or else Latin-1.
+    /// Errors (invalidData) at `line 3`.
     [[nodiscard]] static Result<WordCategories> ofCsv(std::string_view bytes);
 
     /// Empty for none. Of beginnings the longest counts.

@@ -86,6 +86,21 @@ class Steps(StudyTest):
         self.warns("study", "report", "missing.csv", "--columns", "rating=slider",
                    says="line 4: has no rating; 2 of 10 lines have none and are left out")
 
+    def test_a_table_in_latin_1_is_read_and_told(self):
+        rows = "stimulus,participant,rating\nT\u00fcr \u2013 auf,1,2\nT\u00fcr \u2013 auf,2,3\nz,1,4\nz,2,5\n"
+        self.put("old.csv", rows.encode("cp1252"))
+        self.put("new.csv", rows.encode())
+        old = json.loads(self.warns("study", "report", "old.csv", "--json", says="was read as Latin-1 (Windows-1252)"))
+        self.assertEqual(old["ratings"], self.report("study", "report", "new.csv")["ratings"])
+        self.assertIn("T\u00fcr \u2013 auf", (self.folder / "old.report/report.md").read_text(encoding="utf-8"))
+        self.new()
+        self.succeeds("study", "simulate", "mine", "-o", "simulated", "--runs", "10")
+        log = next((self.folder / "simulated/sessions").glob("*.jsonl"))
+        log.write_text(re.sub(r'"words":"[^"]*"', '"words":"w\u00e4rm"', log.read_text()), encoding="utf-8")
+        self.put("table.csv", "hot,w\u00e4rm\n".encode("latin-1"))
+        counts = self.report("study", "report", "simulated", "--categories", "table.csv")["categories"]
+        self.assertGreater(sum(group["hot"] for group in counts.values()), 0)
+
     def test_a_report_of_ratings_of_others(self):
         rows = [f"{group};{stimulus};{group}{person};{5 + (person + 1) * stimulus % 7 % 4 + 'ABC'.index(group)}"
                 for group in "ABC" for stimulus in range(1, 11) for person in range(6)]
