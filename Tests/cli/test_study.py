@@ -192,6 +192,15 @@ class People(StudyTest):
         (sessions / "P002 (copy).jsonl").write_text(re.sub(r'"started":"[^"]*"', '"started":"2020-01-01T00:00:00Z"', log))
         self.warns("study", "report", "simulated", says="P002.jsonl: is another session of P002")
 
+    def test_two_sessions_of_one_person_are_one_threshold(self):
+        self.succeeds("study", "new", "felt", "--template", "threshold", "-g", "all:3")
+        self.succeeds("study", "simulate", "felt", "-o", "simulated", "--runs", "10")
+        log = (self.folder / "simulated/sessions/P002.jsonl").read_text()
+        (self.folder / "simulated/sessions/P002b.jsonl").write_text(
+            re.sub(r'"started":"[^"]*"', '"started":"2020-01-01T00:00:00Z"', log))
+        found = json.loads(self.warns("study", "report", "simulated", "--json", says="is another session of P002"))
+        self.assertEqual({one["n"] for one in found["thresholds"]["thresholds"].values()}, {3})
+
     def test_choices_have_an_interval_of_people(self):
         self.succeeds("study", "new", "abx", "--template", "abx", "sounds/a.wav", "-g", "all:6")
         self.succeeds("study", "simulate", "abx", "-o", "simulated", "--runs", "10")

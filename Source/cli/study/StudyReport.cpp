@@ -628,6 +628,8 @@ std::string unitOf(Variable variable)
     return "";
 }
 
+using Person = std::pair<std::string, std::string>; // group and participant
+
 /// Answers of all participants to one stimulus of an adaptive block, and the function that fits them.
 PsychometricCurve curveOf(const StudyResults& results, const Block& block, const std::string& stimulus)
 {
@@ -673,14 +675,17 @@ Result<void> writeThresholds(Writer& writer, Json& json, const StudyResults& res
         for (const std::size_t stimulus : stimuliOf(results.study, block))
         {
             const std::string& name = results.study.stimuli[stimulus].name;
-            std::vector<double> strengths;
+            std::map<Person, std::vector<double>> ofPeople; // one for each session
             std::size_t trials = 0;
             for (const PersonalThreshold& one : results.thresholds)
                 if (one.block == block.name && one.stimulus == name)
                 {
-                    strengths.push_back(one.estimate.strength);
+                    ofPeople[{one.group, one.participant}].push_back(one.estimate.strength);
                     trials += one.trials;
                 }
+            std::vector<double> strengths;
+            for (const auto& [person, own] : ofPeople)
+                strengths.push_back(meanOf(own));
             if (strengths.empty())
                 continue;
             const SampleSummary sample = summaryOf(strengths);
@@ -728,7 +733,6 @@ double guessOf(const Study& study, const std::string& name)
 
 void writeChoices(Writer& writer, Json& json, const StudyResults& results)
 {
-    using Person = std::pair<std::string, std::string>; // group and participant
     std::map<std::pair<std::string, std::string>, std::map<Person, CountedAnswers>> answers;
     for (const PersonalChoices& one : results.choices)
     {
