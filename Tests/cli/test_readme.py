@@ -344,7 +344,7 @@ class Options(CommandTest):
                 PAGES + "devices.md": ["play"],
                 PAGES + "measuring.md": ["measure sweep", "measure analyse", "measure fit", "measure verify",
                                          "measure simulate"]}
-    OF_OTHER_TOOLS = {"--install", "--component", "--preset", "--workflow", "--make", "--at", "--rooms"}
+    OF_OTHER_TOOLS = {"--install", "--component", "--preset", "--workflow", "--make", "--at", "--rooms", "--install-links"}
 
     def help_of(self, command):
         """Option to default; empty without one."""
