@@ -7,6 +7,7 @@
 #include "plugin/window/DisplayErrors.h"
 
 #include <pacini/foundation/Units.h>
+#include <pacini/realtime/TranslatorPresets.h>
 
 #include <cmath>
 #include <limits>
@@ -297,9 +298,7 @@ void PluginWindow::refresh()
 {
     for (editor::Refreshed* each : refreshed)
         each->refresh();
-    const int program = processor.getCurrentProgram() + 1;
-    if (programChoice.getSelectedId() != program)
-        programChoice.setSelectedId(program, juce::dontSendNotification);
+    showProgram();
     if (actuatorsPage && actuatorsPage->isVisible())
         actuatorsPage->refresh();
     showMeters();
@@ -310,6 +309,22 @@ void PluginWindow::refresh()
         status.setText(text, juce::dontSendNotification);
         status.setTooltip(text);
     }
+}
+
+/// With a mark where its values were changed since.
+void PluginWindow::showProgram()
+{
+    const int program = processor.getCurrentProgram();
+    const bool altered =
+        processor.values().translator() != translatorPresets()[static_cast<std::size_t>(program)].params;
+    for (int i = 0; i < processor.getNumPrograms(); ++i)
+    {
+        const juce::String name = editor::tr(processor.getProgramName(i)) + (altered && i == program ? " *" : "");
+        if (programChoice.getItemText(i) != name)
+            programChoice.changeItemText(i + 1, name);
+    }
+    if (programChoice.getSelectedId() != program + 1 || programChoice.getText() != programChoice.getItemText(program))
+        programChoice.setSelectedId(program + 1, juce::dontSendNotification);
 }
 
 void PluginWindow::showMeters()

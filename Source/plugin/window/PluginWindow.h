@@ -59,6 +59,7 @@ private:
     std::unique_ptr<editor::ParameterChoice> choice(ParameterId parameter);
     void adopt(juce::Component& component, editor::Refreshed* refreshed);
     void chooseActuator(std::size_t channel);
+    void showProgram();
     void showMeters();
     void showRouting();
     void placeHeader(juce::Rectangle<int> area);

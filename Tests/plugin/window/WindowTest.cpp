@@ -126,6 +126,38 @@ TEST_CASE("Text that is no value leaves a control as it is, and its text comes b
     CHECK(rig.plugin.values() == before);
 }
 
+TEST_CASE("A preset whose values were changed has a mark until they are back")
+{
+    const juce::ScopedJuceInitialiser_GUI gui;
+    WindowRig rig;
+    plugin::PluginWindow window(rig.plugin);
+    juce::ComboBox* presets = nullptr;
+    forEachChild(window,
+                 [&](juce::Component& child)
+                 {
+                     if (auto* box = dynamic_cast<juce::ComboBox*>(&child); box && box->getTitle() == "Preset")
+                         presets = box;
+                 });
+    REQUIRE(presets != nullptr);
+    for (const int program : {0, 2})
+    {
+        rig.plugin.applyProgram(program);
+        window.refresh();
+        const auto name = rig.plugin.getProgramName(program);
+        CHECK(presets->getText() == name);
+        rig.set(ParameterId::profile, 3.0); // which belongs to no preset
+        window.refresh();
+        CHECK(presets->getText() == name);
+        const double before = rig.plugin.values()[ParameterId::attack];
+        rig.set(ParameterId::attack, 55.0);
+        window.refresh();
+        CHECK(presets->getText() == name + " *");
+        rig.set(ParameterId::attack, before);
+        window.refresh();
+        CHECK(presets->getText() == name);
+    }
+}
+
 TEST_CASE("The page of the actuators shows each haptic channel that there is, and its level")
 {
     const juce::ScopedJuceInitialiser_GUI gui;
