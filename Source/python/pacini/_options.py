@@ -14,6 +14,7 @@ class EncodeOptions(TypedDict, total=False):
     spacing: Optional[str]
     sensitivity: Optional[float]
     audible: Optional[float]
+    heard: Optional[str]
     keep_level: Optional[bool]
     minimum_gap: Optional[float]
     mask_margin: Optional[float]

@@ -53,8 +53,10 @@ export interface EncodeOptions extends Stoppable {
   spacing?: 'log' | 'linear'
   /** Sensitivity to events; above 1 weaker events also become transients, below 1 only stronger ones (0.25 to 4) [1] */
   sensitivity?: number
-  /** Influence of the loudness of sound above the range of touch (rain, ticks, birds); 0 keeps the beat of music (0 to 1) [1] */
+  /** Amount of sound above the range of touch that is felt (hi-hats, rain, ticks); 0: none (0 to 1) [1] */
   audible?: number
+  /** Role of that sound: beside the low part, which stays as it is, or instead of it where most of the sound lies above touch [beside] */
+  heard?: 'beside' | 'instead'
   /** Keep the level of the sound instead of raising it to full drive [off] */
   keepLevel?: boolean
   /** Minimum time between two events; an event that follows sooner is dropped (0 to 1 s) [0.01] */
