@@ -332,7 +332,7 @@ TEST_CASE("a parameter's glide turns without a corner, passes no target, and arr
         CHECK(glide.at(controlHop - 1) == Approx(glide.end()).margin(1e-12));
     }
     CHECK(corner < 0.05); // one one-pole has 0.23
-    CHECK(half * controlHop < 0.020 * 6000.0);
+    CHECK(static_cast<double>(half * controlHop) < 0.020 * 6000.0);
     CHECK(hops < 100);
     glide.aim(0.25, 1.0);
     glide.aim(0.25, 1.0);

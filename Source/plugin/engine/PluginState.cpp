@@ -46,6 +46,9 @@ void readValues(const Json& named, ReadState& read)
             // Before there was such a parameter, actuators were played as flat as can be.
             if (row.parameter == ParameterId::strength)
                 read.state.values.set(row.parameter, 0.0);
+            // And nothing above the range of touch was felt by its loudness.
+            if (row.parameter == ParameterId::audible)
+                read.state.values.set(row.parameter, 0.0);
             continue;
         }
         if (!found->is_number() || !std::isfinite(found->get<double>()))
