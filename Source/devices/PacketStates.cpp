@@ -65,11 +65,11 @@ WaveformState PacketStates::waveformFor(std::int64_t packet, const PacketContent
 {
     if (model.trigger.event == 0)
         return lastingFor(packet, motorsFor(packet, content));
+    const MotorLevels levels = motorsOf(content.tones);
     if (content.event)
     {
-        const MotorLevels levels = motorsOf(content.tones);
-        const double lasting = std::hypot(levels.strong, levels.weak);
-        const double power = lasting * lasting + strongestPart * (*content.event * *content.event - lasting * lasting);
+        const double lasting = levels.strong * levels.strong + levels.weak * levels.weak;
+        const double power = lasting + strongestPart * (*content.event * *content.event - lasting);
         const double before = played.waveform == Waveform::event ? 0.0 : played.intensity;
         const double level = std::max(std::sqrt(power), std::min(standingOut * before, *content.event));
         played = {Waveform::event, std::min(level, 1.0), true};
@@ -81,7 +81,7 @@ WaveformState PacketStates::waveformFor(std::int64_t packet, const PacketContent
         played.begins = false;
         return played;
     }
-    return lastingFor(packet, motorsOf(content.tones));
+    return lastingFor(packet, levels);
 }
 
 WaveformState PacketStates::lastingFor(std::int64_t packet, const MotorLevels& levels) noexcept

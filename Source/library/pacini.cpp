@@ -310,6 +310,20 @@ pacini_result createEngine(const pacini_engine_config* given, const Scene* scene
 
 constexpr double leastFactor = 0.01, largestFactor = 100.0;
 
+/// Gives the engine its budget, and keeps what it is of.
+pacini_result setBudget(EngineEntry& entry, double microseconds, std::uint32_t frames, std::uint32_t voices,
+                        double factor)
+{
+    const auto done = entry.engine->setBudget(budgetOf(microseconds, frames, voices, factor));
+    if (!done)
+        return fail(done.error());
+    entry.budget = microseconds;
+    entry.budgetFrames = frames;
+    entry.budgetVoices = voices;
+    entry.timeFactor = factor;
+    return PACINI_OK;
+}
+
 /// Renders a block, and notes what it took over what was predicted. [audio]
 void renderTimed(EngineEntry& entry, std::span<const std::span<float>> out) noexcept
 {
@@ -908,20 +922,14 @@ extern "C"
 
     pacini_result pacini_engine_set_budget(pacini_engine engine, double microseconds, uint32_t frames, uint32_t voices)
     {
-        return withEngine(
-            engine,
-            [&](EngineEntry& entry)
-            {
-                if (!(microseconds >= 0.0 && microseconds <= 1e6) || frames < 1)
-                    return fail(PACINI_INVALID, "budget: must be 0 to 1e6 microseconds for 1 frame or more");
-                const auto done = entry.engine->setBudget(budgetOf(microseconds, frames, voices, entry.timeFactor));
-                if (!done)
-                    return fail(done.error());
-                entry.budget = microseconds;
-                entry.budgetFrames = frames;
-                entry.budgetVoices = voices;
-                return PACINI_OK;
-            });
+        return withEngine(engine,
+                          [&](EngineEntry& entry)
+                          {
+                              if (!(microseconds >= 0.0 && microseconds <= 1e6) || frames < 1)
+                                  return fail(PACINI_INVALID,
+                                              "budget: must be 0 to 1e6 microseconds for 1 frame or more");
+                              return setBudget(entry, microseconds, frames, voices, entry.timeFactor);
+                          });
     }
 
     pacini_result pacini_engine_calibrate(pacini_engine engine, double factor, double* used)
@@ -929,18 +937,16 @@ extern "C"
         return withEngine(engine,
                           [&](EngineEntry& entry)
                           {
-                              if (factor == 0.0 && (factor = measuredFactor(entry)) == 0.0)
-                                  return fail(PACINI_INVALID, "factor: is measured of 64 blocks with plays or more");
+                              if (factor == 0.0)
+                                  factor = measuredFactor(entry);
                               if (!(factor >= leastFactor && factor <= largestFactor))
-                                  return fail(PACINI_INVALID, "factor: must be 0.01 to 100, or 0 to measure it");
-                              const auto done = entry.engine->setBudget(
-                                  budgetOf(entry.budget, entry.budgetFrames, entry.budgetVoices, factor));
-                              if (!done)
-                                  return fail(done.error());
-                              entry.timeFactor = factor;
-                              if (used != nullptr)
+                                  return fail(PACINI_INVALID, "factor: must be 0.01 to 100, or 0 to measure it of 64 "
+                                                              "blocks with plays or more");
+                              const pacini_result done =
+                                  setBudget(entry, entry.budget, entry.budgetFrames, entry.budgetVoices, factor);
+                              if (done == PACINI_OK && used != nullptr)
                                   *used = factor;
-                              return PACINI_OK;
+                              return done;
                           });
     }
 

@@ -64,7 +64,7 @@ public:
         const std::size_t bandEnd = last ? bandFrames : std::min(bandFrames, (end + ratio - 1) / ratio);
         for (std::size_t j = (first + ratio - 1) / ratio; j < bandEnd; ++j)
         {
-            const HeardTone::Frame frame = tone.at(j, heard.first(seen), [this](std::size_t i) { return level[i]; });
+            const HeardTone::Frame frame = tone.at(j, heard, level);
             if (frame.audible)
                 tone.add(found, j, 1.0, frame.power, heardPitch(frame.brightness));
         }

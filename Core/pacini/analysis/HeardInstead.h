@@ -142,8 +142,8 @@ private:
     /// The tone in frame `j` of the bands.
     void addTone(BandAnalysisResult& found, std::span<const HeardFrame> heard, std::size_t j)
     {
-        const HeardTone::Frame frame = tone.at(j, heard, [&](std::size_t i) { return level[i]; });
-        const double driven = tone.mean(j, heard.size(), [&](std::size_t i) { return static_cast<double>(share[i]); });
+        const HeardTone::Frame frame = tone.at(j, heard, level);
+        const double driven = tone.mean(j, share);
         if (!(driven > 0.0 && frame.audible))
             return;
         double held = 0.0; // by the bands

@@ -37,39 +37,37 @@ public:
         bool audible = false;    ///< something is heard above the range of touch
     };
 
-    /// The tone in frame `j` of the bands, from `level(i)` of each value of the envelope.
-    template <typename Level>
-    [[nodiscard]] Frame at(std::size_t j, std::span<const HeardFrame> heard, Level&& level) const
+    /// The tone in frame `j` of the bands, from its level at each value of the envelope; `heard` may have more.
+    [[nodiscard]] Frame at(std::size_t j, std::span<const HeardFrame> heard, std::span<const double> levels) const
     {
+        double weights = 0.0;
         double high = 0.0;
         double bright = 0.0;
         Frame frame;
-        frame.power = mean(j, heard.size(),
-                           [&](std::size_t i)
-                           {
-                               const double w = weight(i, j);
-                               high += w * static_cast<double>(heard[i].high);
-                               bright += w * static_cast<double>(heard[i].bright);
-                               const double a = level(i);
-                               return a * a;
-                           });
+        for (std::size_t i = first(j); i < end(j, levels.size()); ++i)
+        {
+            const double w = weight(i, j);
+            weights += w;
+            high += w * static_cast<double>(heard[i].high);
+            bright += w * static_cast<double>(heard[i].bright);
+            frame.power += w * (levels[i] * levels[i]);
+        }
+        frame.power = weights > 0.0 ? frame.power / weights : 0.0;
         frame.audible = high > 0.0;
         frame.brightness = frame.audible ? bright / high : 0.0;
         return frame;
     }
 
-    /// The mean of `value(i)` in frame `j`, of `count` values; 0 where there are none.
-    template <typename Value>
-    [[nodiscard]] double mean(std::size_t j, std::size_t count, Value&& value) const
+    /// The mean of `values`, one for each of the envelope, in frame `j`; 0 where there are none.
+    [[nodiscard]] double mean(std::size_t j, std::span<const float> values) const
     {
-        const std::size_t middle = j * ratio;
         double weights = 0.0;
         double sum = 0.0;
-        for (std::size_t i = middle - std::min(middle, ratio - 1); i < std::min(count, middle + ratio); ++i)
+        for (std::size_t i = first(j); i < end(j, values.size()); ++i)
         {
             const double w = weight(i, j);
             weights += w;
-            sum += w * value(i);
+            sum += w * static_cast<double>(values[i]);
         }
         return weights > 0.0 ? sum / weights : 0.0;
     }
@@ -94,6 +92,13 @@ public:
     }
 
 private:
+    /// The values of the envelope that frame `j` sees, of `count`.
+    [[nodiscard]] static std::size_t first(std::size_t j) noexcept { return j > 0 ? (j - 1) * ratio + 1 : 0; }
+    [[nodiscard]] static std::size_t end(std::size_t j, std::size_t count) noexcept
+    {
+        return std::min(count, (j + 1) * ratio);
+    }
+
     [[nodiscard]] double weight(std::size_t i, std::size_t j) const noexcept
     {
         return window[i + ratio - 1 - j * ratio];
