@@ -90,14 +90,14 @@ public:
     void aim(double target, double share) noexcept
     {
         double towards = target;
-        bool near = true;
+        bool there = true;
         for (double& stage : stages)
         {
             stage += share * (towards - stage);
             towards = stage;
-            near = near && std::abs(target - stage) <= 1e-6;
+            there = there && std::abs(target - stage) <= 1e-6;
         }
-        if (near)
+        if (there)
             stages = {target, target, target};
         ramp.aim(stages.back(), 1.0);
     }

@@ -438,7 +438,7 @@ class Comparison:
 
     @property
     def low_kept(self) -> Optional[float]:
-        """How far the envelopes of 30 to 120 and 120 to 300 Hz follow those of the sound: their correlation, -1 to 1."""
+        """How far the envelopes of 30 to 120 and 120 to 300 Hz follow those of the sound: correlation, -1 to 1."""
         return self._figure("lowKept")
 
     @property
