@@ -347,6 +347,7 @@ void PluginWindow::showRouting()
     const auto values = processor.values();
     sourceMix->setEnabled(values.index(ParameterId::source) == static_cast<std::size_t>(SourceChoice::mix));
     strength->setEnabled(processor.strengthMatters());
+    brightness->setEnabled(values[ParameterId::audible] < 1.0); // what is audible leaves it nothing
     outputChannel->setEnabled(values.index(ParameterId::outputMode) ==
                               static_cast<std::size_t>(OutputMode::addToChannel));
 }

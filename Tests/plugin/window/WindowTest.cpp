@@ -222,6 +222,27 @@ TEST_CASE("Every control has a name, a help text and a place that the keyboard r
     CHECK(controls >= 22);
 }
 
+TEST_CASE("Brightness can be turned where Audible leaves it something to play")
+{
+    const juce::ScopedJuceInitialiser_GUI gui;
+    WindowRig rig;
+    plugin::PluginWindow window(rig.plugin);
+    juce::Slider* brightness = nullptr;
+    forEachChild(window,
+                 [&](juce::Component& child)
+                 {
+                     if (auto* slider = dynamic_cast<juce::Slider*>(&child);
+                         slider && slider->getTitle() == "Brightness")
+                         brightness = slider;
+                 });
+    REQUIRE(brightness != nullptr);
+    CHECK_FALSE(brightness->isEnabled()); // 100 % from the start
+    rig.plugin.parameter(ParameterId::audible).setValueNotifyingHost(0.5f);
+    CHECK(pumpUntil([&] { return brightness->isEnabled(); }));
+    rig.plugin.parameter(ParameterId::audible).setValueNotifyingHost(1.0f);
+    CHECK(pumpUntil([&] { return !brightness->isEnabled(); }));
+}
+
 TEST_CASE("No text of the window bypasses the tables of translations")
 {
     const juce::ScopedJuceInitialiser_GUI gui;
