@@ -264,18 +264,18 @@ TEST_CASE("The record of an encoder has what is not the default, and what older 
             all += parameter.name + " ";
         return all;
     };
-    CHECK(names({}) == "method bands breakpoints quantise audible ");
+    CHECK(names({}) == "method bands breakpoints quantise audible heard ");
     CHECK(names(encoderWith([](EncoderParams& p) { p.lowFrequency = 31.0; })) ==
-          "method bands breakpoints quantise low audible ");
+          "method bands breakpoints quantise low audible heard ");
     CHECK(names(encoderWith([](EncoderParams& p) { p.highFrequency = 999.0; })) ==
-          "method bands breakpoints quantise high audible ");
+          "method bands breakpoints quantise high audible heard ");
     CHECK(names(encoderWith([](EncoderParams& p) { p.spacing = BandSpacing::linear; })) ==
-          "method bands breakpoints quantise spacing audible ");
+          "method bands breakpoints quantise spacing audible heard ");
     CHECK(names(encoderWith([](EncoderParams& p) { p.normalise = false; })) ==
-          "method bands breakpoints quantise audible normalise ");
+          "method bands breakpoints quantise audible heard normalise ");
     EncoderParams params;
     params.onsets.sensitivity = 2.0;
-    CHECK(names(params) == "method bands breakpoints quantise sensitivity audible ");
+    CHECK(names(params) == "method bands breakpoints quantise sensitivity audible heard ");
     CHECK(params.bands == 12);
     CHECK(params.lowFrequency == 30.0);
     CHECK(params.highFrequency == 1000.0);

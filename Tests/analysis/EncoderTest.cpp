@@ -540,6 +540,20 @@ TEST_CASE("What is heard above the range of touch is felt as a tone, unless it i
     }
 }
 
+TEST_CASE("The record of a clip says how what is heard was felt, so that one of before is made anew",
+          "[analysis][encoder]")
+{
+    std::vector<EncoderParameter> before = encoderRecord({});
+    const auto heard =
+        std::find_if(before.begin(), before.end(), [](const EncoderParameter& p) { return p.name == "heard"; });
+    REQUIRE(heard != before.end());
+    before.erase(heard); // as clips had it when it was always instead
+    EncoderParams instead;
+    instead.heard = HeardRole::instead;
+    CHECK(before != encoderRecord({}));
+    CHECK(before != encoderRecord(instead));
+}
+
 TEST_CASE("Brighter sounds are felt higher", "[analysis][encoder]")
 {
     const auto pitch = [](double frequency, HeardRole role)

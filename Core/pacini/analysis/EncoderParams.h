@@ -96,7 +96,8 @@ inline constexpr std::array encoderParameters{
                                       .text = "Role of that sound: beside the low part, which stays as it is, or "
                                               "instead of it where most of the sound lies above touch",
                                       .choices = heardRoleNames,
-                                      .group = "Analysis"}),
+                                      .group = "Analysis",
+                                      .alwaysRecorded = true}), // clips without it are from when it was always instead
     described<&EncoderParams::normalise>({.name = "keepLevel",
                                           .member = "normalise",
                                           .text = "Keep the level of the sound instead of raising it to full drive",

@@ -13,7 +13,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
+#include <vector>
 
 namespace pacini
 {
@@ -47,7 +49,8 @@ public:
         heard->features.push(interleaved);
         heard->take();
         if (heard->level.found().size() > SoundSection::framesSeen)
-            heard->level.drop(heard->survey.next(heard->level.found(), heard->detector.onsetsSoFar()));
+            heard->level.drop(heard->survey.next(heard->level.found(), heard->detector ? heard->detector->onsetsSoFar()
+                                                                                       : std::vector<Onset>()));
     }
 
     [[nodiscard]] SoundScale finish()
@@ -61,7 +64,8 @@ public:
         heard->features.finish();
         heard->take();
         heard->level.finish(values);
-        return heard->survey.finish(heard->level.found(), heard->detector.finish(), peak);
+        return heard->survey.finish(heard->level.found(),
+                                    heard->detector ? heard->detector->finish() : std::vector<Onset>(), peak);
     }
 
 private:
@@ -69,19 +73,22 @@ private:
     struct Heard
     {
         Heard(int sampleRate, std::size_t channels, const EncoderParams& params)
-            : features(sampleRate, channels), detector(params.onsets), survey(params.audible, params.heard)
+            : features(sampleRate, channels), survey(params.audible, params.heard)
         {
+            if (params.heard == HeardRole::instead)
+                detector.emplace(params.onsets);
         }
 
         void take()
         {
-            detector.push(features.frames());
+            if (detector)
+                detector->push(features.frames());
             level.push(features.frames());
             features.drop(features.frames().size());
         }
 
         OnsetFeatures features;
-        OnsetDetector detector;
+        std::optional<OnsetDetector> detector; // beside the low part no event changes the scale
         HeardLevel level;
         HeardSurvey survey;
     };

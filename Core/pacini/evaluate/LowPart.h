@@ -3,9 +3,10 @@
 // Measures of what a translation keeps of the part of a sound that lies in the range of touch.
 
 #include <pacini/evaluate/HtsFeatures.h>
+#include <pacini/evaluate/match/TrackStatistics.h>
+#include <pacini/foundation/Units.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -27,25 +28,16 @@ struct LowPart
 
 namespace detail
 {
-/// Correlation of two envelopes, the second moved by `lag` values to earlier; 0 where one is constant.
-[[nodiscard]] inline double envelopeCorrelation(std::span<const float> a, std::span<const float> b, std::ptrdiff_t lag)
+/// `values` moved by `lag` to earlier, `count` of them; nothing is 0.
+[[nodiscard]] inline std::vector<float> moved(std::span<const float> values, std::ptrdiff_t lag, std::size_t count)
 {
-    double n = 0.0, sa = 0.0, sb = 0.0, saa = 0.0, sbb = 0.0, sab = 0.0;
-    for (std::ptrdiff_t i = 0; i < std::ssize(a); ++i)
+    std::vector<float> result(count);
+    for (std::size_t i = 0; i < count; ++i)
     {
-        const std::ptrdiff_t j = i + lag;
-        const double u = a[static_cast<std::size_t>(i)];
-        const double v = j >= 0 && j < std::ssize(b) ? static_cast<double>(b[static_cast<std::size_t>(j)]) : 0.0;
-        n += 1.0;
-        sa += u;
-        sb += v;
-        saa += u * u;
-        sbb += v * v;
-        sab += u * v;
+        const std::ptrdiff_t from = static_cast<std::ptrdiff_t>(i) + lag;
+        result[i] = from >= 0 && from < std::ssize(values) ? values[static_cast<std::size_t>(from)] : 0.0f;
     }
-    const double va = saa - sa * sa / n;
-    const double vb = sbb - sb * sb / n;
-    return va > 1e-12 * saa && vb > 1e-12 * sbb ? (sab - sa * sb / n) / std::sqrt(va * vb) : 0.0;
+    return result;
 }
 
 /// Places of the strongest events of a low band: maxima within 6 dB of the largest, 150 ms apart.
@@ -88,7 +80,7 @@ namespace detail
         std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());
         const double peak = *std::max_element(in.begin(), in.end());
         const double rest = sorted[sorted.size() / 2];
-        sum += 20.0 * std::log10((peak + 1e-9) / (std::max(rest, 0.01 * peak) + 1e-9)); // 40 dB is silence
+        sum += Decibels::fromGain((peak + 1e-9) / (std::max(rest, 0.01 * peak) + 1e-9)).value; // 40 dB is silence
     }
     return events.size() < 2 ? 0.0 : sum / static_cast<double>(events.size() - 1);
 }
@@ -112,7 +104,7 @@ namespace detail
         for (std::size_t b = 0; b < source.low.size(); ++b)
             if (largest(source.low[b]) >= least)
             {
-                sum += detail::envelopeCorrelation(source.low[b], drive.low[b], lag);
+                sum += detail::correlation(source.low[b], detail::moved(drive.low[b], lag, source.low[b].size()));
                 ++counted;
             }
         if (counted > 0)
@@ -123,7 +115,7 @@ namespace detail
     const auto events = detail::lowEvents(source.low[0]);
     const double wanted = detail::beatDepth(source.felt, events);
     if (wanted > 6.0)
-        result.beat = std::pow(10.0, (detail::beatDepth(drive.felt, events) - wanted) / 20.0);
+        result.beat = Decibels(detail::beatDepth(drive.felt, events) - wanted).gain();
     return result;
 }
 

@@ -42,6 +42,20 @@ void forEachChild(juce::Component& parent, Visit&& visit)
         forEachChild(*child, visit);
     }
 }
+
+/// The control of this title; null where there is none.
+template <typename Control>
+Control* titled(juce::Component& window, const char* title)
+{
+    Control* found = nullptr;
+    forEachChild(window,
+                 [&](juce::Component& child)
+                 {
+                     if (auto* control = dynamic_cast<Control*>(&child); control && control->getTitle() == title)
+                         found = control;
+                 });
+    return found;
+}
 } // namespace
 
 TEST_CASE("The window draws itself, light and dark, small and large, and its meters move with the sound")
@@ -131,13 +145,7 @@ TEST_CASE("A preset whose values were changed has a mark until they are back")
     const juce::ScopedJuceInitialiser_GUI gui;
     WindowRig rig;
     plugin::PluginWindow window(rig.plugin);
-    juce::ComboBox* presets = nullptr;
-    forEachChild(window,
-                 [&](juce::Component& child)
-                 {
-                     if (auto* box = dynamic_cast<juce::ComboBox*>(&child); box && box->getTitle() == "Preset")
-                         presets = box;
-                 });
+    auto* const presets = titled<juce::ComboBox>(window, "Preset");
     REQUIRE(presets != nullptr);
     for (const int program : {0, 2})
     {
@@ -227,14 +235,7 @@ TEST_CASE("Brightness can be turned where Audible leaves it something to play")
     const juce::ScopedJuceInitialiser_GUI gui;
     WindowRig rig;
     plugin::PluginWindow window(rig.plugin);
-    juce::Slider* brightness = nullptr;
-    forEachChild(window,
-                 [&](juce::Component& child)
-                 {
-                     if (auto* slider = dynamic_cast<juce::Slider*>(&child);
-                         slider && slider->getTitle() == "Brightness")
-                         brightness = slider;
-                 });
+    auto* const brightness = titled<juce::Slider>(window, "Brightness");
     REQUIRE(brightness != nullptr);
     CHECK_FALSE(brightness->isEnabled()); // 100 % from the start
     rig.plugin.parameter(ParameterId::audible).setValueNotifyingHost(0.5f);
