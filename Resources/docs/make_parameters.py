@@ -15,6 +15,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 SCHEMA = "Resources/schema/pacini.settings.schema.json"
+PRESETS = "Source/web/package/presets.js"
 TYPES = "Source/web/package/index.d.ts"
 PYTHON = "Source/python/pacini/_options.py"
 PAGES = ["Resources/docs/settings.md", "Resources/docs/getting-started.md"]
@@ -57,6 +58,20 @@ def filled(text, opening, closing, inside):
     return pattern.sub(lambda found: found[1] + inside(found) + "\n" + found[len(found.groups())], text)
 
 
+def preset_table(presets):
+    rows = [f"| `{preset['name']}` | {preset['purpose']} | {values(preset['values'])} |" for preset in presets]
+    return "\n".join(["", "| preset | purpose | values |", "|---|---|---|", *rows, ""])
+
+
+def script_presets(presets, usual_values):
+    rows = [json.dumps({**preset, "values": {**usual_values, **preset["values"]}}) for preset in presets]
+    return "// Made by Resources/docs/make_parameters.py.\n\nexport const presets = [\n  " + ",\n  ".join(rows) + "\n]\n"
+
+
+def values(chosen):
+    return ", ".join(f"{name} {value}" for name, value in chosen.items()) or "the defaults"
+
+
 def page(text, described):
     def inside(found):
         part, group = found[2], found[3]
@@ -80,11 +95,12 @@ def schema_of(one):
     return made
 
 
-def schema(described, methods):
+def schema(described, methods, presets):
     parts = {"encode": {
         "description": "Of encoding, as options of `pacini encode`. A method takes the parameters that it has.",
         "type": "object",
         "properties": {"method": {"description": "How sound is translated.", "enum": methods, "default": "a2vt"},
+                       "preset": {"description": "Values for a kind of sound, of a2vt; other entries override it.", "enum": presets},
                        **{one["name"]: schema_of(one) for one in described["encode"]}}},
              "export": {
         "description": "Of formats of other programs. Each entry counts for the formats that have it.",
@@ -101,7 +117,7 @@ def schema(described, methods):
     return json.dumps(whole, indent=2) + "\n"
 
 
-def types(text, described):
+def types(text, described, presets):
     script = {"number": "number", "whole": "number", "truth": "boolean"}
 
     def lines(part):
@@ -111,6 +127,9 @@ def types(text, described):
             made.append(f"  /** {told(one)} */\n  {one['name']}?: {kind}")
         return "\n".join(made)
 
+    names = " | ".join(f"'{preset['name']}'" for preset in presets)
+    text = filled(text, r"// presets", "// end of presets",
+                  lambda _: f"  /** Values for a kind of sound; other options override it. */\n  preset?: {names}")
     return filled(text, r"// parameters: (\w+)", "// end", lambda found: lines(found[2]))
 
 
@@ -138,13 +157,17 @@ def main():
         done = subprocess.run([options.program.resolve(), *words, "--json"], capture_output=True, check=True)
         return json.loads(done.stdout)
 
-    every = reported("encode", "--print-settings")["parameters"]
+    printed = reported("encode", "--print-settings")
+    every, presets = printed["parameters"], printed["presets"]
     described = {part: [one for one in listed if one["kind"] != "profile"] for part, listed in every.items()}
     methods = [method["name"] for method in reported("encode", "--list-methods")["methods"]]
-    made = {SCHEMA: schema(described, methods), PYTHON: python(described),
-            TYPES: types((ROOT / TYPES).read_text(), described)}
+    varied = {name for preset in presets for name in preset["values"]}
+    usual_values = {one["name"]: one["default"] for one in described["encode"] if one["name"] in varied}
+    made = {PRESETS: script_presets(presets, usual_values), SCHEMA: schema(described, methods, [preset["name"] for preset in presets]), PYTHON: python(described),
+            TYPES: types((ROOT / TYPES).read_text(), described, presets)}
     for name in PAGES:
         made[name] = page((ROOT / name).read_text(), every)
+    made[PAGES[0]] = filled(made[PAGES[0]], "<!-- presets -->", "<!-- end of presets -->", lambda _: preset_table(presets))
     stale = [name for name, text in made.items() if not (ROOT / name).exists() or (ROOT / name).read_text() != text]
     for name in stale:
         if options.check:

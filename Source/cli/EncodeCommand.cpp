@@ -12,6 +12,7 @@
 #include "cli/RayRun.h"
 #include "cli/Task.h"
 #include "cli/TaskRunner.h"
+#include "io/EncoderPresets.h"
 #include "io/FileExtension.h"
 #include "io/GivenParameters.h"
 #include "io/SettingsFile.h"
@@ -134,6 +135,7 @@ private:
     CLI::App* command = nullptr;
     std::vector<std::string> inputs;
     std::string methodName = "a2vt";
+    std::string preset;
     bool listMethods = false;
     DescribedOptions described;
     std::string settingsFile;
@@ -171,6 +173,9 @@ CLI::App* EncodeCommand::declare(CLI::App& app)
     addPreset(*command, "--method", methodName,
               "Translation method, see --list-methods; six methods write drive signals as WAV", oneOf(names), "NAME");
     command->add_flag("--list-methods", listMethods, "List the methods and exit");
+    addOption(*command, "--preset", preset,
+              "Set these options for a kind of sound; other options on the command line override it",
+              oneOf(presetNames()), "NAME");
     addOption(*command, "--settings", settingsFile,
               "Read the values of these options from a JSON file; options on the command line override them", "FILE");
     command->add_flag("--print-settings", printSettings, "Print all settings in the form of that file and exit");
@@ -211,6 +216,7 @@ CLI::App* EncodeCommand::declare(CLI::App& app)
                     "  pacini encode sounds/ -o clips/ --format packed -j 8\n"
                     "  pacini encode door.wav -o door.haptic        for the players of Lofelt and Meta\n"
                     "  pacini encode door.wav --method thesis --bands 8\n"
+                    "  pacini encode song.flac --preset music       the beat first\n"
                     "  pacini encode --bands 8 --print-settings > mine.json\n"
                     "  pacini encode sounds/ -o clips/ --settings mine.json\n"
                     "  pacini encode door.wav --method lowpass      writes door.lowpass.wav");
@@ -234,6 +240,12 @@ std::optional<Settings> EncodeCommand::chosenSettings(Console& console) const
     }
     if (command->count("--method") > 0)
         settings.method = methodName;
+    if (!preset.empty())
+        if (const auto used = usePreset(settings, preset); !used)
+        {
+            console.fail("", wrongUsage("--preset", used.error().message), Exit::usage);
+            return std::nullopt;
+        }
     described.addGiven(settings.encode);
     return settings;
 }
@@ -298,8 +310,8 @@ Result<void> EncodeCommand::checkFormat() const
 /// Comes back only where that is not possible.
 Error EncodeCommand::runOnCluster() const
 {
-    std::vector<std::string> known{"inputs",    "output",          "method", "settings", "format",
-                                   "allow-nan", "allow-truncated", "ray",    "quiet",    "overwrite"};
+    std::vector<std::string> known{"inputs",    "output",          "method", "preset", "settings", "format",
+                                   "allow-nan", "allow-truncated", "ray",    "quiet",  "overwrite"};
     for (const ParameterInfo* parameter : translationParameters())
         known.push_back(separatedName(parameter->name, '-'));
     if (output.empty() || isStream(output))
@@ -381,6 +393,7 @@ Exit EncodeCommand::run(Console& console)
     {
         const auto document = settingsJson(*translation, usualChoices(translation->method));
         console.addToReport({{"settings", document},
+                             {"presets", presetsJson()},
                              {"parameters",
                               {{"encode", translationDescriptionsJson()},
                                {"export", exportDescriptionsJson()},

@@ -1,11 +1,13 @@
 #include "io/Settings.h"
 
+#include "io/EncoderPresets.h"
 #include "io/JsonTree.h"
 #include "io/NearestName.h"
 #include "io/formats/ExportParameters.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace pacini
@@ -25,11 +27,35 @@ Result<Method> chosenMethod(std::string_view name)
         fmt::format("'{}' is not one of {}{}", shownText(name), fmt::join(names, ", "), meantText(name, names))};
 }
 
+namespace
+{
+bool sets(const EncoderPreset& preset, const Parameter<EncoderParams>& parameter)
+{
+    return parameter.get(preset.params) != parameter.get(EncoderParams{});
+}
+} // namespace
+
+Result<void> usePreset(Settings& settings, std::string_view name)
+{
+    const auto preset = presetNamed(name);
+    if (!preset)
+        return preset.error();
+    settings.preset = optionName(**preset);
+    const auto all = encoderPresets();
+    for (const auto& parameter : encoderParameters)
+        if (std::any_of(all.begin(), all.end(), [&](const EncoderPreset& one) { return sets(one, parameter); }))
+            settings.encode.set(parameter, parameter.get((*preset)->params));
+    return {};
+}
+
 Result<TranslationParams> translationOf(const Settings& settings)
 {
     const auto method = chosenMethod(settings.method);
     if (!method)
         return method.error();
+    if (!settings.preset.empty() && *method != Method::a2vt)
+        return Error{ErrorCode::invalidArgument, "preset",
+                     fmt::format("is for the method a2vt, not for {}; leave it out", methodInfo(*method).name)};
     TranslationParams translation;
     translation.method = *method;
     for (const GivenValue& given : settings.encode)
@@ -45,6 +71,11 @@ void readEncodeSettings(FieldsReader& reader, Settings& settings)
     reader.optionalText("method", settings.method);
     if (const auto known = chosenMethod(settings.method); !known)
         reader.fail("method", known.error().message, ErrorCode::invalidArgument);
+    std::optional<std::string> preset;
+    reader.optionalText("preset", preset);
+    if (preset)
+        if (const auto used = usePreset(settings, *preset); !used)
+            reader.fail("preset", used.error().message, ErrorCode::invalidArgument);
     readParameters(reader, translationParameters(), settings.encode);
 }
 
@@ -85,6 +116,20 @@ nlohmann::ordered_json settingsJson(const TranslationParams& translation, const 
             encode[std::string(parameter->name)] = *value;
     }
     return {{"format", settingsFormat.name}, {"version", settingsFormat.version}, {"encode", encode}};
+}
+
+nlohmann::ordered_json presetsJson()
+{
+    auto all = nlohmann::ordered_json::array();
+    for (const EncoderPreset& preset : encoderPresets())
+    {
+        auto values = nlohmann::ordered_json::object();
+        for (const auto& parameter : encoderParameters)
+            if (const auto value = jsonOf(parameter, parameter.get(preset.params)); value && sets(preset, parameter))
+                values[std::string(parameter.name)] = *value;
+        all.push_back({{"name", optionName(preset)}, {"purpose", preset.purpose}, {"values", values}});
+    }
+    return all;
 }
 
 nlohmann::ordered_json translationDescriptionsJson()

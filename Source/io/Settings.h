@@ -24,6 +24,7 @@ inline constexpr DocumentFormat settingsFormat{.name = "pacini.settings", .versi
 struct Settings
 {
     std::string method; ///< of encoding; empty: a2vt
+    std::string preset; ///< whose values are among `encode`; empty: none
     GivenParameters encode;
     GivenParameters exporting; ///< part `export`
 };
@@ -31,11 +32,15 @@ struct Settings
 /// The method of this name, a2vt where it is empty. Errors: invalidArgument, with the nearest name.
 [[nodiscard]] Result<Method> chosenMethod(std::string_view name);
 
+/// Sets all that presets differ in to what the preset of this name has; values that are set later override it. Errors:
+/// those of presetNamed().
+[[nodiscard]] Result<void> usePreset(Settings& settings, std::string_view name);
+
 /// The translation that `settings` ask for. Errors: invalidArgument at the name of a parameter that the method does not
-/// have, or whose value is not allowed.
+/// have, or whose value is not allowed, and at `preset` for another method than a2vt.
 [[nodiscard]] Result<TranslationParams> translationOf(const Settings& settings);
 
-/// The entries of the part `encode`: `method` and all parameters of translations.
+/// The entries of the part `encode`: `method`, `preset` and all parameters of translations, which override the preset.
 void readEncodeSettings(FieldsReader& reader, Settings& settings);
 
 /// Longer texts are refused.
@@ -51,6 +56,9 @@ void readSettingsFields(FieldsReader& reader, Settings& settings);
 /// The document of a translation with all that its method can be set to; `usual` are the choices of the method where
 /// nothing else is chosen. readSettings() gives the same translation.
 [[nodiscard]] nlohmann::ordered_json settingsJson(const TranslationParams& translation, const MethodChoices& usual);
+
+/// All presets, each with what is not the default in it.
+[[nodiscard]] nlohmann::ordered_json presetsJson();
 
 /// Descriptions of all parameters of translations, each with its methods.
 [[nodiscard]] nlohmann::ordered_json translationDescriptionsJson();

@@ -49,6 +49,26 @@ class Settings(CommandTest):
         for name, value in values.items():
             self.assertIn(words(name, "") if False else name if name != "keepLevel" else "normalise", json.dumps(record))
 
+    def test_a_preset_is_the_same_at_every_place_of_the_command(self):
+        self.put("a.wav", wav([a + b for a, b in zip(sine(90, 1.0, level=0.3), noise(48000, level=0.3))]))
+        presets = self.report("encode", "--print-settings")["presets"]
+        self.assertEqual(presets[0], {"name": "effects", "purpose": "Good for most sounds", "values": {}})
+        made = set()
+        for preset in presets:
+            options = [word for name, value in preset["values"].items() for word in (f"--{words(name, '-')}", str(value))]
+            self.succeeds("encode", "a.wav", "-o", "options.pacb", "-y", *options)
+            self.succeeds("encode", "a.wav", "-o", "preset.pacb", "-y", "--preset", preset["name"])
+            self.settings(encode={"preset": preset["name"]})
+            self.succeeds("encode", "a.wav", "-o", "file.pacb", "-y", "--settings", "mine.json")
+            self.settings(encode={"bands": 3, "audible": 0.25, "heard": "instead"})
+            self.succeeds("encode", "a.wav", "-o", "over.pacb", "-y", "--settings", "mine.json", "--preset", preset["name"])
+            for name in ("preset", "file", "over"):
+                self.assertEqual((self.folder / f"{name}.pacb").read_bytes(), (self.folder / "options.pacb").read_bytes())
+            made.add((self.folder / "preset.pacb").read_bytes())
+        self.assertEqual(len(made), len(presets))
+        self.fails(2, ["encode", "a.wav", "--preset", "musik"], "--preset", "did you mean music?")
+        self.fails(2, ["encode", "a.wav", "--preset", "music", "--method", "thesis"], "--preset", "is for the method a2vt")
+
     def test_what_no_option_reached_before_changes_a_clip_and_stands_in_its_record(self):
         hits = [0.0] * 48000
         for k in range(20):

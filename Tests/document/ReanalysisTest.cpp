@@ -1,6 +1,6 @@
 #include "document/Analysis.h"
 #include "document/EditText.h"
-#include "document/EncoderPresets.h"
+#include "io/EncoderPresets.h"
 #include "support/Catch.h"
 
 #include <cmath>

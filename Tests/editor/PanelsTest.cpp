@@ -1,11 +1,11 @@
 // The pages Analysis and Project without a screen.
 
-#include "document/EncoderPresets.h"
 #include "editor/Bench.h"
 #include "editor/Pump.h"
 #include "editor/clip/panels/AnalysisPanel.h"
 #include "editor/clip/panels/ProjectPanel.h"
 #include "io/AudioWriter.h"
+#include "io/EncoderPresets.h"
 #include "io/FinishedClip.h"
 #include "support/TempFolder.h"
 

@@ -1,5 +1,6 @@
 #include "io/Settings.h"
 
+#include "io/EncoderPresets.h"
 #include "io/FieldsWriter.h"
 #include "io/ParameterFields.h"
 #include "io/formats/ExportParameters.h"
@@ -51,6 +52,32 @@ TEST_CASE("Settings of every method come back as they were written", "[settings]
         REQUIRE(back);
         CHECK(*back == translation);
     }
+}
+
+TEST_CASE("A preset gives its parameters under each of its names, and values beside it override it", "[settings]")
+{
+    for (const EncoderPreset& preset : encoderPresets())
+    {
+        CAPTURE(std::string(preset.name));
+        for (const std::string& name : {std::string(preset.name), optionName(preset)})
+        {
+            // Whatever stood there before: all that presets differ in is as this one has it.
+            Settings settings = read(R"({"preset": "low-rumble", "bands": 3, "audible": 0.25})").value();
+            REQUIRE(usePreset(settings, name));
+            CHECK(translationOf(settings).value().params == preset.params);
+            const auto beside =
+                translationOf(read(R"({"maskLimit": 5, "bands": 7, "preset": ")" + name + "\"}").value());
+            EncoderParams wanted = preset.params;
+            wanted.bands = 7;
+            wanted.onsets.maskLimit = Decibels(5.0);
+            CHECK(beside.value().params == wanted);
+        }
+    }
+    CHECK(messageOf(R"({"preset": "musics"})").find("did you mean music?") != std::string::npos);
+    CHECK(messageOf(R"({"preset": ""})").find("is not one of effects") != std::string::npos);
+    CHECK(messageOf(R"({"preset": 3})").find("encode.preset") != std::string::npos);
+    CHECK(messageOf(R"({"preset": "effects", "method": "lowpass"})").find("preset: is for the method a2vt") !=
+          std::string::npos);
 }
 
 TEST_CASE("Settings that are printed without a choice change nothing", "[settings]")

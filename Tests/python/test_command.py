@@ -53,6 +53,20 @@ class SameAsCommand(FolderTest):
         self.assertEqual(list(_parameters.ENCODE.values()), described["encode"])
         self.assertEqual(list(_parameters.EXPORT.values()), described["export"])
 
+    def test_presets_are_the_same(self):
+        presets = json.loads(run("encode", "--print-settings", "--json"))["presets"]
+        self.assertEqual([(one.name, one.purpose) for one in pacini.presets()], [(one["name"], one["purpose"]) for one in presets])
+        sound, output = DEMO[0], self.folder / "clip.pacb"
+        for preset in pacini.presets():
+            run("encode", sound, "-o", output, "--preset", preset.name, "--bands", 5, "-q", "-y")
+            settings = {"format": "pacini.settings", "version": 1, "encode": {"preset": preset.name}}
+            for options in ({"preset": preset.name}, {"settings": settings}):
+                self.assertEqual(pacini.encode(sound, bands=5, **options).to_bytes(), output.read_bytes())
+        with self.assertRaises(pacini.Error) as caught:
+            pacini.encode(sound, preset="musik")
+        self.assertEqual(caught.exception.where, "preset")
+        self.assertIn("did you mean music?", str(caught.exception))
+
     def test_methods_that_make_clips_or_signals_make_the_same(self):
         sound = DEMO[0]
         samples, rate = pacini.read_audio(sound)

@@ -20,8 +20,9 @@ DOCUMENT = ("Source/document",)
 LOSSES = re.compile(r"Source/io/formats/(.*Writer|.*/?LossList|VoiceReduction|ClipFormat|.*AndroidEffects|"
                     r".*AndroidWaveform|.*EnvelopeFit|.*SumLimit|.*HjifVoices|.*DriveSamples)\.cpp$")
 
-# Names of presets of the plugin; what is said of them is for the command.
+# Names of presets; what is said of the plugin's is for the command.
 PRESETS = Path("Core/pacini/realtime/TranslatorPresets.h")
+ENCODER_PRESETS = Path("Source/io/EncoderPresets.cpp")
 ERRORS = Path("Core/pacini/foundation/Result.h")  # of the core, which windows show
 
 # Files without a text for users of windows.
@@ -165,9 +166,10 @@ def check(root, tables):
             for line, text in literals(path):
                 if text not in no_texts and is_text(text, name):
                     wanted.setdefault(numbered(text), f"{name}:{line}")
-    for line, text in literals(root / PRESETS):
-        if re.match(r"[A-Z]", text):
-            wanted.setdefault(text, f"{PRESETS.as_posix()}:{line}")
+    for presets in (PRESETS, ENCODER_PRESETS):
+        for line, text in literals(root / presets):
+            if re.match(r"[A-Z0-9]", text):
+                wanted.setdefault(text, f"{presets.as_posix()}:{line}")
     for line, text in literals(root / ERRORS):
         if is_text(text, "Source/io"):
             wanted.setdefault(text, f"{ERRORS.as_posix()}:{line}")

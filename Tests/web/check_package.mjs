@@ -133,6 +133,14 @@ try {
   const byOptions = await encode(sound, { ...chosen, format: 'packed' })
   check('settings do what options do', same(byOptions, await encode(sound, { settings: settings(chosen), format: 'packed' })))
   check('options come before settings', same(byOptions, await encode(sound, { ...chosen, settings: settings({ bands: 9 }), format: 'packed' })))
+  for (const [at, { name }] of JSON.parse(native('encode', '--print-settings', '--json')).presets.entries()) {
+    native('encode', join(sounds, names[0]), '-o', 'preset.pacb', '--preset', name, '-y')
+    const wanted = readFileSync(join(folder, 'preset.pacb'))
+    const options = { name: basename(names[0], '.wav'), source: names[0], format: 'packed' }
+    const first = readWav(readFileSync(join(sounds, names[0])))
+    check(`the preset ${name} is that of the program`, same(await encode(first, { ...options, preset: name }), wanted) &&
+      (at > 0 || same(await encode(first, { ...options, preset: name, settings: settings({ audible: 0.25 }) }), wanted)))
+  }
   check('a method of settings is that of the option', (await encode(sound, { settings: settings({ method: 'thesis', attack: 0.1 }) })).encoder.attack === 0.1)
 
   // What is wrong.
@@ -157,6 +165,7 @@ try {
     ['an option that is not known', () => encode(sound, { bnads: 4 }), 'bnads'],
     ['a choice that is not known', () => encode(sound, { spacing: 'linaer' }), 'spacing'],
     ['settings of another kind', () => encode(sound, { settings: { format: 'pacini.clip', version: 1 } }), 'settings.format'],
+    ['a wrong preset', () => encode(sound, { preset: 'musik' }), 'preset'],
     ['a wrong setting', () => encode(sound, { settings: settings({ bands: 99 }) }), 'settings.encode.bands'],
     ['an absurdly large sample', () => encode({ samples: new Float32Array([0, 1e30]), sampleRate: 48000 }), 'frame 1, channel 0'],
     ['an export option that changes nothing', () => write(clip, { format: 'haptic', sampleRate: 4000 }), 'sampleRate'],

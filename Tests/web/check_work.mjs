@@ -150,6 +150,22 @@ try {
   await main.turn('bands', 6)
   const next = await main.clip()
   check('and the next turn takes that', next.encoder.bands === 6 && next.encoder.breakpoints === 20, JSON.stringify(next.encoder))
+  // A preset is what the encoder has under that name; knobs go on from there.
+  const preset = async (page) => page.tab.$eval('#preset', ({ value }) => value)
+  await tab.$eval('#status', (status) => { status.textContent = '' })
+  await tab.select('#preset', 'low-rumble')
+  await main.settled()
+  const { encoder: rumble } = await main.clip()
+  check('a preset sets knobs and what no knob shows', rumble.bands === 8 && rumble.low === 20 && rumble.high === 300 && rumble.audible === 0 &&
+    await main.number('bands') === 8 && await preset(main) === 'low-rumble', JSON.stringify(rumble))
+  await main.turn('bands', 9)
+  const { encoder: turnedOn } = await main.clip()
+  check('a knob keeps the rest of a preset', turnedOn.bands === 9 && turnedOn.low === 20 && turnedOn.audible === 0 && await preset(main) === '',
+    JSON.stringify(turnedOn))
+  await tab.$eval('#undo', (button) => button.click())
+  await until(async () => await preset(main) === 'low-rumble')
+  await tab.$eval('#undo', (button) => button.click())
+  check('Undo takes both back', await until(async () => await main.number('bands') === 6 && await preset(main) === ''), await preset(main))
   await tab.select('#profile', 'lra-175')
   await tab.$eval('#strength', (input) => { input.value = 0.8; input.dispatchEvent(new Event('input', { bubbles: true })) })
   await wait(500)

@@ -1,5 +1,6 @@
 // Sounds to clips, or to drive signals by methods that make no clip.
 
+#include "io/EncoderPresets.h"
 #include "io/Settings.h"
 #include "io/SoundEncoder.h"
 #include "python/native/ClipHandle.h"
@@ -30,6 +31,7 @@ namespace
 struct EncodeOptions
 {
     std::string method; ///< empty: that of `settings`, else a2vt
+    std::string preset; ///< empty: none
     nb::dict options;
     std::string settings; ///< empty: none
     bool allowNan = false;
@@ -48,6 +50,8 @@ SoundEncoderParams paramsOf(const EncodeOptions& options, ReadWarnings& warnings
         settings = take(readSettings(options.settings, &warnings));
     if (!options.method.empty())
         settings.method = options.method;
+    if (!options.preset.empty())
+        takeNamed(usePreset(settings, options.preset));
     for (const auto& [parameter, value] : givenOptions(options.options, translationParameters()))
         settings.encode.set(*parameter, value);
     SoundEncoderParams params;
@@ -220,6 +224,14 @@ std::vector<std::tuple<std::string, std::string, std::string>> methodList()
         list.emplace_back(info.name, info.output == MethodOutput::clip ? "clip" : "signal", info.description);
     return list;
 }
+
+std::vector<std::tuple<std::string, std::string>> presetList()
+{
+    std::vector<std::tuple<std::string, std::string>> list;
+    for (const EncoderPreset& preset : encoderPresets())
+        list.emplace_back(optionName(preset), preset.purpose);
+    return list;
+}
 } // namespace
 
 void bindEncode(nb::module_& module)
@@ -227,13 +239,13 @@ void bindEncode(nb::module_& module)
     nb::class_<EncoderHandle>(module, "EncoderHandle")
         .def(
             "__init__",
-            [](EncoderHandle* self, std::string method, nb::dict options, std::string settings, bool allowNan,
-               bool allowTruncated)
+            [](EncoderHandle* self, std::string method, std::string preset, nb::dict options, std::string settings,
+               bool allowNan, bool allowTruncated)
             {
-                new (self) EncoderHandle(EncodeOptions{std::move(method), std::move(options), std::move(settings),
-                                                       allowNan, allowTruncated});
+                new (self) EncoderHandle(EncodeOptions{std::move(method), std::move(preset), std::move(options),
+                                                       std::move(settings), allowNan, allowTruncated});
             },
-            "method"_a, "options"_a, "settings"_a, "allow_nan"_a, "allow_truncated"_a)
+            "method"_a, "preset"_a, "options"_a, "settings"_a, "allow_nan"_a, "allow_truncated"_a)
         .def("encode_array", &EncoderHandle::encodeArray, "sound"_a, "sample_rate"_a, "name"_a, "source"_a,
              "progress"_a.none())
         .def("encode_file", &EncoderHandle::encodeFile, "path"_a, "progress"_a.none())
@@ -241,6 +253,7 @@ void bindEncode(nb::module_& module)
         .def_prop_ro("sound_doubts", &EncoderHandle::soundDoubts)
         .def_prop_ro("makes_clip", &EncoderHandle::makesClip);
     module.def("methods", &methodList);
+    module.def("presets", &presetList);
     module.def("encode_parameters", [] { return translationDescriptionsJson().dump(); });
 }
 

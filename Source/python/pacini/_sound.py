@@ -46,10 +46,23 @@ def methods() -> list[Method]:
     return [Method(*entry) for entry in _native.methods()]
 
 
+class Preset(NamedTuple):
+    """Options of :func:`encode` for a kind of sound."""
+
+    name: str
+    purpose: str
+
+
+def presets() -> list[Preset]:
+    """The presets of :func:`encode`; the first is the default."""
+    return [Preset(*entry) for entry in _native.presets()]
+
+
 class _Wanted(NamedTuple):
     """How sounds are encoded: what the native encoder is made of."""
 
     method: str
+    preset: str
     options: dict[str, Any]
     settings: str
     allow_nan: bool
@@ -70,14 +83,14 @@ def _settings_text(settings: Optional[AnySettings]) -> str:
 
 def check_options(options: dict[str, Any]) -> None:
     """Raises what :func:`encode` would raise of every sound: for many of them this is known before the first."""
-    own = {"method": "", "settings": None, "allow_nan": False, "allow_truncated": False}
+    own = {"method": "", "preset": "", "settings": None, "allow_nan": False, "allow_truncated": False}
     given = {name: value for name, value in options.items() if name not in own and value is not None}
     if found := unknown(given, ENCODE):
         raise Error(f"is no option of pacini.encode(){found[1]}", found[0])
     chosen = {**own, **{name: value for name, value in options.items() if name in own and value is not None}}
     _native.EncoderHandle(
-        str(chosen["method"]), given, _settings_text(chosen["settings"]), bool(chosen["allow_nan"]),
-        bool(chosen["allow_truncated"]),
+        str(chosen["method"]), str(chosen["preset"]), given, _settings_text(chosen["settings"]),
+        bool(chosen["allow_nan"]), bool(chosen["allow_truncated"]),
     )  # fmt: skip
 
 
@@ -147,6 +160,7 @@ def encode(
     *,
     axis: int = -1,
     method: Optional[str] = None,
+    preset: Optional[str] = None,
     settings: Optional[AnySettings] = None,
     allow_nan: bool = False,
     allow_truncated: bool = False,
@@ -159,14 +173,15 @@ def encode(
 
     `axis` is the one that the frames of an array are on. float32 samples that lie in memory frame by frame (one
     channel, or (frames, channels) in C order with ``axis=0``) are read where they are; others are converted piece by
-    piece. `settings` is a file as of ``pacini encode --print-settings``, or its object; `method` (a2vt) and the other
-    options, those of ``pacini encode``, come before it. None is the method's own. `name` and `source` (a file name) go
+    piece. `settings` is a file as of ``pacini encode --print-settings``, or its object; `method` (a2vt), `preset` (one
+    of :func:`presets`) and the other options, those of ``pacini encode``, come before it, and options before the
+    preset. None is the method's own. `name` and `source` (a file name) go
     into clips of arrays. The interpreter's lock is free meanwhile; `progress` is True for a bar of tqdm, or a function
     of the share that is done. Raises :class:`pacini.Error`.
     """
     given = {name: value for name, value in options.items() if value is not None}
     check_names("encode", given, ENCODE)
-    wanted = _Wanted(method or "", given, _settings_text(settings), allow_nan, allow_truncated)
+    wanted = _Wanted(method or "", preset or "", given, _settings_text(settings), allow_nan, allow_truncated)
     return Clip._of(_translated(sound, sample_rate, axis, name, source, progress, "clip", wanted))
 
 
@@ -182,7 +197,7 @@ def translate(
 ) -> tuple[npt.NDArray[np.float32], int]:
     """The drive signal that a method makes of a sound, and its rate: for methods that make no clip, see
     :func:`methods`. The sound is given as to :func:`encode`."""
-    wanted = _Wanted(method, {}, "", allow_nan, allow_truncated)
+    wanted = _Wanted(method, "", {}, "", allow_nan, allow_truncated)
     signal, rate = _translated(sound, sample_rate, axis, "", "", progress, "signal", wanted)
     return signal, rate
 

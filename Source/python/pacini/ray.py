@@ -492,7 +492,7 @@ def main(arguments: Optional[Sequence[str]] = None) -> int:
     parser.add_argument("--batch", type=int, default=32, help="sounds that a worker gets at a time (32)")
     parser.add_argument("--retries", type=int, default=3, help="after the death of a worker (3)")
     parser.add_argument("-q", "--quiet", action="store_true", help="no progress")
-    for name in ("method", "settings"):
+    for name in ("method", "preset", "settings"):
         parser.add_argument(f"--{name}", help="as of pacini encode")
     kinds: dict[str, Callable[[str], Any]] = {"number": float, "whole": int, "choice": str}
     for one in ENCODE.values():

@@ -38,6 +38,10 @@ export interface EncodeOptions extends Stoppable {
   method?: string
   /** As `pacini encode --print-settings` writes it; the other options come before it. */
   settings?: object
+  // presets
+  /** Values for a kind of sound; other options override it. */
+  preset?: 'effects' | 'fine-detail' | 'small-file' | 'transients-first' | 'steady-texture' | 'low-rumble' | 'as-recorded' | 'music' | 'everything-heard'
+  // end of presets
   // parameters: encode
   /** Number of frequency bands (1 to 32) [12] */
   bands?: number
@@ -137,6 +141,16 @@ export interface Parameter {
 }
 /** Of encode(). */
 export function parameters(options?: Stoppable): Promise<Parameter[]>
+
+/** Values of encode() for a kind of sound. */
+export interface Preset {
+  name: NonNullable<EncodeOptions['preset']>
+  purpose: string
+  values: Required<Pick<EncodeOptions, 'bands' | 'breakpoints' | 'quantise' | 'low' | 'high' | 'sensitivity' | 'audible' | 'heard'>>
+}
+
+/** The presets of encode(); the first is the default. */
+export const presets: readonly Preset[]
 /** Of write() and lint(), beside the format. */
 export function exportParameters(options?: Stoppable): Promise<Parameter[]>
 

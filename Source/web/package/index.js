@@ -103,6 +103,8 @@ export const reapply = async (before, after, edits, { signal } = {}) => {
 /** What can be set of encode(), as it is described everywhere: names, units, ranges, defaults, and the methods that have it. */
 export const parameters = async ({ signal } = {}) => (await ready('encode', signal)).call('parameters').value.parameters
 
+export { presets } from './presets.js'
+
 /** What can be set of write() and lint(), beside the format, and the formats that each changes anything in. */
 export const exportParameters = async ({ signal } = {}) => (await ready('formats', signal)).call('exportParameters').value.parameters
 

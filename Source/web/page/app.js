@@ -1,6 +1,7 @@
 // The page: a sound or clip comes in, is shown, felt, changed and taken along.
 
 import { readWav } from './pacini/sound.js'
+import { presets } from './pacini/presets.js'
 import profiles from './pacini/profiles.js'
 import { Core } from './core.js'
 import { startEditing } from './editing.js'
@@ -198,22 +199,40 @@ const analyseAgain = async () => {
 
 // ---- shown
 
-/** The knobs of the analysis: they stand where the document's analysis has them, unless they are turned. */
+/** The knobs and the preset of the analysis: they stand where the document's analysis has them, unless they are turned. */
 const knobs = {
   ids: ['bands', 'breakpoints', 'sensitivity'],
   usual: side.call('defaults'),
+  others: {}, // what presets differ in and no knob shows
   async show() {
     const usual = await knobs.usual
     if (turned) return
-    for (const id of knobs.ids) knobs.put(id, history.now?.analysis.encoder?.[id] ?? usual[id])
+    const encoder = history.now?.analysis.encoder ?? {}
+    for (const id of knobs.ids) knobs.put(id, encoder[id] ?? usual[id])
+    const heard = encoder.audible === undefined ? {} : { heard: 'instead' } // of clips that do not say it
+    knobs.others = knobs.hidden({ ...presets[0].values, ...heard, ...encoder })
+    knobs.showPreset()
   },
   put(id, value) {
     element(id).value = value
     element(id).parentElement.querySelector('output').value = element(id).value
   },
+  showPreset() {
+    const own = knobs.all()
+    const found = presets.find(({ values }) => Object.keys(values).every((name) => own[name] === values[name]))
+    element('preset').value = found?.name ?? ''
+  },
+  choosePreset(name) {
+    const { values } = presets.find((preset) => preset.name === name)
+    for (const id of knobs.ids) knobs.put(id, values[id])
+    knobs.others = knobs.hidden(values)
+  },
+  hidden: (values) => Object.fromEntries(
+    Object.keys(presets[0].values).filter((name) => !knobs.ids.includes(name)).map((name) => [name, values[name]])),
+  all: () => ({ ...knobs.others, ...Object.fromEntries(knobs.ids.map((id) => [id, Number(element(id).value)])) }),
   async values() {
     await knobs.usual
-    return turned ?? Object.fromEntries(knobs.ids.map((id) => [id, Number(element(id).value)]))
+    return turned ?? knobs.all()
   }
 }
 
@@ -245,7 +264,7 @@ const show = async () => {
   element('link').parentElement.hidden = true // of what was before
   element('lanes').setAttribute('aria-label',
     `${document.name}: ${view.clip.duration.toFixed(2)} s, ${view.clip.bands.length} bands, ${view.clip.transients.length} events`)
-  for (const id of ['play-sound', 'play-both', 'bands', 'breakpoints', 'sensitivity', 'spectrogram']) element(id).disabled = !mono
+  for (const id of ['play-sound', 'play-both', 'preset', 'bands', 'breakpoints', 'sensitivity', 'spectrogram']) element(id).disabled = !mono
   for (const [id, what] of [['undo', history.undoes], ['redo', history.redoes]]) {
     element(id).disabled = what === undefined
     element(id).title = what ?? ''
@@ -564,17 +583,30 @@ for (const [key, profile] of Object.entries(profiles)) element('profile').add(ne
 element('profile').add(new Option('none: plain drive', ''))
 element('profile').value = 'l5-wristband'
 for (let channel = 1; channel < channelCount(); ++channel) element('channel').add(new Option(channel === 1 ? '2, right' : String(channel + 1), String(channel)))
+for (const { name, purpose } of presets) {
+  const option = new Option(`${name[0].toUpperCase()}${name.slice(1).replaceAll('-', ' ')}`, name)
+  option.title = purpose
+  element('preset').add(option)
+}
 let turns = 0 // of knobs: what one turn changes is one step
 const again = later(analyseAgain, 150)
 for (const id of knobs.ids) {
   element(id).addEventListener('input', () => {
     if (opening === opened) return // what comes has its own
-    turned = Object.fromEntries(knobs.ids.map((one) => [one, Number(element(one).value)]))
+    turned = knobs.all()
+    knobs.showPreset()
     again()
   })
   element(id).addEventListener('pointerdown', () => ++turns)
   element(id).addEventListener('focus', () => ++turns)
 }
+element('preset').addEventListener('change', () => {
+  if (opening === opened || element('preset').value === '') return knobs.showPreset()
+  ++turns
+  knobs.choosePreset(element('preset').value)
+  turned = knobs.all()
+  again()
+})
 const feelOtherwise = () => Promise.all([remember(), renderDrive()])
 element('strength').addEventListener('input', later(feelOtherwise, 100))
 on('profile', 'change', feelOtherwise)

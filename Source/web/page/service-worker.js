@@ -4,7 +4,7 @@ const cacheName = 'pacini-3'
 const first = ['./', 'index.html', 'style.css', 'app.js', 'core.js', 'curve.js', 'editing.js', 'edits.js', 'feel.js', 'fields.js', 'first-part.js', 'hid.js',
   'figures.js', 'guide.html', 'guide.js', 'guide/list.js', 'history.js', 'kinds.js', 'lanes.js', 'live.js',
   'microphone.js', 'peaks.js', 'sound-player.js', 'store.js', 'vibration.js', 'worker.js', 'zip.js',
-  'gallery/list.js', 'pacini/index.js', 'pacini/module.js', 'pacini/sound.js', 'pacini/profiles.js', 'pacini/encode.wasm', 'pacini/render.wasm', 'pacini/formats.wasm',
+  'gallery/list.js', 'pacini/index.js', 'pacini/module.js', 'pacini/sound.js', 'pacini/presets.js', 'pacini/profiles.js', 'pacini/encode.wasm', 'pacini/render.wasm', 'pacini/formats.wasm',
   'pacini/research.wasm', 'pacini/devices.wasm', 'pacini/translator.wasm', 'pacini/translator.js', 'pacini/translator-worklet.js']
 
 self.addEventListener('install', (event) => {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/clip/panels/AnalysisPanel.h"
 
-#include "document/EncoderPresets.h"
 #include "editor/Controls.h"
 #include "editor/Text.h"
 #include "editor/Theme.h"
 #include "editor/Translation.h"
 #include "editor/clip/EditorView.h"
+#include "io/EncoderPresets.h"
 
 #include <algorithm>
 #include <string_view>
