@@ -175,7 +175,8 @@ class Documents(CommandTest):
         """Benchmarks do here what they do, on the sounds that are there, once."""
         if not line.startswith("pacini bench"):
             return line
-        line = re.sub(r" --repeat \d+", "", line).replace("Resources/demo", "sounds") + " --repeat 1"
+        line = re.sub(r" --repeat \d+|(?<=bench)$", lambda found: "" if found[0] else " all", line)
+        line = line.replace("Resources/demo", "sounds") + " --repeat 1"
         if SANITIZED:
             line = line.replace(" --sweep", "")
         if not re.search(r"bench \w+ (sounds|corpus)", line):
