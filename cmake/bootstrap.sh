@@ -190,8 +190,8 @@ build_command() {
 # The core as WebAssembly, the npm package and the page.
 build_web() {
     say "Building for the web"
-    cmake -S Source/web -B build/web -G Ninja --toolchain "$PWD/cmake/wasm32.cmake" \
-        "-DPACINI_PROGRAM=$PWD/build/release/bin/pacini" >/dev/null || fail "cannot configure Source/web"
+    cmake -S Source/web -B build/web -G Ninja --toolchain "$PWD/cmake/wasm32.cmake" >/dev/null ||
+        fail "cannot configure Source/web"
     cmake --build build/web --parallel "$(jobs)"
 }
 
@@ -280,7 +280,6 @@ package)
     ;;
 web)
     install_packages "${build_packages[@]}" "${web_packages[@]}" python3
-    build_command
     build_web
     say "Serving http://127.0.0.1:${PACINI_PORT:=8722}/ until Ctrl+C"
     exec python3 -B Source/web/serve.py build/web/page "$PACINI_PORT"

@@ -11,7 +11,7 @@ import { guardNumber, guardSlider } from './fields.js'
 import { firstPart } from './first-part.js'
 import { canAsk, remembered } from './hid.js'
 import { History } from './history.js'
-import { byKind } from './kinds.js'
+import { byKind, titleOf } from './kinds.js'
 import { Lanes } from './lanes.js'
 import { Live } from './live.js'
 import { microphone } from './microphone.js'
@@ -21,6 +21,7 @@ import { claim, keep, kept, keptWorks, newId } from './store.js'
 import { zip } from './zip.js'
 
 const element = (id) => document.getElementById(id)
+const counted = (number, what) => `${number} ${what}${number === 1 ? '' : 's'}`
 const core = new Core() // encodes; ended when it works for nothing
 const side = new Core() // everything else
 /**
@@ -100,7 +101,7 @@ const monoOf = ({ samples }) => {
   return mean
 }
 
-const decoded = async (bytes) => {
+const decoded = async (bytes, file) => {
   // WAV sample for sample as the program reads it; everything else by the browser, at the rate of its own choice.
   if (isWav(bytes)) return readWav(bytes)
   const context = new OfflineAudioContext(1, 1, 48000)
@@ -108,7 +109,7 @@ const decoded = async (bytes) => {
   try {
     buffer = await context.decodeAudioData(bytes.slice().buffer)
   } catch {
-    throw new Error('This is no sound that the browser can read, and no clip. WAV, FLAC, MP3 and Ogg work everywhere.')
+    throw new Error(`${file} cannot be opened. Try WAV, FLAC or MP3.`)
   }
   return { samples: Array.from({ length: buffer.numberOfChannels }, (_, c) => buffer.getChannelData(c).slice()), sampleRate: buffer.sampleRate }
 }
@@ -134,7 +135,7 @@ const open = async (file, reading) => {
       document = { clip }
       said = warnings.join(' ')
     } else {
-      const sound = await decoded(bytes)
+      const sound = await decoded(bytes, file)
       if (sound.samples.length === 0 || monoOf(sound).length === 0) throw new Error(`${file} has no samples.`)
       if (own !== opened) return
       sound.id = newId()
@@ -260,10 +261,11 @@ const show = async () => {
     view.selected = 0
   }
   view.clip = document.clip
+  element('welcome').hidden = true
   for (const id of ['clip', 'export']) element(id).hidden = false
   element('link').parentElement.hidden = true // of what was before
   element('lanes').setAttribute('aria-label',
-    `${document.name}: ${view.clip.duration.toFixed(2)} s, ${view.clip.bands.length} bands, ${view.clip.transients.length} events`)
+    `${document.name}: ${view.clip.duration.toFixed(2)} s, ${counted(view.clip.bands.length, 'band')}, ${counted(view.clip.transients.length, 'event')}`)
   for (const id of ['play-sound', 'play-both', 'preset', 'bands', 'breakpoints', 'sensitivity', 'spectrogram']) element(id).disabled = !mono
   for (const [id, what] of [['undo', history.undoes], ['redo', history.redoes]]) {
     element(id).disabled = what === undefined
@@ -287,7 +289,7 @@ const renderDrive = newestOnly(async () => {
   if (clip !== view.clip) return
   const points = clip.bands.reduce((sum, band) => sum + band.amplitude.length, 0)
   element('figures').textContent = `${clip.duration.toFixed(2)} s, ${files[0].bytes.length} bytes packed, ` +
-    `${points} breakpoints in ${clip.bands.length} bands, ${clip.transients.length} events` +
+    `${counted(points, 'breakpoint')} in ${counted(clip.bands.length, 'band')}, ${counted(clip.transients.length, 'event')}` +
     (rendered.reduction > 0.05 ? `; the actuator's protection takes ${rendered.reduction.toFixed(1)} dB` : '') +
     (clip.duration > longestRendered ? `. This is long: what the actuator plays is rendered, shown and played of the first ${longestRendered / 60} minutes; files hold all of it` : '')
   await showLosses()
@@ -644,12 +646,12 @@ on('file', 'change', async ({ target }) => {
   target.value = ''
   if (file) await open(file.name, file.arrayBuffer())
 })
+const openExample = (file) => open(file, fetch(`gallery/${file}`).then((answer) => {
+  if (!answer.ok) throw new Error(`${file} cannot be loaded. Is the network there?`)
+  return answer.arrayBuffer()
+}))
 on('gallery', 'change', async ({ target }) => {
-  if (!target.value) return
-  await open(target.value, fetch(`gallery/${target.value}`).then((answer) => {
-    if (!answer.ok) throw new Error('This clip is not there.')
-    return answer.arrayBuffer()
-  }))
+  if (target.value) await openExample(target.value)
 })
 on('works', 'change', async ({ target: { value: id, selectedOptions: [{ text }] } }) => {
   if (!id) return
@@ -702,8 +704,17 @@ guarded(async () => {
   for (const [kind, files] of byKind(gallery)) {
     const group = document.createElement('optgroup')
     group.label = kind
-    group.append(...files.map((file) => new Option(file.replace(/\.pacb$/, '').replaceAll('_', ' '), file)))
+    group.append(...files.map((file) => new Option(titleOf(file), file)))
     element('gallery').append(group)
+    for (const file of files.slice(0, files.length >= 4 ? 2 : 1)) {
+      const card = document.createElement('button')
+      const about = document.createElement('span')
+      about.textContent = kind
+      card.type = 'button'
+      card.append(titleOf(file), about)
+      card.addEventListener('click', guarded(() => openExample(file)))
+      element('examples').append(card)
+    }
   }
 })()
 guarded(async () => {

@@ -18,7 +18,7 @@ export const describeFeel = () => {
   if (pads.length > 0) return `On ${pads.map((pad) => pad.id.replace(/\s*\(.*$/, '')).join(', ')}.`
   if (canVibrate()) return 'On this phone.'
   return 'Connect a game controller and press one of its buttons, or open this page on a phone that vibrates. ' +
-    'An actuator on a sound interface plays "Sound left, touch on its channel".'
+    'With an actuator on a sound interface, use "Play sound and haptics together".'
 }
 
 /** Asks for a controller that understands reports. */

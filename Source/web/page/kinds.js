@@ -1,19 +1,23 @@
 // The gallery by kinds of sound.
 
 const kinds = {
-  'Hits': ['knock_wood_bridge', 'impact_boom', 'explosion', 'weapon'],
-  'Clicks and messages': ['click_clock', 'ui_click', 'notification'],
-  'Rhythms': ['drums_tabla_pattern', 'iter_drum_roll', 'footsteps', 'heartbeat'],
-  'Music': ['pluck_guitar_harmonics', 'music_bed'],
-  'Textures and machines': ['texture_river', 'rain', 'texture', 'engine_loop'],
-  'Movements': ['sweep_spring_up']
+  'Hits': { knock_wood_bridge: 'Knock on wood', impact_boom: 'Boom', explosion: 'Explosion', weapon: 'Shot' },
+  'Clicks and messages': { click_clock: 'Clock', ui_click: 'Button', notification: 'Notification' },
+  'Rhythms': { drums_tabla_pattern: 'Tabla', iter_drum_roll: 'Drum roll', footsteps: 'Footsteps', heartbeat: 'Heartbeat' },
+  'Music': { pluck_guitar_harmonics: 'Guitar', music_bed: 'Synthesizer' },
+  'Textures and machines': { texture_river: 'River', rain: 'Rain', texture: 'Texture', engine_loop: 'Engine' },
+  'Movements': { sweep_spring_up: 'Spring' }
 }
+const nameOf = (file) => file.replace(/\.flac$/, '')
+
+/** The name of a file of the gallery, for people. */
+export const titleOf = (file) => Object.assign({}, ...Object.values(kinds))[nameOf(file)] ?? nameOf(file).replaceAll('_', ' ')
 
 /** `[kind, files]` of a gallery; what has no kind comes last. */
 export const byKind = (files) => {
-  const nameOf = (file) => file.replace(/\.pacb$/, '')
-  const known = new Set(Object.values(kinds).flat())
-  return [...Object.entries(kinds), ['Others', files.map(nameOf).filter((name) => !known.has(name))]]
-    .map(([kind, names]) => [kind, names.map((name) => `${name}.pacb`).filter((file) => files.includes(file))])
+  const known = new Set(Object.values(kinds).flatMap(Object.keys))
+  const others = files.map(nameOf).filter((name) => !known.has(name))
+  return [...Object.entries(kinds).map(([kind, titles]) => [kind, Object.keys(titles)]), ['Others', others]]
+    .map(([kind, names]) => [kind, names.map((name) => `${name}.flac`).filter((file) => files.includes(file))])
     .filter(([, there]) => there.length > 0)
 }
