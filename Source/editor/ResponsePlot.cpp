@@ -170,7 +170,8 @@ void ResponsePlot::paintGrid(juce::Graphics& g) const
                 continue;
             free = place.getRight() - grid;
             g.setColour(p.dim);
-            g.drawText(hertz(f) + (i == 1 ? " Hz" : ""), place, juce::Justification::centred, false);
+            const char* const unit = i != 1 ? "" : f < 1000.0 ? " Hz" : "Hz"; // 20 Hz, 2 kHz
+            g.drawText(hertz(f) + unit, place, juce::Justification::centred, false);
         }
 }
 

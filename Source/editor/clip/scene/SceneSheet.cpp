@@ -222,7 +222,9 @@ void SceneSheet::plan()
                  else if (plays)
                      isTimerRunning() ? session.player.set(playback()) : begin();
                  juce::String text = counted(parts, "{0} clip", "{0} clips");
-                 if (!found)
+                 if (found && parts == 0)
+                     text = tr("No clips yet");
+                 else if (!found)
                      text = translateMessage(toText(found.error().text()));
                  else if (scene.leftOut.empty() && scene.bands == 0)
                      text << ", " << tr("all of them are felt");

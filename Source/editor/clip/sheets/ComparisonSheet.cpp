@@ -68,9 +68,10 @@ void ComparisonSheet::showResult(Result<SoundComparison> result)
         {
             return juce::String(value, 1);
         };
-        summary = tr("HTS {0} of {1}", {number(found->score), number(found->best)});
+        summary = tr("Likeness {0} (sound itself {1})", {number(found->score), number(found->best)});
         if (found->match)
-            summary << ", " << tr("predicted match {0} of {1}", {number(*found->match), number(*found->bestMatch)});
+            summary << ", "
+                    << tr("predicted match {0} (sound itself {1})", {number(*found->match), number(*found->bestMatch)});
         const auto worst = std::max_element(found->differenceOfRows.begin(), found->differenceOfRows.end());
         summary << ", "
                 << tr("differs most at {0} Hz, by {1} dB",
