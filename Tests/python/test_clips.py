@@ -2,9 +2,11 @@
 
 import copy
 import dataclasses
+import errno
 import pickle
 import unittest
 import warnings
+from pathlib import Path
 
 import numpy as np
 import pacini
@@ -173,10 +175,31 @@ class Clips(FolderTest):
         self.assertEqual(hash(profile), hash(pacini.Profile("l5-wristband")))
         error = pickle.loads(pickle.dumps(pacini.Error("is wrong", "place", "io")))
         self.assertEqual((str(error), error.where, error.code), ("place: is wrong", "place", "io"))
+        self.assertIs(type(error), pacini.FileError)
         translator = pacini.Translator(profile=profile, preset="Music", rumble=3)
         back = pickle.loads(pickle.dumps(translator))
         self.assertEqual(back.params, translator.params)
         np.testing.assert_array_equal(back.process(knocks()), translator.process(knocks()))
+
+    def test_a_file_that_is_not_there_is_one_kind_of_error_everywhere(self):
+        doors = (pacini.read, pacini.Clip.load, pacini.Scene.load, pacini.encode, pacini.read_audio,
+                 lambda path: pacini.encode(np.zeros(8000, np.float32), 8000, settings=path),
+                 lambda path: pacini.compare(path, path), lambda path: pacini.lint(path, "ahap"))
+        for door in doors:
+            for path in ("nowhere/clip.json", Path("nowhere/clip.json")):
+                with self.assertRaises(FileNotFoundError) as caught:
+                    door(path)
+                self.assertIsInstance(caught.exception, pacini.Error)
+                self.assertEqual((caught.exception.errno, caught.exception.code), (errno.ENOENT, "io"))
+                self.assertIn("nowhere/clip.json", str(caught.exception))
+                self.assertIn("does not exist", str(caught.exception))
+        (self.folder / "latin.json").write_bytes(b'{"name": "\xe9"}')
+        self.refuses(str(self.folder / "latin.json"), "invalidData", pacini.encode, np.zeros(8000, np.float32), 8000,
+                     settings=self.folder / "latin.json")  # fmt: skip
+        with self.assertRaises(pacini.FileError) as caught:
+            self.clip.save("nowhere/clip.json")
+        self.assertIsInstance(caught.exception, OSError)
+        self.assertNotIsInstance(pacini.Error("is wrong", "bands"), OSError)
 
     def test_a_scene_is_built_and_refused(self):
         scene = pacini.Scene(

@@ -55,7 +55,8 @@ class SameAsCommand(FolderTest):
 
     def test_presets_are_the_same(self):
         presets = json.loads(run("encode", "--print-settings", "--json"))["presets"]
-        self.assertEqual([(one.name, one.purpose) for one in pacini.presets()], [(one["name"], one["purpose"]) for one in presets])
+        told = [(one["name"], one["purpose"]) for one in presets]
+        self.assertEqual([(one.name, one.purpose) for one in pacini.presets()], told)
         sound, output = DEMO[0], self.folder / "clip.pacb"
         for preset in pacini.presets():
             run("encode", sound, "-o", output, "--preset", preset.name, "--bands", 5, "-q", "-y")

@@ -53,7 +53,7 @@ void raise(const Error& error)
     };
     const nb::object type = nb::module_::import_("pacini._errors").attr("Error");
     const nb::object value = type(text(error.message), text(error.where), std::string(errorCodeName(error.code)));
-    PyErr_SetObject(type.ptr(), value.ptr());
+    PyErr_SetObject(value.type().ptr(), value.ptr());
     throw nb::python_error();
 }
 

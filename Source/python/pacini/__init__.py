@@ -16,7 +16,7 @@ import atexit as _atexit
 # The first one before NumPy, which breaks for the main interpreter what another one touches.
 from . import _interpreter, _native, measure  # noqa: F401
 from ._clip import Band, Clip, NoiseBand, SimplifiedLane, Source
-from ._errors import Error
+from ._errors import Error, FileError, FileMissing
 from ._formats import Format, Loss, formats
 from ._profile import Profile
 from ._scene import Scene
@@ -54,6 +54,8 @@ __all__ = [
     "Clip",
     "Comparison",
     "Error",
+    "FileError",
+    "FileMissing",
     "Format",
     "Loss",
     "Method",

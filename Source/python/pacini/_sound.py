@@ -18,6 +18,7 @@ from . import _native
 from ._arrays import FloatArray, PathLike, as_rate, as_sound, is_path
 from ._clip import Clip
 from ._errors import Error
+from ._files import text_of
 from ._parameters import ENCODE, check_names, unknown, with_keywords
 from ._profile import AnyProfile, as_profile
 from ._progress import Progress, counted, shown
@@ -74,11 +75,7 @@ def _settings_text(settings: Optional[AnySettings]) -> str:
         return ""
     if not is_path(settings):
         return json.dumps(settings)
-    try:
-        with open(settings, encoding="utf-8") as file:
-            return file.read()
-    except OSError as error:
-        raise Error(error.strerror or "cannot be read", os.fsdecode(settings), "io") from None
+    return text_of(settings)
 
 
 def check_options(options: dict[str, Any]) -> None:
@@ -604,6 +601,9 @@ def lint(content: Union[Clip, PathLike], format: str, **options: Any) -> list[An
 
 def read(path: PathLike) -> Union[Clip, Scene]:
     """A clip of any format, or a scene."""
-    with open(path, "rb") as file:
-        start = file.read(4096)
+    try:
+        with open(path, "rb") as file:
+            start = file.read(4096)
+    except OSError:
+        return Clip.load(path)  # which says what is wrong with it
     return Scene.load(path) if b'"pacini.scene"' in start else Clip.load(path)

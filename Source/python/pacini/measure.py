@@ -20,6 +20,7 @@ import numpy.typing as npt
 from . import _native
 from ._arrays import FloatArray, PathLike, as_rate, as_sound, is_path
 from ._errors import Error
+from ._files import text_of
 from ._profile import AnyProfile, Profile, as_profile
 from ._progress import Progress, counted
 
@@ -191,8 +192,7 @@ def analyse(
     if isinstance(sweep, Sweep):
         description = sweep.description
     else:
-        with open(os.path.splitext(os.fsdecode(sweep))[0] + ".json", encoding="utf-8") as file:
-            description = file.read()
+        description = text_of(os.path.splitext(os.fsdecode(sweep))[0] + ".json")
     scale = [float(s) for s in full_scale] if isinstance(full_scale, Sequence) else [float(full_scale)]
     handles = []
     for one in counted(listed, len(listed), progress, "analysing"):
