@@ -118,19 +118,40 @@ void Console::progress(double share, std::string_view text)
     if (quiet || !terminal::canRedraw())
         return;
     const std::lock_guard lock(mutex);
-    const double now = std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-    if (nextProgress < 0.0)
-        nextProgress = now + 0.5;
-    if (now < nextProgress)
+    if (!isDue(0.5, 0.5))
         return;
-    nextProgress = now + 0.5;
     constexpr int width = 30;
     const double done = std::clamp(share, 0.0, 1.0);
     const auto filled = static_cast<std::size_t>(std::lround(done * width));
     const auto bar = fmt::format("[{}{}] {:3.0f} %  {}", std::string(filled, '#'), std::string(width - filled, '-'),
                                  100.0 * done, printable(text));
+    showLine(bar);
+}
+
+void Console::status(std::string_view line)
+{
+    if (quiet || !terminal::canRedraw())
+        return;
+    const std::lock_guard lock(mutex);
+    if (isDue(0.0, 0.1))
+        showLine(printable(line));
+}
+
+bool Console::isDue(double delay, double interval)
+{
+    const double now = std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+    if (nextProgress < 0.0)
+        nextProgress = now + delay;
+    if (now < nextProgress)
+        return false;
+    nextProgress = now + interval;
+    return true;
+}
+
+void Console::showLine(std::string_view line)
+{
     // A line that wraps could not be taken back.
-    write(stderr, "\r\x1b[K" + terminal::cutToWidth(bar, terminal::columns() - 1));
+    write(stderr, "\r\x1b[K" + terminal::cutToWidth(line, terminal::columns() - 1));
     std::fflush(stderr);
     lineShown = true;
 }

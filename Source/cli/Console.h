@@ -82,6 +82,9 @@ public:
     /// most twice a second.
     void progress(double share, std::string_view text);
 
+    /// Shows a line of the same kind with something that has no end, such as a level; at most ten times a second.
+    void status(std::string_view line);
+
     /// Removes the progress line.
     void endProgress();
 
@@ -92,6 +95,8 @@ private:
     void put(std::string_view line);
     void message(std::string_view line);
     void clearLine();
+    [[nodiscard]] bool isDue(double delay, double interval);
+    void showLine(std::string_view line);
 
     std::mutex mutex;
     std::optional<JsonReport> report;
