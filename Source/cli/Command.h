@@ -38,6 +38,7 @@ using BenchRun = std::function<Exit(const BenchOptions&, Console&)>;
 [[nodiscard]] std::unique_ptr<Command> profilesCommand();
 [[nodiscard]] std::unique_ptr<Command> devicesCommand();
 [[nodiscard]] std::unique_ptr<Command> playCommand();
+[[nodiscard]] std::unique_ptr<Command> liveCommand();
 [[nodiscard]] std::unique_ptr<Command> serveCommand();
 [[nodiscard]] std::unique_ptr<Command> compareCommand();
 [[nodiscard]] std::unique_ptr<Command> manifestCommand();

@@ -7,7 +7,7 @@ import unittest
 
 from command import COMMAND, CommandTest, sine, wav
 
-COMMANDS = ["encode", "render", "info", "convert", "lint", "profiles", "devices", "play", "serve", "compare", "manifest", "study",
+COMMANDS = ["encode", "render", "info", "convert", "lint", "profiles", "devices", "play", "live", "serve", "compare", "manifest", "study",
             "manifest merge", "manifest check", "manifest retry", "measure", "measure sweep", "measure analyse",
             "measure fit", "measure verify", "measure simulate", "plot", "bench", "help", "completions", "man"]
 

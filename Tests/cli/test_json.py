@@ -11,7 +11,7 @@ sys.path.insert(0, str(SOURCE / "Tests/io/schema"))
 from check_schema import Draft202012Validator, strict_json  # noqa: E402  finds a Python that has the validator
 
 SCHEMA = strict_json((SOURCE / "Resources/schema/pacini.report.schema.json").read_bytes())
-COMMANDS = ["encode", "render", "info", "convert", "lint", "profiles", "devices", "play", "serve", "compare", "measure sweep",
+COMMANDS = ["encode", "render", "info", "convert", "lint", "profiles", "devices", "play", "live", "serve", "compare", "measure sweep",
             "measure analyse", "measure fit", "measure verify", "measure simulate", "plot", "bench", "help", "completions",
             "man"]
 HAPTIC = json.dumps({"version": {"major": 1, "minor": 0, "patch": 0}, "metadata": {}, "signals": {"continuous": {
@@ -82,7 +82,7 @@ class Json(CommandTest):
                   "20"],
                  ["encode", "door.wav", "--dry-run"], ["render", "clip.json", "--dry-run"],
                  ["convert", "clip.json", "x.ahap", "--dry-run"], ["help"], ["help", "encode"],
-                 ["completions", "zsh"], ["man"], ["plot", "clip.json"], ["bench", "decimate", "door.wav", "--repeat", "1"])
+                 ["completions", "zsh"], ["man"], ["live", "door.wav", "-o", "live.wav"], ["plot", "clip.json"], ["bench", "decimate", "door.wav", "--repeat", "1"])
         done = set()
         for arguments in cases:
             with self.subTest(" ".join(arguments)):

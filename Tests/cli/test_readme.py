@@ -31,6 +31,8 @@ ELSEWHERE = {
     "bash cmake/bootstrap.sh plugin": ("cmake/bootstrap.sh", "plugin)"),
     "cmake --workflow --preset test": ("CMakePresets.json", '"name": "test"'),
     "bash cmake/bootstrap.sh deps": ("cmake/bootstrap.sh", "deps)"),
+    "parec --device=@DEFAULT_MONITOR@ --latency-msec=5 | pacini live - --raw s16 --rate 44100": ("Tests/cli/test_live.py",
+                                                                                             '"--raw", "s16", "--rate"'),
     "pacini serve door.json": ("Tests/web/check_phone.mjs", "['serve', "),
     "bash cmake/bootstrap.sh web": ("Tests/web/check_web.py", "build/web"),
     "cmake --preset debug": ("CMakePresets.json", '"name": "debug"'),
@@ -60,6 +62,8 @@ COMPLETED = {
     "pacini help COMMAND": "pacini help compare -q",
     "pacini completions bash": "pacini completions bash -q",
     "pacini devices": "pacini devices --help",
+    "pacini live": "pacini live --help",
+    "pacini live - -o -": "pacini live rain.wav -o live.wav",
     "pacini play door.json": "pacini play door.json --dry-run --like switch",
     "pacini man": "pacini man -q",
     "pacini plot PROFILE": "pacini plot lra-175 -o lra.png",
@@ -345,7 +349,8 @@ class Options(CommandTest):
                 PAGES + "devices.md": ["play"],
                 PAGES + "measuring.md": ["measure sweep", "measure analyse", "measure fit", "measure verify",
                                          "measure simulate"]}
-    OF_OTHER_TOOLS = {"--install", "--component", "--preset", "--workflow", "--make", "--at", "--rooms", "--install-links"}
+    OF_OTHER_TOOLS = {"--install", "--component", "--preset", "--workflow", "--make", "--at", "--rooms", "--install-links",
+                      "--latency-msec"}
 
     def help_of(self, command):
         """Option to default; empty without one."""

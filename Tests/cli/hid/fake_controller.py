@@ -38,7 +38,7 @@ KEYBOARD = bytes.fromhex("05010906a101 050719e029e7 15002501 75019508 8102 c0")
 
 PRO_CONTROLLER = {"maker": 0x057E, "product": 0x2009, "by": "Nintendo Co., Ltd.", "name": "Pro Controller",
                   "descriptor": GAMEPAD, "features": {}}
-
+DUALSHOCK_4 = PRO_CONTROLLER | {"maker": 0x054C, "product": 0x09CC, "by": "Sony", "name": "Wireless Controller"}
 
 STEAM_CONTROLLER = {"maker": 0x28DE, "product": 0x1302, "by": "Valve Software", "name": "Steam Controller",
                     "descriptor": STEAM_REPORTS, "features": {}}

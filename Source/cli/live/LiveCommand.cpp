@@ -1,0 +1,409 @@
+// Subcommand that translates a sound while it plays.
+
+#include "cli/Command.h"
+#include "cli/Counted.h"
+#include "cli/DescribedOptions.h"
+#include "cli/Interruption.h"
+#include "cli/Options.h"
+#include "cli/Overwrite.h"
+#include "cli/ProfileInput.h"
+#include "cli/live/LiveEngine.h"
+#include "cli/live/LiveFile.h"
+#include "cli/live/LiveInput.h"
+#include "cli/live/LivePad.h"
+#include "io/FileOrigin.h"
+#include "io/Fingerprint.h"
+
+#include <pacini/realtime/TranslatorPresets.h>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cctype>
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+namespace pacini::cli
+{
+
+namespace
+{
+using Json = nlohmann::ordered_json;
+
+constexpr std::array<Choice<RawSamples>, 4> rawFormats{
+    {{"s16", RawSamples::s16}, {"s24", RawSamples::s24}, {"s32", RawSamples::s32}, {"f32", RawSamples::f32}}};
+constexpr double fasterPipe = 1.01; // as quick as a pipe is read when something plays in real time
+
+/// "games-and-effects" of "Games and effects".
+std::string presetOption(std::string_view name)
+{
+    std::string text;
+    for (const char c : name)
+        text += c == ' ' ? '-' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return text;
+}
+
+std::vector<std::string> presetNames()
+{
+    std::vector<std::string> names;
+    for (const TranslatorPreset& preset : translatorPresets())
+        names.push_back(presetOption(preset.name));
+    return names;
+}
+
+std::string presetList()
+{
+    std::string lines;
+    for (const TranslatorPreset& preset : translatorPresets())
+        lines += fmt::format("\n  {:<18} {}", presetOption(preset.name), preset.purpose);
+    return lines;
+}
+
+/// "###---   -12 dB" for a largest magnitude.
+std::string levelText(float peak)
+{
+    constexpr double lowest = -60.0; // dB
+    constexpr int width = 20;
+    const double level = std::max(Decibels::fromGain(static_cast<double>(peak)).value, lowest);
+    const auto filled =
+        static_cast<std::size_t>(std::lround(std::clamp(1.0 - level / lowest, 0.0, 1.0) * static_cast<double>(width)));
+    return fmt::format("[{}{}] {}", std::string(filled, '#'), std::string(width - filled, '-'),
+                       level > lowest ? fmt::format("{:3.0f} dB", level) : "silent");
+}
+
+/// `pacini live`: what sounds now, as touch.
+class LiveCommand : public Command
+{
+public:
+    CLI::App* declare(CLI::App& app) override;
+    Exit run(Console& console) override;
+
+private:
+    /// All that plays, and the thread that hands it the sound.
+    struct Session
+    {
+        std::unique_ptr<LiveInput> input;
+        std::unique_ptr<LiveEngine> engine;
+        std::vector<std::unique_ptr<LiveDrive>> drives;
+        std::unique_ptr<LatencyProbe> probe;
+        std::vector<std::unique_ptr<LivePad>> pads;
+        std::unique_ptr<LiveFile> file;
+        LiveDrive* fileDrive = nullptr;
+        std::atomic<bool> stop{false};
+        std::atomic<bool> ended{false};
+        Result<void> failure; ///< of the thread until it has ended
+        std::thread thread;
+    };
+
+    [[nodiscard]] std::optional<Error> usageError() const;
+    [[nodiscard]] Result<void> openInput(Session& session) const;
+    [[nodiscard]] Exit openOutputs(Console& console, Session& session) const;
+    [[nodiscard]] Exit openFile(Console& console, Session& session) const;
+    void feed(Session& session) const;
+    void watch(Console& console, Session& session, Interruption& interruption) const;
+    [[nodiscard]] Exit finish(Console& console, Session& session) const;
+    void tell(Console& console, Session& session, std::uint64_t written) const;
+
+    CLI::App* command = nullptr;
+    std::string input;
+    std::string raw;
+    double rate = 48000.0; ///< Hz
+    std::size_t channels = 2;
+    std::vector<std::string> controllers;
+    bool wait = false;
+    std::string output;
+    std::string profile;
+    std::string preset;
+    DescribedOptions described;
+    double duration = -1.0; ///< s; negative: until the sound ends
+    bool measuring = false;
+    OverwriteOptions overwriting;
+};
+} // namespace
+
+CLI::App* LiveCommand::declare(CLI::App& app)
+{
+    command = app.add_subcommand("live", "Play a sound as touch while it sounds");
+    addOption(*command, "input", input, "- for WAV on standard input, another pipe, or a sound file", "SOUND");
+    auto* rawOption = addOption(*command, "--raw", raw, "The pipe has raw little-endian samples: s16, s24, s32 or f32",
+                                oneOf(rawFormats));
+    addPreset(*command, "--rate", rate, "Sample rate of raw samples, Hz", numberFrom(8000.0, 768000.0), "HZ")
+        ->needs(rawOption);
+    addPreset(*command, "--channels", channels, "Channels of raw samples",
+              wholeNumberFrom<std::size_t>(std::size_t(1), std::size_t(64)), "N")
+        ->needs(rawOption);
+    addOption(*command, "--device", controllers,
+              "Controller to play on: its number in 'pacini devices', its path, or part of its name; may be repeated "
+              "[the only game controller, unless -o is given]",
+              "N|NAME");
+    command->add_flag("--wait", wait, "Also begin when no controller is connected yet");
+    addOption(*command, "-o,--output", output, "Drive signal to write: a .wav, or - for WAV on standard output", "OUT");
+    addOption(*command, "--profile", profile,
+              "Actuator profile that the drive is made for: a file or a shipped profile", "PROFILE");
+    addOption(*command, "--preset", preset, "Set of parameters to begin with [neutral]", oneOf(presetNames()));
+    described.declare(*command, infosOf(translatorParameters));
+    addOption(*command, "--duration", duration, "End after this time, s [when the sound ends]",
+              numberFrom(0.0, limits::duration, "24 h"), "S");
+    command->add_flag("--measure-latency", measuring,
+                      "Play impulses in place of the sound and print how long each takes to the controller's report");
+    overwriting.declare(*command);
+    command->footer("The channels of the sound are mixed to one. A pipe is played as it comes, a file at its rate, or "
+                    "at once when\nonly -o is given. The motors stop when the sound ends, on Ctrl-C, and when the "
+                    "program fails; a controller\nthat is unplugged plays again when it is back.\nPresets:" +
+                    presetList() +
+                    "\nExamples:\n  parec --device=@DEFAULT_MONITOR@ --latency-msec=5 | pacini live - --raw s16 --rate "
+                    "44100\n  pacini live rain.wav --device pro\n"
+                    "  pacini live - --preset music --audible 0 -o - < rain.wav");
+    return command;
+}
+
+std::optional<Error> LiveCommand::usageError() const
+{
+    const auto wrong = [](std::string message)
+    {
+        return Error{ErrorCode::invalidArgument, "live", std::move(message)};
+    };
+    if (input.empty())
+        return wrong("the sound is missing; name a file, or - for standard input");
+    if (!output.empty() && output != "-" && sameFileKey(output) == sameFileKey(input))
+        return Error{ErrorCode::invalidArgument, output, "is the sound itself; name another output"};
+    if (measuring && controllers.empty() && !output.empty())
+        return wrong("--measure-latency needs a controller; name it with --device");
+    return std::nullopt;
+}
+
+Result<void> LiveCommand::openInput(Session& session) const
+{
+    std::optional<RawFormat> format;
+    if (!raw.empty())
+        format = RawFormat{*valueOf(raw, rawFormats), rate, channels};
+    auto opened = LiveInput::open(input, format, session.stop);
+    if (!opened)
+        return opened.error();
+    session.input = std::move(*opened);
+    return {};
+}
+
+Exit LiveCommand::openFile(Console& console, Session& session) const
+{
+    const FileOrigin origin = originOf(input, output, Fingerprint().text());
+    const auto existing = mayReplace(output, origin, overwriting.of(true));
+    if (!existing)
+        return console.fail("", existing.error());
+    session.drives.push_back(std::make_unique<LiveDrive>(static_cast<std::size_t>(session.engine->sampleRate())));
+    session.fileDrive = session.drives.back().get();
+    auto created = LiveFile::create(output, *existing, *session.fileDrive, session.engine->sampleRate());
+    if (!created)
+        return console.fail(output, created.error());
+    session.file = std::move(*created);
+    session.engine->add(*session.fileDrive);
+    return Exit::ok;
+}
+
+Exit LiveCommand::openOutputs(Console& console, Session& session) const
+{
+    const double fs = session.engine->sampleRate();
+    auto named = controllers;
+    if (named.empty() && output.empty())
+        named.emplace_back();
+    for (const std::string& name : named)
+    {
+        session.drives.push_back(std::make_unique<LiveDrive>(static_cast<std::size_t>(fs)));
+        session.engine->add(*session.drives.back());
+        LatencyProbe* probe = session.pads.empty() ? session.probe.get() : nullptr;
+        session.pads.push_back(std::make_unique<LivePad>(name, *session.drives.back(), fs, probe));
+        const auto opened = session.pads.back()->open();
+        if (opened)
+            continue;
+        const bool ambiguous = opened.error().code == ErrorCode::invalidArgument;
+        if (ambiguous || !wait)
+            return console.fail("", opened.error(), ambiguous ? Exit::usage : Exit::failed);
+        console.note("Waiting for a controller ...");
+    }
+    return output.empty() ? Exit::ok : openFile(console, session);
+}
+
+void LiveCommand::feed(Session& session) const
+{
+    using Clock = std::chrono::steady_clock;
+    constexpr std::size_t frames = 128;
+    const auto stopsWaiting = [&]
+    {
+        return session.stop.load() || (session.file && session.file->hasFailed());
+    };
+    const std::size_t perFrame = session.input->channels();
+    const double fs = session.engine->sampleRate();
+    const double pace = session.input->isLive() ? fasterPipe : 1.0;
+    const auto most = duration < 0.0 ? ~std::uint64_t{0} : static_cast<std::uint64_t>(std::llround(duration * fs));
+    std::vector<float> block(frames * perFrame);
+    const auto start = Clock::now();
+    while (!stopsWaiting() && session.engine->frames() < most)
+    {
+        const auto got = session.input->read(block);
+        if (!got)
+            session.failure = got.error();
+        if (!got || *got == 0)
+            break;
+        const std::size_t n = static_cast<std::size_t>(std::min<std::uint64_t>(*got, most - session.engine->frames()));
+        while (session.fileDrive && session.fileDrive->room() < n && !stopsWaiting())
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        if (!session.pads.empty())
+        {
+            const double due = static_cast<double>(session.engine->frames()) / (fs * pace);
+            std::this_thread::sleep_until(
+                start + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(due)));
+        }
+        session.engine->process(std::span<const float>(block).first(n * perFrame), perFrame);
+    }
+    session.engine->end();
+    session.ended.store(true, std::memory_order_release);
+}
+
+void LiveCommand::watch(Console& console, Session& session, Interruption& interruption) const
+{
+    constexpr Seconds glance(0.02);
+    const auto padsAreDone = [&]
+    {
+        return std::all_of(session.pads.begin(), session.pads.end(), [](const auto& pad) { return pad->isDone(); });
+    };
+    float heard = 0.0f, felt = 0.0f;
+    while (!(session.ended.load(std::memory_order_acquire) && padsAreDone()))
+    {
+        if (interruption.wait(glance))
+            break;
+        for (const auto& pad : session.pads)
+            pad->look(console);
+        // A level falls slowly enough to be seen.
+        constexpr float kept = 0.9f;
+        heard = std::max(session.engine->takeHeard(), kept * heard);
+        felt = std::max(session.engine->takeFelt(), kept * felt);
+        console.status(
+            fmt::format("sound {}  touch {}  {}", levelText(heard), levelText(felt),
+                        durationText(static_cast<double>(session.engine->frames()) / session.engine->sampleRate())));
+    }
+    console.endProgress();
+}
+
+void LiveCommand::tell(Console& console, Session& session, std::uint64_t written) const
+{
+    const double seconds = static_cast<double>(session.engine->frames()) / session.engine->sampleRate();
+    Json outputs = Json::array();
+    for (const auto& pad : session.pads)
+    {
+        const LivePadReport& report = pad->close();
+        outputs.push_back({{"controller", report.name},
+                           {"packets", report.sent},
+                           {"leftOut", report.leftOut},
+                           {"latestMilliseconds", 1e3 * report.latest.value},
+                           {"connections", report.connections}});
+        if (report.connections > 0)
+            console.note(fmt::format(
+                "{} on {}: {} packets{}", durationText(seconds), report.name, report.sent,
+                report.leftOut > 0 ? fmt::format(", {} left out as the machine was too slow", report.leftOut) : ""));
+    }
+    if (session.file)
+    {
+        outputs.push_back({{"output", output}, {"frames", written}});
+        console.wrote(output, durationText(static_cast<double>(written) / session.engine->sampleRate()));
+    }
+    Json report{{"input", input},
+                {"seconds", seconds},
+                {"sampleRate", session.engine->sampleRate()},
+                {"translatorMilliseconds",
+                 1e3 * static_cast<double>(session.engine->latencyFrames()) / session.engine->sampleRate()},
+                {"outputs", outputs}};
+    if (session.probe)
+    {
+        const auto times = session.probe->measured();
+        if (times.empty())
+            console.warning("", "no impulse reached the controller");
+        else
+        {
+            const double median = 1e3 * times[times.size() / 2];
+            report["latency"] = {{"impulses", times.size()},
+                                 {"least", 1e3 * times.front()},
+                                 {"median", median},
+                                 {"largest", 1e3 * times.back()}};
+            console.print(fmt::format("impulse to report: {:.1f} ms ({:.1f} to {:.1f} ms, {})", median,
+                                      1e3 * times.front(), 1e3 * times.back(),
+                                      counted(times.size(), "impulse", "impulses")));
+        }
+    }
+    console.addToReport(report);
+}
+
+Exit LiveCommand::finish(Console& console, Session& session) const
+{
+    // First what can be felt.
+    for (const auto& pad : session.pads)
+        static_cast<void>(pad->close());
+    session.stop.store(true);
+    if (session.thread.joinable())
+        session.thread.join();
+    std::uint64_t written = 0;
+    if (session.file)
+    {
+        const auto done = session.file->finish();
+        if (!done)
+            return console.fail(output, done.error());
+        written = *done;
+    }
+    if (!session.failure)
+        return console.fail(input, session.failure.error());
+    tell(console, session, written);
+    return Exit::ok;
+}
+
+Exit LiveCommand::run(Console& console)
+{
+    if (const auto wrong = usageError())
+        return console.fail("", *wrong, Exit::usage);
+    if (output == "-")
+        console.keepStdoutFree();
+    TranslatorSetup setup;
+    if (!profile.empty())
+    {
+        setup.profile = openProfile(console, profile);
+        if (!setup.profile)
+            return Exit::failed;
+    }
+    TranslatorParams params;
+    for (const TranslatorPreset& known : translatorPresets())
+        if (presetOption(known.name) == preset)
+            params = known.params;
+    described.apply(translatorParameters, params);
+
+    Session session;
+    if (const auto opened = openInput(session); !opened)
+        return console.fail(input, opened.error());
+    Interruption interruption; // after the wait for a header, and before the first thread
+    session.engine = std::make_unique<LiveEngine>(session.input->sampleRate(), setup, params);
+    if (measuring)
+    {
+        session.probe = std::make_unique<LatencyProbe>();
+        session.engine->measure(*session.probe);
+    }
+    if (const Exit opened = openOutputs(console, session); opened != Exit::ok)
+        return opened;
+    session.thread = std::thread([&] { feed(session); });
+    watch(console, session, interruption);
+    return finish(console, session);
+}
+
+std::unique_ptr<Command> liveCommand()
+{
+    return std::make_unique<LiveCommand>();
+}
+
+} // namespace pacini::cli

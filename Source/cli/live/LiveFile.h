@@ -1,0 +1,52 @@
+#pragma once
+
+// A drive signal that is written to a file or to standard output while it is made.
+
+#include "cli/live/LiveDrive.h"
+#include "io/AtomicFile.h"
+#include "io/AudioWriter.h"
+
+#include <pacini/foundation/Result.h>
+
+#include <atomic>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <thread>
+
+namespace pacini::cli
+{
+
+/// Writes 32-bit floats from a thread of its own, until the drive is over.
+class LiveFile
+{
+public:
+    /// Starts `path`, whose folder must be there: .wav, or a WAV without lengths on standard output. The drive
+    /// outlives this. Errors: those of AudioWriter::create(). [message]
+    [[nodiscard]] static Result<std::unique_ptr<LiveFile>> create(const std::filesystem::path& path, Existing existing,
+                                                                  LiveDrive& drive, double sampleRate);
+    LiveFile(const LiveFile&) = delete;
+    LiveFile& operator=(const LiveFile&) = delete;
+    ~LiveFile();
+
+    /// Whether nothing more can be written. [any]
+    [[nodiscard]] bool hasFailed() const noexcept { return failed.load(std::memory_order_acquire); }
+
+    /// Waits until all is written: the frames. Call when the drive has ended. Errors: io, as in AudioWriter. [message]
+    [[nodiscard]] Result<std::uint64_t> finish();
+
+private:
+    explicit LiveFile(LiveDrive& drive) : source(drive) {}
+    void work();
+    [[nodiscard]] Result<void> write(std::span<const float> samples);
+
+    LiveDrive& source;
+    std::optional<AudioWriter> writer; ///< none: standard output
+    std::uint64_t frames = 0;
+    Result<void> result;
+    std::atomic<bool> failed{false};
+    std::atomic<bool> dropped{false};
+    std::thread thread;
+};
+
+} // namespace pacini::cli

@@ -1,0 +1,203 @@
+#include "cli/live/LivePad.h"
+
+#include "cli/ControllerInput.h"
+#include "cli/live/LiveRumble.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <memory>
+#include <optional>
+#include <utility>
+
+namespace pacini::cli
+{
+
+namespace
+{
+std::string nameOf(const devices::Controller& controller)
+{
+    return printable(controller.name.empty() ? controller.path : controller.name);
+}
+
+/// Notes whether the state that is sent next is silent.
+class WatchedRumble : public devices::RumbleSource
+{
+public:
+    WatchedRumble(LiveDrive& drive, double fs, const devices::ControllerModel& controller, bool& soundsNow)
+        : rumble(drive, fs, controller),
+          model(controller),
+          silence(devices::reportOf(controller, devices::silentState(controller.haptics), 0)),
+          sounds(soundsNow)
+    {
+    }
+
+    std::optional<devices::RumbleState> at(std::int64_t packet) override
+    {
+        auto state = rumble.at(packet);
+        sounds = state && devices::reportOf(model, *state, 0) != silence;
+        return state;
+    }
+
+private:
+    LiveRumble rumble;
+    devices::ControllerModel model;
+    devices::Report silence;
+    bool& sounds;
+};
+
+/// Passes reports on, counts them, and tells the probe of those that are not silent.
+class WatchedSink : public devices::ReportSink
+{
+public:
+    WatchedSink(devices::ReportSink& target, const bool& soundsNow, LatencyProbe* measured,
+                std::atomic<std::int64_t>& counter)
+        : device(target), sounds(soundsNow), probe(measured), sent(counter)
+    {
+    }
+
+    void prepare(const devices::StopReports& stops) override { device.prepare(stops); }
+
+    Result<void> send(const devices::Report& report) override
+    {
+        auto done = device.send(report);
+        if (!done)
+            return done;
+        sent.fetch_add(1, std::memory_order_relaxed);
+        if (probe && sounds)
+            probe->sent();
+        return done;
+    }
+
+private:
+    devices::ReportSink& device;
+    const bool& sounds;
+    LatencyProbe* probe;
+    std::atomic<std::int64_t>& sent;
+};
+} // namespace
+
+/// All that lasts from a connection to its end; the player ends first.
+struct LivePad::Link
+{
+    Link(std::unique_ptr<devices::OpenController> opened, const devices::ControllerModel& model, LiveDrive& drive,
+         double fs, LatencyProbe* probe)
+        : device(std::move(opened)),
+          sink(std::make_unique<WatchedSink>(*device, sounds, probe, sent)),
+          player(model, std::make_unique<WatchedRumble>(drive, fs, model, sounds), *sink, clock)
+    {
+    }
+
+    std::unique_ptr<devices::OpenController> device;
+    bool sounds = false; ///< of the player's thread
+    std::atomic<std::int64_t> sent{0};
+    bool works = false; ///< it has taken a report
+    std::unique_ptr<devices::ReportSink> sink;
+    devices::SteadyClock clock;
+    devices::RumblePlayer player;
+};
+
+LivePad::LivePad(std::string named, LiveDrive& drive, double sampleRate, LatencyProbe* probe)
+    : wanted(std::move(named)), source(drive), fs(sampleRate), measured(probe)
+{
+    source.listen(false);
+}
+
+LivePad::~LivePad() = default;
+
+Result<void> LivePad::openOne(const devices::Controller& controller)
+{
+    const auto named = [&](Error error)
+    {
+        error.where = nameOf(controller);
+        return error;
+    };
+    auto opened = devices::OpenController::open(controller.path);
+    if (!opened)
+        return named(opened.error());
+    const auto model = devices::modelOf(controller, **opened);
+    if (!model)
+        return named(model.error());
+    if (!devices::DriveRumble::takesRate(fs, *model))
+        return named({ErrorCode::invalidArgument, "",
+                      fmt::format("takes no sound of {} Hz; use one of a whole number of Hz from 8000 on", fs)});
+    source.listen(true);
+    report.name = nameOf(controller);
+    link = std::make_unique<Link>(std::move(opened).value(), *model, source, fs, measured);
+    return {};
+}
+
+Result<void> LivePad::open()
+{
+    lastLook = std::chrono::steady_clock::now();
+    const auto connected = devices::connectedControllers();
+    if (!connected)
+        return connected.error();
+    const auto chosen = chosenController(*connected, wanted);
+    if (!chosen)
+        return chosen.error();
+    if (!*chosen)
+        return Error{ErrorCode::io, "",
+                     connected->empty()
+                         ? "no supported game controller is connected; connect one, or wait for it with --wait"
+                         : "no such controller is connected; 'pacini devices' lists the connected ones"};
+    return openOne(**chosen);
+}
+
+Result<void> LivePad::takeResult()
+{
+    const auto result = link->player.finish();
+    noteConnection();
+    report.sent += link->sent.load();
+    link.reset();
+    source.listen(false);
+    if (!result)
+        return result.error();
+    report.leftOut += result->leftOut;
+    report.latest.value = std::max(report.latest.value, result->latest.value);
+    return {};
+}
+
+bool LivePad::noteConnection()
+{
+    if (link->works || link->sent.load() == 0)
+        return false;
+    link->works = true;
+    return ++report.connections > 1;
+}
+
+void LivePad::look(Console& console)
+{
+    constexpr std::chrono::milliseconds pause(300);
+    if (link)
+    {
+        if (noteConnection())
+            console.note(fmt::format("{} is back", report.name));
+        if (link->player.isPlaying() || source.isOver())
+            return;
+        const bool worked = link->works; // one that is just being plugged in may open and not answer
+        if (const auto done = takeResult(); !done && worked)
+            console.warning(report.name, done.error().message + "; it plays again when it is back");
+        return;
+    }
+    if (std::chrono::steady_clock::now() - lastLook >= pause)
+        static_cast<void>(open());
+}
+
+bool LivePad::isDone() const
+{
+    return !link || !link->player.isPlaying();
+}
+
+const LivePadReport& LivePad::close()
+{
+    if (link)
+    {
+        link->player.stop();
+        static_cast<void>(takeResult());
+    }
+    return report;
+}
+
+} // namespace pacini::cli
