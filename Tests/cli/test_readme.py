@@ -33,6 +33,7 @@ ELSEWHERE = {
     "bash cmake/bootstrap.sh deps": ("cmake/bootstrap.sh", "deps)"),
     "parec --device=@DEFAULT_MONITOR@ --latency-msec=5 | pacini live - --raw s16 --rate 44100": ("Tests/cli/test_live.py",
                                                                                              '"--raw", "s16", "--rate"'),
+    "pacini live --sound-input pulse:@DEFAULT_MONITOR@": ("Tests/hosts/check_live.py", "--sound-input"),
     "pacini serve door.json": ("Tests/web/check_phone.mjs", "['serve', "),
     "bash cmake/bootstrap.sh web": ("Tests/web/check_web.py", "build/web"),
     "cmake --preset debug": ("CMakePresets.json", '"name": "debug"'),

@@ -53,7 +53,8 @@ CORE_FORBIDDEN = {
     "semaphore", "latch", "barrier", "locale", "clocale",
 }
 # Libraries that only one room of Source touches.
-ONLY_IN = {"sndfile": {"io"}, "hidapi": {"devices"}, "boost": {"study", "phone"}, "nanobind": {"python"}}
+ONLY_IN = {"sndfile": {"io"}, "hidapi": {"devices"}, "boost": {"study", "phone"}, "nanobind": {"python"},
+           "rtaudio": {"cli"}}
 CORE_THIRD_PARTY = re.compile(r"^Eigen/")
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 

@@ -11,6 +11,8 @@
 #include "cli/live/LiveFile.h"
 #include "cli/live/LiveInput.h"
 #include "cli/live/LivePad.h"
+#include "cli/live/SoundPort.h"
+#include "cli/live/TrackedDrive.h"
 #include "io/FileOrigin.h"
 #include "io/Fingerprint.h"
 
@@ -74,7 +76,7 @@ std::string presetList()
 std::string levelText(float peak)
 {
     constexpr double lowest = -60.0; // dB
-    constexpr int width = 20;
+    constexpr int width = 16;
     const double level = std::max(Decibels::fromGain(static_cast<double>(peak)).value, lowest);
     const auto filled =
         static_cast<std::size_t>(std::lround(std::clamp(1.0 - level / lowest, 0.0, 1.0) * static_cast<double>(width)));
@@ -93,11 +95,24 @@ private:
     /// All that plays, and the thread that hands it the sound.
     struct Session
     {
-        std::unique_ptr<LiveInput> input;
+        /// A sound device that plays the drive, at its own clock.
+        struct Output
+        {
+            std::string name;
+            std::unique_ptr<TrackedDrive> drive;
+            std::unique_ptr<SoundPort> port; ///< ends first
+            bool isGone = false;
+        };
+
+        [[nodiscard]] bool isRealTime() const { return !pads.empty() || !outputs.empty(); }
+
+        std::unique_ptr<LiveInput> input; ///< or a port
         std::unique_ptr<LiveEngine> engine;
         std::vector<std::unique_ptr<LiveDrive>> drives;
         std::unique_ptr<LatencyProbe> probe;
         std::vector<std::unique_ptr<LivePad>> pads;
+        std::vector<Output> outputs;
+        std::unique_ptr<SoundPort> port; ///< ends before all that it hands the sound to
         std::unique_ptr<LiveFile> file;
         LiveDrive* fileDrive = nullptr;
         std::atomic<bool> stop{false};
@@ -107,16 +122,25 @@ private:
     };
 
     [[nodiscard]] std::optional<Error> usageError() const;
+    [[nodiscard]] const std::string& soundName() const { return soundInput.empty() ? input : soundInput; }
     [[nodiscard]] Result<void> openInput(Session& session) const;
     [[nodiscard]] Exit openOutputs(Console& console, Session& session) const;
+    [[nodiscard]] Exit openSoundOutput(Console& console, Session& session, const std::string& name) const;
     [[nodiscard]] Exit openFile(Console& console, Session& session) const;
+    [[nodiscard]] Result<void> start(Session& session) const;
     void feed(Session& session) const;
+    [[nodiscard]] std::uint64_t mostFrames(const Session& session) const;
+
+    /// Ends what a sound device hands in.
+    static void endOf(Session& session);
     void watch(Console& console, Session& session, Interruption& interruption) const;
     [[nodiscard]] Exit finish(Console& console, Session& session) const;
     void tell(Console& console, Session& session, std::uint64_t written) const;
 
     CLI::App* command = nullptr;
     std::string input;
+    std::string soundInput;
+    std::vector<std::string> soundOutputs;
     std::string raw;
     double rate = 48000.0; ///< Hz
     std::size_t channels = 2;
@@ -136,6 +160,8 @@ CLI::App* LiveCommand::declare(CLI::App& app)
 {
     command = app.add_subcommand("live", "Play a sound as touch while it sounds");
     addOption(*command, "input", input, "- for WAV on standard input, another pipe, or a sound file", "SOUND");
+    addOption(*command, "--sound-input", soundInput, "Sound device to take the sound from, instead of SOUND",
+              "SYSTEM[:NAME]");
     auto* rawOption = addOption(*command, "--raw", raw, "The pipe has raw little-endian samples: s16, s24, s32 or f32",
                                 oneOf(rawFormats));
     addPreset(*command, "--rate", rate, "Sample rate of raw samples, Hz", numberFrom(8000.0, 768000.0), "HZ")
@@ -145,9 +171,11 @@ CLI::App* LiveCommand::declare(CLI::App& app)
         ->needs(rawOption);
     addOption(*command, "--device", controllers,
               "Controller to play on: its number in 'pacini devices', its path, or part of its name; may be repeated "
-              "[the only game controller, unless -o is given]",
+              "[the only game controller, unless there is another output]",
               "N|NAME");
     command->add_flag("--wait", wait, "Also begin when no controller is connected yet");
+    addOption(*command, "--sound-output", soundOutputs, "Sound device to play the drive signal on; may be repeated",
+              "SYSTEM[:NAME]");
     addOption(*command, "-o,--output", output, "Drive signal to write: a .wav, or - for WAV on standard output", "OUT");
     addOption(*command, "--profile", profile,
               "Actuator profile that the drive is made for: a file or a shipped profile", "PROFILE");
@@ -162,9 +190,13 @@ CLI::App* LiveCommand::declare(CLI::App& app)
                     "at once when\nonly -o is given. The motors stop when the sound ends, on Ctrl-C, and when the "
                     "program fails; a controller\nthat is unplugged plays again when it is back.\nPresets:" +
                     presetList() +
-                    "\nExamples:\n  parec --device=@DEFAULT_MONITOR@ --latency-msec=5 | pacini live - --raw s16 --rate "
-                    "44100\n  pacini live rain.wav --device pro\n"
-                    "  pacini live - --preset music --audible 0 -o - < rain.wav");
+                    "\nSYSTEM alone is its default device; jack then leaves its ports for you to connect. NAME is a "
+                    "part of a name,\nand of pulse the whole name of a source or a sink: pulse:@DEFAULT_MONITOR@ is "
+                    "what this machine plays.\nExamples:\n"
+                    "  pacini live --sound-input pulse:@DEFAULT_MONITOR@       what this machine plays\n"
+                    "  pacini live --sound-input jack --device pro\n"
+                    "  pacini live rain.wav --device pro --sound-output jack\n"
+                    "  pacini live - --preset music -o - < rain.wav");
     return command;
 }
 
@@ -174,17 +206,27 @@ std::optional<Error> LiveCommand::usageError() const
     {
         return Error{ErrorCode::invalidArgument, "live", std::move(message)};
     };
-    if (input.empty())
-        return wrong("the sound is missing; name a file, or - for standard input");
+    if (input.empty() && soundInput.empty())
+        return wrong("the sound is missing; name a file, - for standard input, or a device with --sound-input");
+    if (!input.empty() && !soundInput.empty())
+        return wrong("--sound-input takes the place of the file; leave one of them out");
     if (!output.empty() && output != "-" && sameFileKey(output) == sameFileKey(input))
         return Error{ErrorCode::invalidArgument, output, "is the sound itself; name another output"};
-    if (measuring && controllers.empty() && !output.empty())
+    if (measuring && controllers.empty() && !(output.empty() && soundOutputs.empty()))
         return wrong("--measure-latency needs a controller; name it with --device");
     return std::nullopt;
 }
 
 Result<void> LiveCommand::openInput(Session& session) const
 {
+    if (!soundInput.empty())
+    {
+        auto opened = SoundPort::openInput(soundInput);
+        if (!opened)
+            return opened.error();
+        session.port = std::move(*opened);
+        return {};
+    }
     std::optional<RawFormat> format;
     if (!raw.empty())
         format = RawFormat{*valueOf(raw, rawFormats), rate, channels};
@@ -211,11 +253,34 @@ Exit LiveCommand::openFile(Console& console, Session& session) const
     return Exit::ok;
 }
 
+Exit LiveCommand::openSoundOutput(Console& console, Session& session, const std::string& name) const
+{
+    const double fs = session.engine->sampleRate();
+    auto opened = SoundPort::openOutput(name);
+    if (!opened)
+        return console.fail(name, opened.error(),
+                            opened.error().code == ErrorCode::invalidArgument ? Exit::usage : Exit::failed);
+    constexpr double margin = 0.002;    // s
+    constexpr double pipeBlock = 0.020; // s, as programs write to pipes
+    const double comes =
+        session.port ? static_cast<double>(session.port->blockFrames()) / fs : pipeBlock; // s, as the next
+    const double goes = static_cast<double>((*opened)->blockFrames()) / (*opened)->sampleRate();
+    session.drives.push_back(std::make_unique<LiveDrive>(static_cast<std::size_t>(fs)));
+    LiveDrive& drive = *session.drives.back();
+    session.engine->add(drive);
+    auto tracked = std::make_unique<TrackedDrive>(drive, fs, (*opened)->sampleRate(),
+                                                  static_cast<std::size_t>((comes + goes + margin) * fs));
+    auto* reader = tracked.get();
+    session.outputs.push_back({name, std::move(tracked), std::move(*opened), false});
+    const auto started = session.outputs.back().port->play([reader](std::span<float> frames) { reader->read(frames); });
+    return started ? Exit::ok : console.fail(name, started.error());
+}
+
 Exit LiveCommand::openOutputs(Console& console, Session& session) const
 {
     const double fs = session.engine->sampleRate();
     auto named = controllers;
-    if (named.empty() && output.empty())
+    if (named.empty() && output.empty() && soundOutputs.empty())
         named.emplace_back();
     for (const std::string& name : named)
     {
@@ -231,7 +296,32 @@ Exit LiveCommand::openOutputs(Console& console, Session& session) const
             return console.fail("", opened.error(), ambiguous ? Exit::usage : Exit::failed);
         console.note("Waiting for a controller ...");
     }
+    for (const std::string& name : soundOutputs)
+        if (const Exit opened = openSoundOutput(console, session, name); opened != Exit::ok)
+            return opened;
     return output.empty() ? Exit::ok : openFile(console, session);
+}
+
+std::uint64_t LiveCommand::mostFrames(const Session& session) const
+{
+    return duration < 0.0 ? ~std::uint64_t{0}
+                          : static_cast<std::uint64_t>(std::llround(duration * session.engine->sampleRate()));
+}
+
+Result<void> LiveCommand::start(Session& session) const
+{
+    if (!session.port)
+    {
+        session.thread = std::thread([&] { feed(session); });
+        return {};
+    }
+    return session.port->take(
+        [&engine = *session.engine, most = mostFrames(session)](std::span<const float> block, std::size_t perFrame)
+        {
+            const auto frames =
+                static_cast<std::size_t>(std::min<std::uint64_t>(block.size() / perFrame, most - engine.frames()));
+            engine.process(block.first(frames * perFrame), perFrame);
+        });
 }
 
 void LiveCommand::feed(Session& session) const
@@ -245,7 +335,7 @@ void LiveCommand::feed(Session& session) const
     const std::size_t perFrame = session.input->channels();
     const double fs = session.engine->sampleRate();
     const double pace = session.input->isLive() ? fasterPipe : 1.0;
-    const auto most = duration < 0.0 ? ~std::uint64_t{0} : static_cast<std::uint64_t>(std::llround(duration * fs));
+    const std::uint64_t most = mostFrames(session);
     std::vector<float> block(frames * perFrame);
     const auto start = Clock::now();
     while (!stopsWaiting() && session.engine->frames() < most)
@@ -258,7 +348,7 @@ void LiveCommand::feed(Session& session) const
         const std::size_t n = static_cast<std::size_t>(std::min<std::uint64_t>(*got, most - session.engine->frames()));
         while (session.fileDrive && session.fileDrive->room() < n && !stopsWaiting())
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
-        if (!session.pads.empty())
+        if (session.isRealTime())
         {
             const double due = static_cast<double>(session.engine->frames()) / (fs * pace);
             std::this_thread::sleep_until(
@@ -270,20 +360,44 @@ void LiveCommand::feed(Session& session) const
     session.ended.store(true, std::memory_order_release);
 }
 
+void LiveCommand::endOf(Session& session)
+{
+    session.port->stop();
+    session.engine->end();
+    session.ended.store(true, std::memory_order_release);
+}
+
 void LiveCommand::watch(Console& console, Session& session, Interruption& interruption) const
 {
     constexpr Seconds glance(0.02);
-    const auto padsAreDone = [&]
+    const auto isDone = [&]
     {
-        return std::all_of(session.pads.begin(), session.pads.end(), [](const auto& pad) { return pad->isDone(); });
+        return session.ended.load(std::memory_order_acquire) &&
+               std::all_of(session.pads.begin(), session.pads.end(), [](const auto& pad) { return pad->isDone(); }) &&
+               std::all_of(session.outputs.begin(), session.outputs.end(),
+                           [](const auto& out) { return out.drive->isOver() || out.isGone; });
     };
     float heard = 0.0f, felt = 0.0f;
-    while (!(session.ended.load(std::memory_order_acquire) && padsAreDone()))
+    while (!isDone())
     {
         if (interruption.wait(glance))
             break;
         for (const auto& pad : session.pads)
             pad->look(console);
+        for (auto& out : session.outputs)
+            if (!out.isGone && !out.port->isRunning())
+            {
+                out.isGone = true;
+                console.warning(out.name, "does not answer any more; the others play on");
+            }
+        if (session.port && !session.ended.load())
+        {
+            const bool runs = session.port->isRunning();
+            if (!runs)
+                session.failure = Error{ErrorCode::io, "", "does not answer any more"};
+            if (!runs || session.engine->frames() >= mostFrames(session))
+                endOf(session);
+        }
         // A level falls slowly enough to be seen.
         constexpr float kept = 0.9f;
         heard = std::max(session.engine->takeHeard(), kept * heard);
@@ -317,12 +431,24 @@ void LiveCommand::tell(Console& console, Session& session, std::uint64_t written
         outputs.push_back({{"output", output}, {"frames", written}});
         console.wrote(output, durationText(static_cast<double>(written) / session.engine->sampleRate()));
     }
-    Json report{{"input", input},
+    for (const auto& out : session.outputs)
+        outputs.push_back({{"soundOutput", out.name},
+                           {"standstills", out.drive->standstills()},
+                           {"correctionPpm", 1e6 * (out.drive->correction() - 1.0)}});
+    Json report{{"input", soundName()},
                 {"seconds", seconds},
                 {"sampleRate", session.engine->sampleRate()},
                 {"translatorMilliseconds",
                  1e3 * static_cast<double>(session.engine->latencyFrames()) / session.engine->sampleRate()},
                 {"outputs", outputs}};
+    if (session.port)
+    {
+        const std::uint64_t interruptions = session.port->interruptions();
+        report["interruptions"] = interruptions;
+        if (interruptions > 0)
+            console.note(fmt::format("{} was interrupted {}, as the machine was too slow", soundInput,
+                                     counted(static_cast<std::size_t>(interruptions), "time", "times")));
+    }
     if (session.probe)
     {
         const auto times = session.probe->measured();
@@ -334,6 +460,7 @@ void LiveCommand::tell(Console& console, Session& session, std::uint64_t written
             report["latency"] = {{"impulses", times.size()},
                                  {"least", 1e3 * times.front()},
                                  {"median", median},
+                                 {"p90", 1e3 * times[times.size() * 9 / 10]},
                                  {"largest", 1e3 * times.back()}};
             console.print(fmt::format("impulse to report: {:.1f} ms ({:.1f} to {:.1f} ms, {})", median,
                                       1e3 * times.front(), 1e3 * times.back(),
@@ -349,6 +476,10 @@ Exit LiveCommand::finish(Console& console, Session& session) const
     for (const auto& pad : session.pads)
         static_cast<void>(pad->close());
     session.stop.store(true);
+    if (session.port && !session.ended.load())
+        endOf(session);
+    for (auto& out : session.outputs)
+        out.port->stop();
     if (session.thread.joinable())
         session.thread.join();
     std::uint64_t written = 0;
@@ -360,7 +491,7 @@ Exit LiveCommand::finish(Console& console, Session& session) const
         written = *done;
     }
     if (!session.failure)
-        return console.fail(input, session.failure.error());
+        return console.fail(soundName(), session.failure.error());
     tell(console, session, written);
     return Exit::ok;
 }
@@ -386,9 +517,11 @@ Exit LiveCommand::run(Console& console)
 
     Session session;
     if (const auto opened = openInput(session); !opened)
-        return console.fail(input, opened.error());
+        return console.fail(soundName(), opened.error(),
+                            opened.error().code == ErrorCode::invalidArgument ? Exit::usage : Exit::failed);
     Interruption interruption; // after the wait for a header, and before the first thread
-    session.engine = std::make_unique<LiveEngine>(session.input->sampleRate(), setup, params);
+    session.engine = std::make_unique<LiveEngine>(
+        session.port ? session.port->sampleRate() : session.input->sampleRate(), setup, params);
     if (measuring)
     {
         session.probe = std::make_unique<LatencyProbe>();
@@ -396,7 +529,8 @@ Exit LiveCommand::run(Console& console)
     }
     if (const Exit opened = openOutputs(console, session); opened != Exit::ok)
         return opened;
-    session.thread = std::thread([&] { feed(session); });
+    if (const auto started = start(session); !started)
+        return console.fail(soundName(), started.error());
     watch(console, session, interruption);
     return finish(console, session);
 }

@@ -50,7 +50,7 @@ public:
         return got;
     }
 
-    /// Frames that are there to be taken. [worker]
+    /// Frames that are there to be taken. [any]
     [[nodiscard]] std::size_t waiting() const noexcept
     {
         const std::uint64_t all = pushed.load(std::memory_order_acquire);
@@ -58,8 +58,10 @@ public:
         return all > gone ? static_cast<std::size_t>(all - gone) : 0;
     }
 
-    /// Whether all is taken and nothing follows. [worker]
-    [[nodiscard]] bool isOver() const noexcept { return ended.load(std::memory_order_acquire) && waiting() == 0; }
+    [[nodiscard]] bool hasEnded() const noexcept { return ended.load(std::memory_order_acquire); }
+
+    /// Whether all is taken and nothing follows. [any]
+    [[nodiscard]] bool isOver() const noexcept { return hasEnded() && waiting() == 0; }
 
     /// Begins to keep what is pushed, or ceases to. What is left from before is dropped. [worker]
     void listen(bool wanted) noexcept

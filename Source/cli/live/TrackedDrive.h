@@ -44,6 +44,9 @@ public:
     /// Frames taken for each one read, without the nominal ratio: 1.0002 where the source's clock is 200 ppm faster.
     [[nodiscard]] double correction() const noexcept { return 1.0 + steering; }
 
+    /// Whether all is played.
+    [[nodiscard]] bool isOver() const noexcept { return source.isOver(); }
+
     /// How often the queue ran empty, and too full. [audio]
     [[nodiscard]] std::size_t standstills() const noexcept { return empties + overflows; }
 
@@ -55,6 +58,11 @@ private:
 
     void follow(std::size_t outFrames) noexcept
     {
+        if (source.hasEnded())
+        {
+            filling = false; // what is left is played
+            return;
+        }
         auto waiting = static_cast<double>(source.waiting());
         if (waiting > target + longestDelay * fs)
         {
@@ -93,8 +101,8 @@ private:
             held = {held[1], held[2], held[3], 0.0f};
             if (source.take({&held[3], 1}) == 1)
                 continue;
-            filling = true; // what is left in `held` ends within three frames
-            ++empties;
+            filling = true; // the three frames in `held` are dropped
+            empties += source.hasEnded() ? 0u : 1u;
             phase = 0.0;
             held = {};
             break;

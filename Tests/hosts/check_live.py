@@ -1,0 +1,114 @@
+#!/usr/bin/env python3
+"""pacini live on JACK's dummy driver, with a DualShock 4 that umockdev pretends to be there.
+
+check_live.py PACINI [SECONDS]   exit 1 when a claim fails, 77 when JACK or umockdev is missing. SECONDS: how long impulses
+are played (3600 for an hour)
+"""
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "cli/hid"))
+from hid_test import COMMAND, check, main_under_umockdev  # noqa: E402
+from host_test import RATE, Processes, needs, skip, until  # noqa: E402
+
+SECONDS = int(sys.argv[2]) if len(sys.argv) > 2 else 20
+BLOCK = 128
+SERVER = f"pacini{os.getpid()}"
+
+
+def without_devices():
+    """The environment of programs that need none of the devices that umockdev pretends to be there."""
+    return {name: value for name, value in os.environ.items() if name != "LD_PRELOAD"}
+
+
+def jack(command, *arguments):
+    done = subprocess.run([command, *arguments], env=without_devices(), capture_output=True, text=True)
+    return done.stdout if done.returncode == 0 else ""
+
+
+def live(*arguments):
+    return subprocess.Popen([COMMAND, "live", *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+
+
+def memory_of(process):
+    lines = Path(f"/proc/{process.pid}/status").read_text().splitlines()
+    return next((int(line.split()[1]) for line in lines if line.startswith("VmRSS")), 0)
+
+
+def check_missing():
+    process = live("--sound-input", "jack", "-o", "-")
+    _, error = process.communicate(timeout=30)
+    if "needs RtAudio" in error:
+        skip("librtaudio-dev was missing when pacini was built")
+    wrong = live("--sound-input", "flute", "-o", "-")
+    check("a system that there is not is wrong usage", "pacini: flute: begins with none of" in wrong.communicate(timeout=30)[1]
+          and wrong.returncode == 2)
+    check("a server that does not run is one line", process.returncode == 1
+          and error == "pacini: jack: JACK does not run; start it first\n", error)
+
+
+def check_delay():
+    process = live("--sound-input", "jack", "--device", "wireless", "--measure-latency", "--duration", str(SECONDS), "--json")
+    time.sleep(3)
+    before = memory_of(process)
+    time.sleep(max(SECONDS - 5, 1))
+    after = memory_of(process)
+    out, error = process.communicate(timeout=SECONDS + 30)
+    told = json.loads(out or "{}")
+    if not told.get("latency"):
+        return check("it plays on JACK", False, f"{process.returncode} {out} {error}")
+    print(f"     {told.get('latency')}, {told.get('interruptions')} interruptions, memory {before} to {after} kB")
+    check("it plays for as long as it is told", process.returncode == 0 and told["seconds"] == SECONDS, error)
+    check("every impulse is felt", told["latency"]["impulses"] >= int((SECONDS - 1.5) / 0.437) - 1, out)
+    # The machine of a test is a busy one: what is late because of that says nothing of the way.
+    slow = told["interruptions"] > SECONDS
+    check("from impulse to report it takes at most 15 ms", told["latency"]["median" if slow else "p90"] <= 15)
+    check("in no more memory", after - before < 300)
+
+
+def check_ports(folder):
+    process = live("--sound-input", "jack", "--sound-output", "jack", "-o", str(folder / "drive.wav"), "--duration", "3",
+                   "--json")
+    check("its ports wait to be connected", until(lambda: "pacini:inport 0" in jack("jack_lsp")
+                                                  and "pacini touch:outport 0" in jack("jack_lsp"), 10))
+    check("to nothing yet", "   " not in jack("jack_lsp", "-c"))
+    out, error = process.communicate(timeout=30)
+    told = json.loads(out)
+    check("it plays on a device and writes a file at once", process.returncode == 0
+          and [sorted(o)[-1] for o in told["outputs"]] == ["output", "standstills"]
+          and told["outputs"][0]["frames"] == 3 * RATE, error + out)
+
+
+def check_server_ends(folder, server):
+    process = live("--sound-input", "jack", "-o", str(folder / "whole.wav"))
+    time.sleep(1)
+    server.terminate()
+    server.wait(20)
+    _, error = process.communicate(timeout=30)
+    check("a server that ends is told", process.returncode == 1 and "does not answer any more" in error
+          and (folder / "whole.wav").exists(), error)
+
+
+def claims(devices):
+    needs("jackd", "jack_lsp")
+    os.environ.update(JACK_DEFAULT_SERVER=SERVER, JACK_NO_AUDIO_RESERVATION="1")
+    check_missing()
+    controller = devices.FakeController(devices.DUALSHOCK_4)
+    controller.connect()
+    with tempfile.TemporaryDirectory() as name, Processes() as processes:
+        server = processes.start("jackd", "-r", "-t", "8000", "-n", SERVER, "-d", "dummy", "-r", RATE, "-p", BLOCK,
+                                 "-C", "2", "-P", "2", env=without_devices())
+        if not until(lambda: "system:playback_2" in jack("jack_lsp"), 10):
+            skip("JACK does not start")
+        check_delay()
+        check_ports(Path(name))
+        check_server_ends(Path(name), server)
+
+
+if __name__ == "__main__":
+    main_under_umockdev(claims)
