@@ -6,6 +6,7 @@ are played (3600 for an hour)
 """
 import json
 import os
+import struct
 import subprocess
 import sys
 import tempfile
@@ -84,6 +85,19 @@ def check_ports(folder):
           and told["outputs"][0]["frames"] == 3 * RATE, error + out)
 
 
+def check_file(folder):
+    sound = folder / "sound.wav"
+    samples = bytes(4 * RATE)
+    sound.write_bytes(b"RIFF" + struct.pack("<I", 36 + len(samples)) + b"WAVEfmt "
+                      + struct.pack("<IHHIIHH", 16, 3, 1, RATE, 4 * RATE, 4, 32) + b"data"
+                      + struct.pack("<I", len(samples)) + samples)
+    began = time.monotonic()
+    out, error = live(str(sound), "--sound-output", "jack:system", "--json").communicate(timeout=30)
+    took = time.monotonic() - began
+    check("a file is played on a device at its rate, and ends", json.loads(out)["seconds"] == 1.0 and 0.9 < took < 3.0
+          and not error, f"{took:.2f} s {error}")
+
+
 def check_server_ends(folder, server):
     process = live("--sound-input", "jack", "-o", str(folder / "whole.wav"))
     time.sleep(1)
@@ -107,6 +121,7 @@ def claims(devices):
             skip("JACK does not start")
         check_delay()
         check_ports(Path(name))
+        check_file(Path(name))
         check_server_ends(Path(name), server)
 
 

@@ -121,17 +121,22 @@ TEST_CASE("Live: two equal channels are one of them")
 TEST_CASE("Live: translating and handing out makes no heap traffic, also when an output is full")
 {
     const auto sound = tone(60.0, 48000.0, 9600);
-    LiveDrive drive(9600), small(64);
+    LiveDrive drive(9600), narrow(64);
     LatencyProbe probe;
     LiveEngine engine(48000.0, {}, {});
     engine.add(drive);
-    engine.add(small);
+    engine.add(narrow);
     engine.measure(probe);
+    TrackedDrive tracked(drive, 48000.0, 44100.0, 480);
+    std::vector<float> played(64);
     const test::HeapGuard guard;
     for (std::size_t i = 0; i < sound.size(); i += 96)
+    {
         engine.process(std::span(sound).subspan(i, 96), 1);
+        tracked.read(played);
+    }
     CHECK(guard.traffic() == 0);
-    CHECK(small.lost() > 9000);
+    CHECK(narrow.lost() > 9000);
 }
 
 TEST_CASE("Live: what was pushed while nobody listened is not played")
@@ -217,6 +222,29 @@ TEST_CASE("Live: a queue that ran empty is silent until it is filled, and one th
     tracked.read(out);
     CHECK(tracked.standstills() == 2);
     CHECK(drive.waiting() <= 80);
+}
+
+TEST_CASE("Live: the end of a drive is played, however short it is")
+{
+    for (const std::size_t frames : {10u, 79u, 200u})
+    {
+        LiveDrive drive(8000);
+        TrackedDrive tracked(drive, 8000.0, 8000.0, 80);
+        const std::vector<float> in(frames, 0.5f);
+        drive.push(in);
+        drive.end();
+        std::vector<float> out(64);
+        double sum = 0.0;
+        for (int i = 0; i < 8; ++i)
+        {
+            tracked.read(out);
+            for (const float sample : out)
+                sum += static_cast<double>(sample);
+        }
+        CHECK(tracked.isOver());
+        CHECK(tracked.standstills() == 0);
+        CHECK(sum == Approx(0.5 * static_cast<double>(frames)).margin(2.0)); // without its last three frames
+    }
 }
 
 TEST_CASE("Live: a controller's packets take all that has come, and nothing drifts in an hour")
