@@ -9,10 +9,12 @@
 #include <cctype>
 #include <cstdlib>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 
 #if defined(PACINI_HAS_RTAUDIO)
-#include <RtAudio.h>
+#include <dlfcn.h>
+#include <rtaudio_c.h>
 #endif
 
 namespace pacini::cli
@@ -22,31 +24,88 @@ namespace pacini::cli
 
 namespace
 {
-std::string systemName(RtAudio::Api api)
+std::string_view systemName(rtaudio_api_t api)
 {
     switch (api)
     {
-    case RtAudio::UNIX_JACK:
+    case RTAUDIO_API_UNIX_JACK:
         return "jack";
-    case RtAudio::LINUX_PULSE:
+    case RTAUDIO_API_LINUX_PULSE:
         return "pulse";
-    case RtAudio::LINUX_ALSA:
+    case RTAUDIO_API_LINUX_ALSA:
         return "alsa";
-    case RtAudio::MACOSX_CORE:
+    case RTAUDIO_API_MACOSX_CORE:
         return "core";
-    case RtAudio::WINDOWS_WASAPI:
-        return "wasapi";
     default:
         return "";
     }
 }
 
-std::vector<RtAudio::Api> compiledSystems()
+/// RtAudio's functions for C. It is opened when it is wanted: what it links, such as JACK's and PulseAudio's libraries,
+/// would make the start of every command half as long again. Nothing is missing without it but sound devices.
+struct RtAudioLibrary
 {
-    std::vector<RtAudio::Api> all, named;
-    RtAudio::getCompiledApi(all);
-    std::copy_if(all.begin(), all.end(), std::back_inserter(named),
-                 [](RtAudio::Api api) { return !systemName(api).empty(); });
+    RtAudioLibrary()
+    {
+#if defined(__APPLE__)
+        void* library = ::dlopen("librtaudio.6.dylib", RTLD_NOW | RTLD_LOCAL);
+#else
+        void* library = ::dlopen("librtaudio.so.6", RTLD_NOW | RTLD_LOCAL);
+#endif
+        isThere = library != nullptr;
+        const auto find = [&](auto& function, const char* name)
+        {
+            function = library != nullptr
+                           ? reinterpret_cast<std::remove_reference_t<decltype(function)>>(::dlsym(library, name))
+                           : nullptr;
+            isThere = isThere && function != nullptr;
+        };
+        find(systemCount, "rtaudio_get_num_compiled_apis");
+        find(systems, "rtaudio_compiled_api");
+        find(error, "rtaudio_error");
+        find(create, "rtaudio_create");
+        find(destroy, "rtaudio_destroy");
+        find(deviceCount, "rtaudio_device_count");
+        find(deviceInfo, "rtaudio_get_device_info");
+        find(openStream, "rtaudio_open_stream");
+        find(closeStream, "rtaudio_close_stream");
+        find(startStream, "rtaudio_start_stream");
+        find(abortStream, "rtaudio_abort_stream");
+        find(isOpen, "rtaudio_is_stream_open");
+        find(isRunning, "rtaudio_is_stream_running");
+        find(showWarnings, "rtaudio_show_warnings");
+    }
+
+    bool isThere = false;
+    decltype(&rtaudio_get_num_compiled_apis) systemCount;
+    decltype(&rtaudio_compiled_api) systems;
+    decltype(&rtaudio_error) error;
+    decltype(&rtaudio_create) create;
+    decltype(&rtaudio_destroy) destroy;
+    decltype(&rtaudio_device_count) deviceCount;
+    decltype(&rtaudio_get_device_info) deviceInfo;
+    decltype(&rtaudio_open_stream) openStream;
+    decltype(&rtaudio_close_stream) closeStream;
+    decltype(&rtaudio_start_stream) startStream;
+    decltype(&rtaudio_abort_stream) abortStream;
+    decltype(&rtaudio_is_stream_open) isOpen;
+    decltype(&rtaudio_is_stream_running) isRunning;
+    decltype(&rtaudio_show_warnings) showWarnings;
+};
+
+const RtAudioLibrary& library()
+{
+    static const RtAudioLibrary opened;
+    return opened;
+}
+
+std::vector<rtaudio_api_t> compiledSystems()
+{
+    std::vector<rtaudio_api_t> named;
+    if (library().isThere)
+        for (unsigned i = 0; i < library().systemCount(); ++i)
+            if (const auto api = library().systems()[i]; !systemName(api).empty())
+                named.push_back(api);
     return named;
 }
 
@@ -60,18 +119,28 @@ std::string lowerCase(std::string text)
 class RtPort final : public SoundPort
 {
 public:
-    explicit RtPort(RtAudio::Api api) : audio(api) { audio.showWarnings(false); }
-    ~RtPort() override { RtPort::stop(); }
+    explicit RtPort(rtaudio_api_t api) : system(systemName(api)), audio(library().create(api))
+    {
+        if (audio != nullptr)
+            library().showWarnings(audio, 0);
+    }
+    ~RtPort() override
+    {
+        RtPort::stop();
+        if (audio != nullptr)
+            library().destroy(audio);
+    }
+    RtPort(const RtPort&) = delete;
+    RtPort& operator=(const RtPort&) = delete;
 
     /// Chooses the device, of which no stream is open yet.
     [[nodiscard]] Result<void> choose(const std::string& name, bool isInput)
     {
-        input = isInput;
-        system = systemName(audio.getCurrentApi());
-        const unsigned count = audio.getDeviceCount();
-        if (count == 0)
+        const int count = audio != nullptr ? library().deviceCount(audio) : 0;
+        if (count <= 0)
             return Error{ErrorCode::io, "",
-                         system == "jack" ? "JACK does not run; start it first" : system + " has no sound device"};
+                         system == "jack" ? "JACK does not run; start it first"
+                                          : fmt::format("{} has no sound device", system)};
         std::string wanted = name;
 #if defined(__linux__)
         if (system == "pulse" && !name.empty())
@@ -82,37 +151,38 @@ public:
         }
 #endif
         std::string names;
-        for (unsigned i = 0; i < count; ++i)
+        for (int i = 0; i < count; ++i)
         {
-            const auto info = audio.getDeviceInfo(i);
-            if (!info.probed || (isInput ? info.inputChannels : info.outputChannels) == 0)
+            const auto info = library().deviceInfo(audio, i);
+            if (info.probed == 0 || (isInput ? info.input_channels : info.output_channels) == 0)
                 continue;
-            names += (names.empty() ? "" : ", ") + info.name;
-            const bool isDefault = isInput ? info.isDefaultInput : info.isDefaultOutput;
+            names += fmt::format("{}{}", names.empty() ? "" : ", ", info.name);
+            const bool isDefault = (isInput ? info.is_default_input : info.is_default_output) != 0;
             const bool meant = wanted.empty() ? isDefault || !found
                                               : lowerCase(info.name).find(lowerCase(wanted)) != std::string::npos;
             if (!meant || (found && !isDefault))
                 continue;
             found = true;
-            stream.deviceId = i;
-            stream.nChannels = isInput ? std::min(info.inputChannels, 2u) : info.outputChannels;
-            rate = info.preferredSampleRate != 0 ? info.preferredSampleRate
-                   : info.sampleRates.empty()    ? 48000
-                                                 : info.sampleRates.back();
+            stream.device_id = static_cast<unsigned>(i);
+            stream.num_channels = isInput ? std::min(info.input_channels, 2u) : info.output_channels;
+            if (info.preferred_sample_rate != 0)
+                rate = info.preferred_sample_rate;
         }
         if (!found)
             return Error{ErrorCode::io, "",
                          names.empty() ? fmt::format("{} has no sound {}", system, isInput ? "input" : "output")
                                        : fmt::format("is none of the devices of {}: {}", system, names)};
+        rtaudio_stream_options_t options{};
+        std::string_view(isInput ? "pacini" : "pacini touch").copy(options.name, sizeof options.name - 1);
+        options.flags = RTAUDIO_FLAGS_MINIMIZE_LATENCY; // of its own accord JACK is before other work
         if (system == "jack" && name.empty())
-            stream.nChannels = isInput ? 2 : 1;
-        RtAudio::StreamOptions options;
-        options.streamName = isInput ? "pacini" : "pacini touch";
-        options.flags = RTAUDIO_MINIMIZE_LATENCY; // of its own accord JACK is before other work
-        if (system == "jack" && name.empty())
-            options.flags |= RTAUDIO_JACK_DONT_CONNECT;
-        audio.openStream(isInput ? nullptr : &stream, isInput ? &stream : nullptr, RTAUDIO_FLOAT32, rate, &frames,
-                         &RtPort::called, this, &options);
+        {
+            stream.num_channels = isInput ? 2 : 1;
+            options.flags |= RTAUDIO_FLAGS_JACK_DONT_CONNECT;
+        }
+        if (library().openStream(audio, isInput ? nullptr : &stream, isInput ? &stream : nullptr,
+                                 RTAUDIO_FORMAT_FLOAT32, rate, &frames, &RtPort::called, this, &options, nullptr) != 0)
+            return failure();
         scratch.assign(frames, 0.0f);
         return {};
     }
@@ -140,22 +210,17 @@ public:
 
     void stop() override
     {
-        try
-        {
-            if (audio.isStreamRunning())
-                audio.abortStream();
-            if (audio.isStreamOpen())
-                audio.closeStream();
-        }
-        catch (const RtAudioError&)
-        {
-            return; // it is gone, and calls nobody
-        }
+        if (audio == nullptr)
+            return;
+        if (library().isRunning(audio) != 0)
+            static_cast<void>(library().abortStream(audio));
+        if (library().isOpen(audio) != 0)
+            library().closeStream(audio);
     }
 
     [[nodiscard]] bool isRunning() override
     {
-        return audio.isStreamRunning();
+        return library().isRunning(audio) != 0;
     }
     [[nodiscard]] std::uint64_t interruptions() const override
     {
@@ -163,20 +228,20 @@ public:
     }
 
 private:
+    [[nodiscard]] Error failure() const
+    {
+        const char* text = library().error(audio);
+        return {ErrorCode::io, "", text != nullptr && *text != '\0' ? text : "cannot be opened"};
+    }
+
     [[nodiscard]] Result<void> start()
     {
-        try
-        {
-            audio.startStream();
-        }
-        catch (const RtAudioError& error)
-        {
-            return Error{ErrorCode::io, "", error.getMessage()};
-        }
+        if (library().startStream(audio) != 0)
+            return failure();
         return {};
     }
 
-    static int called(void* out, void* in, unsigned count, double, RtAudioStreamStatus status, void* self)
+    static int called(void* out, void* in, unsigned count, double, rtaudio_stream_status_t status, void* self)
     {
         static_cast<RtPort*>(self)->block(static_cast<float*>(out), static_cast<const float*>(in), count, status != 0);
         return 0;
@@ -186,7 +251,7 @@ private:
     {
         if (wasLate)
             late.fetch_add(1, std::memory_order_relaxed);
-        const std::size_t channels = stream.nChannels;
+        const std::size_t channels = stream.num_channels;
         if (in != nullptr && takes)
             takes({in, count * channels}, channels);
         if (out == nullptr)
@@ -202,10 +267,9 @@ private:
         }
     }
 
-    RtAudio audio;
-    RtAudio::StreamParameters stream;
-    std::string system;
-    bool input = false;
+    std::string_view system;
+    rtaudio_t audio; ///< null: it could not be made
+    rtaudio_stream_parameters_t stream{};
     bool found = false;
     unsigned rate = 48000; ///< Hz
     unsigned frames = 128; ///< of a block; JACK has its own
@@ -220,21 +284,16 @@ Result<std::unique_ptr<SoundPort>> openPort(const std::string& named, bool isInp
     const std::size_t colon = named.find(':');
     const std::string system = named.substr(0, colon);
     const std::string name = colon == std::string::npos ? "" : named.substr(colon + 1);
-    for (const RtAudio::Api api : compiledSystems())
+    const SoundLibraryCall quiet; // what the systems' libraries print of themselves
+    if (!library().isThere)
+        return Error{ErrorCode::io, "", "needs RtAudio 5; install it (librtaudio6), or use a pipe"};
+    for (const rtaudio_api_t api : compiledSystems())
         if (systemName(api) == system)
         {
-            const SoundLibraryCall quiet; // what the systems' libraries print of themselves
-            try
-            {
-                auto port = std::make_unique<RtPort>(api);
-                if (const auto done = port->choose(name, isInput); !done)
-                    return done.error();
-                return std::unique_ptr<SoundPort>(std::move(port));
-            }
-            catch (const RtAudioError& error)
-            {
-                return Error{ErrorCode::io, "", error.getMessage()};
-            }
+            auto port = std::make_unique<RtPort>(api);
+            if (const auto done = port->choose(name, isInput); !done)
+                return done.error();
+            return std::unique_ptr<SoundPort>(std::move(port));
         }
     return Error{ErrorCode::invalidArgument, "",
                  fmt::format("begins with none of {}", fmt::join(SoundPort::systems(), ", "))};
@@ -244,8 +303,8 @@ Result<std::unique_ptr<SoundPort>> openPort(const std::string& named, bool isInp
 std::vector<std::string> SoundPort::systems()
 {
     std::vector<std::string> names;
-    for (const RtAudio::Api api : compiledSystems())
-        names.push_back(systemName(api));
+    for (const rtaudio_api_t api : compiledSystems())
+        names.emplace_back(systemName(api));
     return names;
 }
 
@@ -255,7 +314,7 @@ namespace
 {
 Result<std::unique_ptr<SoundPort>> openPort(const std::string&, bool)
 {
-    return Error{ErrorCode::io, "", "needs RtAudio, without which this pacini was built; use a pipe"};
+    return Error{ErrorCode::io, "", "needs RtAudio 5, without which this pacini was built; use a pipe"};
 }
 } // namespace
 

@@ -22,7 +22,7 @@ using SoundTaker = std::function<void(std::span<const float> interleaved, std::s
 using SoundMaker = std::function<void(std::span<float> frames)>;
 
 /// An open sound device, by RtAudio. A device is named as SYSTEM or SYSTEM:NAME. The systems are those that RtAudio was
-/// built with: jack, pulse, alsa, core, wasapi. NAME is a part of a device's name; of pulse, the whole name of a source
+/// built with: jack, pulse, alsa, core. NAME is a part of a device's name; of pulse, the whole name of a source
 /// or a sink. Without a name it is the default device; jack then leaves its ports for the user to connect.
 class SoundPort
 {
