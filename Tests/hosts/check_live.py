@@ -6,6 +6,7 @@ are played (3600 for an hour)
 """
 import json
 import os
+import signal
 import struct
 import subprocess
 import sys
@@ -85,6 +86,15 @@ def check_ports(folder):
           and told["outputs"][0]["frames"] == 3 * RATE, error + out)
 
 
+def check_signal(folder):
+    process = live("--sound-input", "jack", "--device", "wireless", "-o", str(folder / "kept.wav"))
+    time.sleep(1.5)
+    process.send_signal(signal.SIGINT)
+    _, error = process.communicate(timeout=30)
+    check("Ctrl-C ends it, and keeps what was written", process.returncode == -signal.SIGINT and not error
+          and (folder / "kept.wav").exists(), f"{process.returncode} {error}")
+
+
 def check_file(folder):
     sound = folder / "sound.wav"
     samples = bytes(4 * RATE)
@@ -121,6 +131,7 @@ def claims(devices):
             skip("JACK does not start")
         check_delay()
         check_ports(Path(name))
+        check_signal(Path(name))
         check_file(Path(name))
         check_server_ends(Path(name), server)
 

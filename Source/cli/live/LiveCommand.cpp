@@ -515,11 +515,17 @@ Exit LiveCommand::run(Console& console)
             params = known.params;
     described.apply(translatorParameters, params);
 
+    // It outlives the session, whose end it lets the signal follow. It begins before the first thread, one of a sound
+    // server too; but a wait for a pipe's header may be ended by the signal itself.
+    std::optional<Interruption> interruption;
     Session session;
+    if (!soundInput.empty())
+        interruption.emplace();
     if (const auto opened = openInput(session); !opened)
         return console.fail(soundName(), opened.error(),
                             opened.error().code == ErrorCode::invalidArgument ? Exit::usage : Exit::failed);
-    Interruption interruption; // after the wait for a header, and before the first thread
+    if (!interruption)
+        interruption.emplace();
     session.engine = std::make_unique<LiveEngine>(
         session.port ? session.port->sampleRate() : session.input->sampleRate(), setup, params);
     if (measuring)
@@ -531,7 +537,7 @@ Exit LiveCommand::run(Console& console)
         return opened;
     if (const auto started = start(session); !started)
         return console.fail(soundName(), started.error());
-    watch(console, session, interruption);
+    watch(console, session, *interruption);
     return finish(console, session);
 }
 
