@@ -28,15 +28,23 @@ public:
         share.jump(0.0);
     }
 
-    /// At most `pieceFrames` frames. [audio]
-    void process(HostedProject& clips, std::span<float> drive, std::span<const std::span<float>> others,
+    /// Fetches what the clips play in the next `frames`, `pieceFrames` at most. False: they rest, and process() would
+    /// change nothing. [audio]
+    [[nodiscard]] bool take(HostedProject& clips, std::size_t frames) noexcept
+    {
+        const std::array<std::span<float>, 2> beside{std::span(left).first(frames), std::span(right).first(frames)};
+        plays = clips.process(std::span(haptic).first(frames), beside);
+        share.aim(plays ? 1.0 : 0.0);
+        return plays || !share.resting();
+    }
+
+    /// Mixes what take() has fetched; all of that length. [audio]
+    void process(std::span<float> drive, std::span<const std::span<float>> others,
                  std::span<const std::span<float>> main) noexcept
     {
         const std::array<std::span<float>, 2> beside{std::span(left).first(drive.size()),
                                                      std::span(right).first(drive.size())};
         const auto signal = std::span(haptic).first(drive.size());
-        const bool plays = clips.process(signal, beside);
-        share.aim(plays ? 1.0 : 0.0);
         if (!plays && share.resting())
             return;
         if (plays)
@@ -56,6 +64,7 @@ public:
 
 private:
     Fade share; ///< of the clip
+    bool plays = false;
     std::array<float, pieceFrames> haptic{}, left{}, right{};
 };
 

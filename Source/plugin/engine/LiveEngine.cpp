@@ -5,7 +5,9 @@
 #include <pacini/realtime/Translator.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 
 namespace pacini::plugin
@@ -22,6 +24,18 @@ std::size_t engineLatency(double sampleRate, std::size_t ofTranslator)
     Translator common;
     common.prepare({commonRate, 1});
     return std::max(ofTranslator, common.latencyFrames());
+}
+
+/// Whether all samples are 0. By their bits, without a branch in the loop; what is not a number is no silence.
+template <typename Sample>
+bool isSilent(std::span<const std::span<Sample>> channels) noexcept
+{
+    constexpr std::uint32_t allButSign = 0x7fffffff;
+    std::uint32_t bits = 0;
+    for (const auto& channel : channels)
+        for (const float x : channel)
+            bits |= std::bit_cast<std::uint32_t>(x);
+    return (bits & allButSign) == 0;
 }
 } // namespace
 
@@ -47,6 +61,7 @@ void LiveEngine::prepare(double sampleRate, std::size_t mainChannels, std::size_
     row.prepare(sampleRate, std::max(hapticChannels, mainChannels));
     routing.prepare(sampleRate, std::min(mainChannels, maxMainChannels), pieceFrames);
     preview.prepare(sampleRate);
+    watch.prepare(sampleRate);
     delay.prepare(std::min(mainChannels, maxMainChannels), latencyFrames());
     const auto ringFrames = static_cast<std::size_t>(captureSeconds * std::min(sampleRate, 96000.0));
     if (ring.capacityFrames() == ringFrames)
@@ -78,6 +93,7 @@ void LiveEngine::reset() noexcept
     }
     settling = {};
     begun = false;
+    watch.reset();
     mix.reset();
     row.reset();
     routing.reset();
@@ -92,6 +108,7 @@ TranslatorMeterReading LiveEngine::readMeters(std::size_t channel) const noexcep
 void LiveEngine::setSetup(std::size_t channel, const TranslatorSetup& setup)
 {
     Voice& voice = voices[channel];
+    voice.restSeconds.store(restSeconds(setup), std::memory_order_relaxed);
     if (voice.translator)
         voice.translator->setSetup(setup);
     else
@@ -104,24 +121,23 @@ void LiveEngine::setSetup(std::size_t channel, const TranslatorSetup& setup)
     }
     // The audio thread sees the translator no earlier than this.
     sources[channel].store(channel, std::memory_order_release);
+    disturbed.store(true, std::memory_order_release);
 }
 
 void LiveEngine::process(const EngineBlock& block, const ParameterValues& values, bool bypassed) noexcept
 {
-    params = values.translator();
-    const auto choice = static_cast<SourceChoice>(values.index(ParameterId::source));
-    mix.aim(choice, values[ParameterId::sourceMix]);
-    hearsSidechain = choice == SourceChoice::sidechain;
-    const auto mode = static_cast<OutputMode>(values.index(ParameterId::outputMode));
-    const std::size_t added = mode == OutputMode::addToChannel ? values.index(ParameterId::outputCount) : 1;
-    routing.aim(mode, values.index(ParameterId::outputChannel) - 1, added,
-                bypassed || values.isOn(ParameterId::bypass));
-    // Where the drives take the place of the sound, each of its channels has one.
-    const std::size_t wanted = std::max(block.haptic.size(), routing.drivesInMain(block.main.size()));
-    channels = std::clamp<std::size_t>(wanted, 1, row.channels());
-    inUse.store(channels, std::memory_order_relaxed);
-    row.aim(values, channels);
-
+    const std::array shape{block.main.size(), block.sidechain.size(), block.haptic.size()};
+    const bool same = values == seen && bypassed == seenBypass && shape == seenChannels;
+    if (!same || disturbed.load(std::memory_order_relaxed))
+    {
+        wake(); // with what was in force until now
+        disturbed.store(false, std::memory_order_relaxed);
+        seen = values;
+        seenBypass = bypassed;
+        seenChannels = shape;
+    }
+    if (!watch.resting())
+        aim(block, values, bypassed);
     std::array<std::span<float>, maxMainChannels> main;
     std::array<std::span<const float>, maxSidechainChannels> sidechain;
     std::array<std::span<float>, maxHapticChannels> haptic;
@@ -141,10 +157,41 @@ void LiveEngine::process(const EngineBlock& block, const ParameterValues& values
     }
 }
 
+/// Where everything is to be from this block on. At rest it is there.
+void LiveEngine::aim(const EngineBlock& block, const ParameterValues& values, bool bypassed) noexcept
+{
+    params = values.translator();
+    const auto choice = static_cast<SourceChoice>(values.index(ParameterId::source));
+    mix.aim(choice, values[ParameterId::sourceMix]);
+    hearsSidechain = choice == SourceChoice::sidechain;
+    const auto mode = static_cast<OutputMode>(values.index(ParameterId::outputMode));
+    const std::size_t added = mode == OutputMode::addToChannel ? values.index(ParameterId::outputCount) : 1;
+    routing.aim(mode, values.index(ParameterId::outputChannel) - 1, added,
+                bypassed || values.isOn(ParameterId::bypass));
+    // Where the drives take the place of the sound, each of its channels has one.
+    const std::size_t wanted = std::max(block.haptic.size(), routing.drivesInMain(block.main.size()));
+    channels = std::clamp<std::size_t>(wanted, 1, row.channels());
+    inUse.store(channels, std::memory_order_relaxed);
+    row.aim(values, channels);
+}
+
 void LiveEngine::piece(std::span<const std::span<float>> main, std::span<const std::span<const float>> sidechain,
                        std::span<const std::span<float>> haptic, std::size_t frames) noexcept
 {
     const auto in = std::span(source).first(frames);
+    const bool previews = clips != nullptr && preview.take(*clips, frames);
+    const bool silent = !previews && isSilent(main) && isSilent(sidechain);
+    if (!silent)
+        wake();
+    if (watch.resting())
+    {
+        std::fill(in.begin(), in.end(), 0.0f);
+        ring.push(in);
+        for (const auto& channel : haptic)
+            std::fill(channel.begin(), channel.end(), 0.0f);
+        watch.rested(frames);
+        return;
+    }
     mix.process(main, sidechain, in);
     const float peak = largestMagnitude(in);
     if (peak > inputPeak.load(std::memory_order_relaxed))
@@ -160,8 +207,8 @@ void LiveEngine::piece(std::span<const std::span<float>> main, std::span<const s
     for (std::size_t v = 1; v < voices.size(); ++v)
         if (voices[v].plays)
             others[otherCount++] = std::span(voices[v].drive).first(frames);
-    if (clips != nullptr)
-        preview.process(*clips, std::span(voices[0].drive).first(frames), std::span(others).first(otherCount), main);
+    if (previews)
+        preview.process(std::span(voices[0].drive).first(frames), std::span(others).first(otherCount), main);
 
     std::array<std::span<const float>, maxHapticChannels> from;
     std::array<std::span<float>, maxHapticChannels> to;
@@ -178,6 +225,56 @@ void LiveEngine::piece(std::span<const std::span<float>> main, std::span<const s
     row.process(std::span(from).first(channels), left, right, std::span(to).first(channels));
     routing.process(main, haptic, std::span(to).first(channels));
     meterPeaks(main.size(), frames);
+    watch.worked(frames, mayRest && silent && isStill(main, frames), framesToRest());
+}
+
+/// Of what is played, and what went out in the last piece.
+bool LiveEngine::isStill(std::span<const std::span<float>> main, std::size_t frames) const noexcept
+{
+    const auto still = [](std::span<const float> signal)
+    {
+        return largestMagnitude(signal) <= SilenceWatch::stillness;
+    };
+    for (const Voice& voice : voices)
+        if (voice.plays && !still(std::span(voice.drive).first(frames)))
+            return false;
+    for (std::size_t c = 0; c < channels; ++c)
+        if (!still(std::span(drives[c]).first(frames)))
+            return false;
+    return std::all_of(main.begin(), main.end(), still);
+}
+
+std::size_t LiveEngine::framesToRest() const noexcept
+{
+    double seconds = 0.0;
+    for (const Voice& voice : voices)
+        if (voice.plays)
+            seconds = std::max(seconds, voice.restSeconds.load(std::memory_order_relaxed));
+    return static_cast<std::size_t>(seconds * fs.load(std::memory_order_relaxed));
+}
+
+/// Works at the silence that is owed, a part of a turn of all grids: then they stand as if there had been no rest. A
+/// new actuator, which waits for the translator to go on, fades in by that much earlier.
+void LiveEngine::wake() noexcept
+{
+    if (!watch.resting())
+        return watch.reset();
+    for (std::size_t due = watch.wake(); due > 0;)
+    {
+        const std::size_t n = std::min(due, pieceFrames);
+        const auto in = std::span(source).first(n);
+        std::fill(in.begin(), in.end(), 0.0f);
+        translate(in);
+        std::array<std::span<const float>, maxHapticChannels> from;
+        std::array<std::span<float>, maxHapticChannels> to;
+        for (std::size_t c = 0; c < channels; ++c)
+        {
+            from[c] = std::span(voices[playing[c]].drive).first(n);
+            to[c] = std::span(drives[c]).first(n);
+        }
+        row.process(std::span(from).first(channels), in, in, std::span(to).first(channels));
+        due -= n;
+    }
 }
 
 /// A channel that is to play another voice fades out before it does, and in when that has settled.

@@ -8,6 +8,7 @@
 #include "plugin/engine/HapticRow.h"
 #include "plugin/engine/MainDelay.h"
 #include "plugin/engine/ParameterValues.h"
+#include "plugin/engine/SilenceWatch.h"
 #include "plugin/engine/SourceMix.h"
 
 #include <pacini/realtime/CaptureRing.h>
@@ -45,7 +46,8 @@ struct EngineBlock
 };
 
 /// Translates the sound for each actuator that is in use, once for all channels that share one, and hands the drives
-/// to the haptic channels.
+/// to the haptic channels. After long silence it rests until something comes or is changed; the samples are then,
+/// within 1e-7, those of an engine that never rests.
 class LiveEngine
 {
 public:
@@ -57,6 +59,11 @@ public:
 
     /// Whose clips are heard in the place of the drive while they play; null: nobody's. [message], before prepare()
     void setClips(HostedProject* wanted) noexcept { clips = wanted; }
+
+    /// Whether it may rest in silence, as it does. [message], while no block is processed
+    void setRests(bool wanted) noexcept { mayRest = wanted; }
+    /// Whether it rests now. [audio]
+    [[nodiscard]] bool resting() const noexcept { return watch.resting(); }
 
     /// As freshly prepared. [audio]
     void reset() noexcept;
@@ -76,6 +83,7 @@ public:
     void share(std::size_t channel, std::size_t other) noexcept
     {
         sources[channel].store(other, std::memory_order_release);
+        disturbed.store(true, std::memory_order_release);
     }
 
     /// Of the translation that a channel plays.
@@ -97,6 +105,7 @@ public:
 private:
     static constexpr std::size_t pieceFrames = ClipPreview::pieceFrames;
 
+    void aim(const EngineBlock& block, const ParameterValues& values, bool bypassed) noexcept;
     void piece(std::span<const std::span<float>> main, std::span<const std::span<const float>> sidechain,
                std::span<const std::span<float>> haptic, std::size_t frames) noexcept;
 
@@ -106,11 +115,15 @@ private:
         std::unique_ptr<Translator> translator; ///< null until a channel wants it
         MainDelay late;                         ///< up to the latency of the engine
         bool plays = false;                     ///< some channel listened to it in the last piece
+        std::atomic<double> restSeconds{0.0};   ///< see restSeconds()
         std::array<float, pieceFrames> drive{};
     };
 
     void prepareVoice(Voice& voice) const;
     void followSources(std::size_t frames) noexcept;
+    void wake() noexcept;
+    [[nodiscard]] bool isStill(std::span<const std::span<float>> main, std::size_t frames) const noexcept;
+    [[nodiscard]] std::size_t framesToRest() const noexcept;
     void translate(std::span<const float> in) noexcept;
     void meterPeaks(std::size_t mainChannels, std::size_t frames) noexcept;
 
@@ -120,6 +133,12 @@ private:
     std::array<std::size_t, maxHapticChannels> playing{};              ///< that it does
     std::array<std::size_t, maxHapticChannels> settling{};             ///< frames until that is heard
     bool begun = false;
+    bool mayRest = true;
+    SilenceWatch watch;
+    std::atomic<bool> disturbed{false}; ///< what is played was changed
+    ParameterValues seen;               ///< in the last block
+    bool seenBypass = false;
+    std::array<std::size_t, 3> seenChannels{};
     SourceMix mix;
     std::size_t latency = 0;
     MainDelay delay;

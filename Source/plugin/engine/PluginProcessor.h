@@ -92,6 +92,10 @@ public:
     [[nodiscard]] double gainReduction(std::size_t channel) const;
     /// Haptic channels that are played.
     [[nodiscard]] std::size_t channelsInUse() const { return engine.channelsInUse(); }
+    /// Whether the engine may rest in silence, as it does. [message], while no block is processed
+    void setRests(bool wanted) noexcept { engine.setRests(wanted); }
+    /// Whether it rests. On the thread of processBlock().
+    [[nodiscard]] bool resting() const noexcept { return engine.resting(); }
     /// The name of the actuator that a haptic channel is made for now.
     [[nodiscard]] juce::String actuatorName(std::size_t channel = 0) const;
     /// Whether any of them is played differently with another strength.

@@ -142,3 +142,37 @@ TEST_CASE("What each further haptic channel takes", "[.bench]")
                 one, (share(8, 1, false) - one) / 7.0, (share(8, 1, true) - one) / 7.0,
                 (share(8, 8, false) - one) / 7.0);
 }
+
+TEST_CASE("What a plugin takes in silence", "[.bench]")
+{
+    constexpr int frames = 256;
+    const auto sound = liveSounds(2, 48000, 3);
+    Rig rig;
+    juce::AudioBuffer<float> buffer(3, frames);
+    juce::MidiBuffer midi;
+    const auto second = [&](bool silent)
+    {
+        Clock::duration span{};
+        for (int block = 0; block < 187; ++block)
+        {
+            buffer.clear();
+            for (int c = 0; c < 2 && !silent; ++c)
+                buffer.copyFrom(c, 0, sound[static_cast<std::size_t>(c)].data() + block * frames, frames);
+            const auto begin = Clock::now();
+            rig.plugin.processBlock(buffer, midi);
+            span += Clock::now() - begin;
+        }
+        return microseconds(span) / 187.0;
+    };
+    double plays = 1e9, justSilent = 1e9, atRest = 1e9;
+    for (int repeat = 0; repeat < 20; ++repeat)
+    {
+        plays = std::min(plays, second(false));
+        justSilent = std::min(justSilent, (second(true), second(true))); // before it rests
+        (void)second(true);
+        atRest = std::min(atRest, second(true));
+    }
+    std::printf("a block of 256: sound %.2f us, silence of a second %.2f us (%.3f of sound), of three seconds %.3f us "
+                "(%.3f)\n",
+                plays, justSilent, justSilent / plays, atRest, atRest / plays);
+}
