@@ -306,8 +306,8 @@ inline constexpr std::array<ParameterRow, parameterCount> parameterTable{{
 }
 static_assert(isInOrder());
 
-/// Whether the rows of live parameters have the ranges and defaults that translatorParameters describes.
-[[nodiscard]] constexpr bool agreesWithTranslator() noexcept
+/// The id of the row of a live parameter, by the name that translatorParameters gives it.
+[[nodiscard]] constexpr std::string_view idOfTranslator(std::string_view name) noexcept
 {
     constexpr std::array<std::array<std::string_view, 2>, 6> otherNames{{{"rumble", "rumbleLevel"},
                                                                          {"rumbleMuted", "rumbleMute"},
@@ -315,12 +315,27 @@ static_assert(isInOrder());
                                                                          {"textureMuted", "textureMute"},
                                                                          {"transients", "transientLevel"},
                                                                          {"transientsMuted", "transientMute"}}};
+    for (const auto& [own, other] : otherNames)
+        if (own == name)
+            return other;
+    return name;
+}
+
+/// Whether a row is a live parameter of the translator, which presets set.
+[[nodiscard]] constexpr bool isOfTranslator(const ParameterRow& row) noexcept
+{
+    for (const auto& parameter : translatorParameters)
+        if (idOfTranslator(parameter.name) == row.id)
+            return true;
+    return false;
+}
+
+/// Whether the rows of live parameters have the ranges and defaults that translatorParameters describes.
+[[nodiscard]] constexpr bool agreesWithTranslator() noexcept
+{
     for (const auto& parameter : translatorParameters)
     {
-        std::string_view id = parameter.name;
-        for (const auto& [name, other] : otherNames)
-            if (name == parameter.name)
-                id = other;
+        const std::string_view id = idOfTranslator(parameter.name);
         std::size_t i = 0;
         while (i < parameterCount && id != parameterTable[i].id)
             ++i;

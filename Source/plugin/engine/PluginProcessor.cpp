@@ -3,12 +3,12 @@
 
 #include "io/ProfileFile.h"
 #include "io/ShippedProfiles.h"
-#include "plugin/engine/ParameterText.h"
 
 #include <pacini/actuator/ActuatorFit.h>
 #include <pacini/realtime/TranslatorPresets.h>
 
 #include <algorithm>
+#include <chrono>
 #include <memory>
 #include <string>
 #include <utility>
@@ -48,6 +48,13 @@ PluginProcessor::PluginProcessor()
         table[static_cast<std::size_t>(row.parameter)] = made.get();
         addParameter(made.release());
     }
+    history = std::make_unique<EditHistory>(
+        std::vector<juce::AudioProcessorParameter*>(table.begin(), table.end()), [this] { return values(); },
+        [this](EditStep step)
+        {
+            step.presetBefore = step.presetAfter = presetChoice();
+            addStep(std::move(step));
+        });
     for (ChannelActuator& actuator : actuators)
         actuator.profile = builtInProfile(0);
     appliedStrength = parameter(ParameterId::strength).value();
@@ -105,6 +112,7 @@ void PluginProcessor::processBlockBypassed(juce::AudioBuffer<float>& buffer, juc
 void PluginProcessor::process(juce::AudioBuffer<float>& buffer, bool bypassed) noexcept
 {
     const juce::ScopedNoDenormals noDenormals;
+    const auto begin = std::chrono::steady_clock::now();
     bypassedByHost.store(bypassed, std::memory_order_relaxed);
     // Offline there is time, and no worker thread can keep up.
     if (isNonRealtime())
@@ -131,6 +139,18 @@ void PluginProcessor::process(juce::AudioBuffer<float>& buffer, bool bypassed) n
     engine.process({std::span<float* const>(main).first(mains), std::span<const float* const>(sidechain).first(sides),
                     std::span<float* const>(haptic).first(haptics), static_cast<std::size_t>(buffer.getNumSamples())},
                    values(), bypassed);
+    const std::chrono::duration<double> worked = std::chrono::steady_clock::now() - begin;
+    noteLoad(worked.count(), static_cast<double>(buffer.getNumSamples()) / engine.sampleRate());
+}
+
+/// The mean of about the last second.
+void PluginProcessor::noteLoad(double worked, double available) noexcept
+{
+    if (!(available > 0.0))
+        return;
+    const double share = std::min(available, 1.0);
+    const double before = meanLoad.load(std::memory_order_relaxed);
+    meanLoad.store(before + share * (worked / available - before), std::memory_order_relaxed);
 }
 
 ParameterValues PluginProcessor::values() const noexcept
@@ -204,19 +224,31 @@ void PluginProcessor::adoptActuator(std::size_t channel, bool strengthMoved)
     engine.setSetup(channel, setupOf(actuator.profile, appliedStrength));
 }
 
-void PluginProcessor::getStateInformation(juce::MemoryBlock& block)
+PluginSettings PluginProcessor::settingsNow()
 {
-    PluginState state;
+    PluginSettings settings;
     {
         const juce::ScopedLock lock(setupLock);
         catchUp();
-        state.profile = actuators[0].profile;
+        settings.profile = actuators[0].profile;
         for (std::size_t c = 1; c < actuators.size(); ++c)
             if (!followsFirst(c))
-                state.furtherProfiles[c - 1] = actuators[c].profile;
+                settings.furtherProfiles[c - 1] = actuators[c].profile;
     }
-    state.values = values();
-    state.program = program.load();
+    settings.values = values();
+    settings.preset = presetChoice();
+    return settings;
+}
+
+void PluginProcessor::getStateInformation(juce::MemoryBlock& block)
+{
+    PluginState state;
+    static_cast<PluginSettings&>(state) = settingsNow();
+    {
+        const juce::ScopedLock lock(setupLock);
+        state.side = sideNow;
+        state.other = otherSide;
+    }
     state.clips = clips.text();
     state.windowWidth = windowWidth.load();
     state.windowHeight = windowHeight.load();
@@ -237,16 +269,18 @@ void PluginProcessor::setStateInformation(const void* data, int size)
     }
     PluginState& state = read->state;
     juce::String noted = read->note;
-    {
-        const juce::ScopedLock lock(setupLock);
-        for (std::size_t c = 0; c < actuators.size(); ++c)
-            if (const auto note =
-                    restoreActuator(state.values, c, c == 0 ? state.profile : state.furtherProfiles[c - 1]))
-                noted += (noted.isEmpty() ? "" : "; ") + *note;
-    }
+    if (const auto note = restoreActuators(state); note.isNotEmpty())
+        noted += (noted.isEmpty() ? "" : "; ") + note;
     setValues(state.values); // the host may wait for another thread of ours here: no lock
     catchUp();
-    program.store(juce::jlimit(0, getNumPrograms() - 1, state.program));
+    {
+        const juce::ScopedLock lock(setupLock);
+        sideNow = state.side;
+        otherSide = state.other;
+        for (StepList& list : edits)
+            list.clear();
+    }
+    setPreset(state.preset);
     setKeepsCaptures(state.keepsCaptures);
     if (state.windowWidth > 0 && state.windowHeight > 0)
         setWindowSize(state.windowWidth, state.windowHeight);
@@ -255,6 +289,18 @@ void PluginProcessor::setStateInformation(const void* data, int size)
                  juce::String(restored.error().text());
     say(noted);
     updateHostDisplay(ChangeDetails().withProgramChanged(true));
+}
+
+/// For values that are to be set; what is to be said of it.
+juce::String PluginProcessor::restoreActuators(PluginSettings& settings)
+{
+    juce::String noted;
+    const juce::ScopedLock lock(setupLock);
+    for (std::size_t c = 0; c < actuators.size(); ++c)
+        if (const auto note =
+                restoreActuator(settings.values, c, c == 0 ? settings.profile : settings.furtherProfiles[c - 1]))
+            noted += (noted.isEmpty() ? "" : "; ") + *note;
+    return noted;
 }
 
 /// A session keeps the actuator that it was made with; says so where that is not the one that is built in.
@@ -297,10 +343,168 @@ void PluginProcessor::applyProgram(int index)
 {
     if (index < 0 || index >= getNumPrograms())
         return;
-    program.store(index);
+    program.store(index); // hosts may come here from any thread
+    isUserPreset.store(false);
     ParameterValues wanted = values();
     wanted.setTranslator(translatorPresets()[static_cast<std::size_t>(index)].params);
     setValues(wanted);
+}
+
+// Edits.
+
+/// As the user's own hand would: hosts record it.
+void PluginProcessor::setAsGestures(const ParameterValues& wanted)
+{
+    const EditHistory::Pause pause(*history);
+    for (TableParameter* each : table)
+    {
+        const double value = wanted[each->row().parameter];
+        if (value == each->value())
+            continue;
+        each->beginChangeGesture();
+        each->setPlainNotifyingHost(value);
+        each->endChangeGesture();
+    }
+}
+
+void PluginProcessor::edit(const ParameterValues& wanted, const PresetChoice& preset)
+{
+    EditStep step = EditHistory::stepBetween(values(), wanted);
+    step.presetBefore = presetChoice();
+    step.presetAfter = preset;
+    setPreset(preset);
+    setAsGestures(wanted);
+    addStep(std::move(step));
+    updateHostDisplay(ChangeDetails().withProgramChanged(true));
+}
+
+void PluginProcessor::chooseProgram(int index)
+{
+    if (index < 0 || index >= getNumPrograms())
+        return;
+    ParameterValues wanted = values();
+    wanted.setTranslator(translatorPresets()[static_cast<std::size_t>(index)].params);
+    edit(wanted, {index, {}});
+}
+
+void PluginProcessor::choosePreset(const UserPreset& preset)
+{
+    ParameterValues wanted = values();
+    wanted.setTranslator(preset.params);
+    edit(wanted, {program.load(), preset.name});
+}
+
+void PluginProcessor::noteSavedPreset(const std::string& name)
+{
+    edit(values(), {program.load(), name});
+}
+
+PresetChoice PluginProcessor::presetChoice() const
+{
+    const juce::ScopedLock lock(setupLock);
+    return {program.load(), isUserPreset.load() ? userPreset : std::string()};
+}
+
+void PluginProcessor::setPreset(const PresetChoice& wanted)
+{
+    const juce::ScopedLock lock(setupLock);
+    program.store(juce::jlimit(0, getNumPrograms() - 1, wanted.program));
+    userPreset = wanted.user;
+    isUserPreset.store(!userPreset.empty());
+}
+
+bool PluginProcessor::canUndo() const
+{
+    const juce::ScopedLock lock(setupLock);
+    return edits[static_cast<std::size_t>(sideNow)].canUndo();
+}
+
+bool PluginProcessor::canRedo() const
+{
+    const juce::ScopedLock lock(setupLock);
+    return edits[static_cast<std::size_t>(sideNow)].canRedo();
+}
+
+void PluginProcessor::addStep(EditStep step)
+{
+    const juce::ScopedLock lock(setupLock);
+    edits[static_cast<std::size_t>(sideNow)].add(std::move(step));
+}
+
+void PluginProcessor::undo()
+{
+    EditStep step;
+    {
+        const juce::ScopedLock lock(setupLock);
+        if (const EditStep* last = edits[static_cast<std::size_t>(sideNow)].undo())
+            step = *last;
+        else
+            return;
+    }
+    replay(step, false);
+}
+
+void PluginProcessor::redo()
+{
+    EditStep step;
+    {
+        const juce::ScopedLock lock(setupLock);
+        if (const EditStep* next = edits[static_cast<std::size_t>(sideNow)].redo())
+            step = *next;
+        else
+            return;
+    }
+    replay(step, true);
+}
+
+void PluginProcessor::replay(const EditStep& step, bool forwards)
+{
+    ParameterValues wanted = values();
+    for (const EditStep::Change& change : step.changes)
+        wanted.set(change.parameter, forwards ? change.after : change.before);
+    setPreset(forwards ? step.presetAfter : step.presetBefore);
+    setAsGestures(wanted);
+    catchUp();
+    updateHostDisplay(ChangeDetails().withProgramChanged(true));
+}
+
+Side PluginProcessor::side() const
+{
+    const juce::ScopedLock lock(setupLock);
+    return sideNow;
+}
+
+void PluginProcessor::chooseSide(Side wanted)
+{
+    if (wanted == side())
+        return;
+    const PluginSettings left = settingsNow();
+    PluginSettings entered = left; // the first time
+    {
+        const juce::ScopedLock lock(setupLock);
+        if (otherSide)
+            entered = *otherSide;
+        otherSide = left;
+        sideNow = wanted;
+    }
+    entered.values.set(ParameterId::bypass, left.values[ParameterId::bypass]);
+    say(restoreActuators(entered));
+    setPreset(entered.preset);
+    setAsGestures(entered.values);
+    catchUp();
+    updateHostDisplay(ChangeDetails().withProgramChanged(true));
+}
+
+void PluginProcessor::copyToOtherSide()
+{
+    const PluginSettings now = settingsNow();
+    const juce::ScopedLock lock(setupLock);
+    const PluginSettings before = otherSide.value_or(now);
+    EditStep step = EditHistory::stepBetween(before.values, now.values);
+    step.presetBefore = before.preset;
+    step.presetAfter = now.preset;
+    edits[static_cast<std::size_t>(otherOf(sideNow))].add(std::move(step));
+    otherSide = now;
 }
 
 const juce::String PluginProcessor::getProgramName(int index)

@@ -4,17 +4,21 @@
 // Audio processor of the plugin, without its window.
 
 #include "document/HostedProject.h"
+#include "plugin/engine/EditHistory.h"
 #include "plugin/engine/LiveEngine.h"
 #include "plugin/engine/PluginState.h"
 #include "plugin/engine/SetupWorker.h"
 #include "plugin/engine/TableParameter.h"
+#include "plugin/engine/UserPresets.h"
 
 #include <juce_audio_processors/juce_audio_processors.h>
 
 #include <array>
 #include <atomic>
 #include <cstddef>
+#include <memory>
 #include <optional>
+#include <string>
 
 namespace pacini::plugin
 {
@@ -62,6 +66,24 @@ public:
     /// The translator's presets; routing, actuator and bypass stay. Sets the values even of the current one. [message]
     void applyProgram(int index);
 
+    // What the user does in the window: each is a step that can be undone. [message]
+    /// A shipped preset, as applyProgram().
+    void chooseProgram(int index);
+    /// A preset of the user.
+    void choosePreset(const UserPreset& preset);
+    /// The preset of the present values was saved under this name.
+    void noteSavedPreset(const std::string& name);
+    [[nodiscard]] PresetChoice presetChoice() const;
+    [[nodiscard]] bool canUndo() const;
+    [[nodiscard]] bool canRedo() const;
+    void undo();
+    void redo();
+    /// The sides A and B: each has all settings but bypass, and its own steps.
+    [[nodiscard]] Side side() const;
+    void chooseSide(Side wanted);
+    /// The settings in use also become those of the other side; there it is a step.
+    void copyToOtherSide();
+
     // Window
     juce::AudioProcessorEditor* createEditor() override { return nullptr; }
     bool hasEditor() const override { return false; }
@@ -92,6 +114,8 @@ public:
     [[nodiscard]] double gainReduction(std::size_t channel) const;
     /// Haptic channels that are played.
     [[nodiscard]] std::size_t channelsInUse() const { return engine.channelsInUse(); }
+    /// The time that this instance takes of what its blocks last, of late; 1 is all of a core.
+    [[nodiscard]] double load() const noexcept { return meanLoad.load(std::memory_order_relaxed); }
     /// Whether the engine may rest in silence, as it does. [message], while no block is processed
     void setRests(bool wanted) noexcept { engine.setRests(wanted); }
     /// Whether it rests. On the thread of processBlock().
@@ -111,8 +135,16 @@ public:
 
 private:
     void process(juce::AudioBuffer<float>& buffer, bool bypassed) noexcept;
+    void noteLoad(double worked, double available) noexcept;
     void catchUp() override;
     void setValues(const ParameterValues& wanted);
+    void setAsGestures(const ParameterValues& wanted);
+    void edit(const ParameterValues& wanted, const PresetChoice& preset);
+    void replay(const EditStep& step, bool forwards);
+    void setPreset(const PresetChoice& wanted);
+    [[nodiscard]] PluginSettings settingsNow();
+    [[nodiscard]] juce::String restoreActuators(PluginSettings& settings);
+    void addStep(EditStep step);
     void say(const juce::String& text);
     /// What a haptic channel is played on.
     struct ChannelActuator
@@ -141,11 +173,18 @@ private:
     std::array<ChannelActuator, maxHapticChannels> actuators;
     double appliedStrength = 0.0;
     juce::String lastNote;
+    Side sideNow = Side::a;
+    std::optional<PluginSettings> otherSide; ///< none: nobody has been there
+    std::string userPreset;                  ///< see PresetChoice; that counts while `isUserPreset`
+    std::array<StepList, 2> edits;           ///< of the sides
 
     std::atomic<int> program{0};
+    std::atomic<bool> isUserPreset{false};
     std::atomic<int> windowWidth{0}, windowHeight{0};
     std::atomic<bool> keepsSounds{true};
     std::atomic<bool> bypassedByHost{false};
+    std::atomic<double> meanLoad{0.0};
+    std::unique_ptr<EditHistory> history;
     juce::SharedResourcePointer<SetupWorker> worker;
 
     JUCE_DECLARE_NON_COPYABLE_WITH_LEAK_DETECTOR(PluginProcessor)

@@ -3,6 +3,7 @@
 
 #include "io/JsonTree.h"
 #include "io/ProfileJson.h"
+#include "plugin/engine/UserPresets.h"
 
 #include <pacini/foundation/Clamp.h>
 
@@ -36,7 +37,7 @@ void addNote(std::string& note, const std::string& more)
     note += (note.empty() ? "" : "; ") + more;
 }
 
-void readValues(const Json& named, ReadState& read)
+void readValues(const Json& named, ParameterValues& values, std::string& note)
 {
     for (const ParameterRow& row : parameterTable)
     {
@@ -45,37 +46,75 @@ void readValues(const Json& named, ReadState& read)
         {
             // Before there was such a parameter, actuators were played as flat as can be.
             if (row.parameter == ParameterId::strength)
-                read.state.values.set(row.parameter, 0.0);
+                values.set(row.parameter, 0.0);
             // And nothing above the range of touch was felt by its loudness.
             if (row.parameter == ParameterId::audible)
-                read.state.values.set(row.parameter, 0.0);
+                values.set(row.parameter, 0.0);
             continue;
         }
         if (!found->is_number() || !std::isfinite(found->get<double>()))
         {
-            addNote(read.note, std::string(row.name) + " is no number and has its default");
+            addNote(note, std::string(row.name) + " is no number and has its default");
             continue;
         }
         const double value = clampTo(found->get<double>(), row.low, row.high);
-        read.state.values.set(row.parameter, isDiscrete(row) ? std::round(value) : value);
+        values.set(row.parameter, isDiscrete(row) ? std::round(value) : value);
     }
+}
+
+void readSettings(const Json& tree, PluginSettings& settings, std::string& note)
+{
+    if (const auto named = tree.find("parameters"); named != tree.end() && named->is_object())
+        readValues(*named, settings.values, note);
+    settings.preset.program = sizeOf(tree, "program");
+    if (const auto user = tree.find("preset"); user != tree.end() && user->is_string())
+        if (auto name = user->get<std::string>(); name.size() <= UserPresets::longestName)
+            settings.preset.user = std::move(name);
+    const auto readContent = [&note](const Json& from, const std::string& name, const std::string& what)
+    {
+        std::optional<Profile> found;
+        const auto content = from.find(name);
+        if (content == from.end() || content->is_null())
+            return found;
+        if (auto profile = readProfileJson(content->dump()))
+            found = std::move(profile).value();
+        else
+            addNote(note, what + " of the session cannot be read: " + profile.error().text());
+        return found;
+    };
+    settings.profile = readContent(tree, "profile", "the actuator");
+    if (const auto further = tree.find("furtherProfiles"); further != tree.end() && further->is_object())
+        for (std::size_t i = 0; i < settings.furtherProfiles.size(); ++i)
+            settings.furtherProfiles[i] = readContent(*further, channelName(i), "actuator " + channelName(i));
+}
+
+Json settingsTree(const PluginSettings& settings)
+{
+    Json tree;
+    Json& named = tree["parameters"];
+    for (const ParameterRow& row : parameterTable)
+        named[row.id] = settings.values[row.parameter];
+    tree["program"] = settings.preset.program;
+    if (!settings.preset.user.empty())
+        tree["preset"] = settings.preset.user;
+    if (settings.profile)
+        tree["profile"] = Json::parse(profileJson(*settings.profile));
+    for (std::size_t i = 0; i < settings.furtherProfiles.size(); ++i)
+        if (const auto& profile = settings.furtherProfiles[i])
+            tree["furtherProfiles"][channelName(i)] = Json::parse(profileJson(*profile));
+    return tree;
 }
 } // namespace
 
 std::string stateText(const PluginState& state)
 {
-    Json tree;
+    Json tree = settingsTree(state);
     tree["format"] = stateFormatName;
     tree["version"] = stateFormatVersion;
-    Json& named = tree["parameters"];
-    for (const ParameterRow& row : parameterTable)
-        named[row.id] = state.values[row.parameter];
-    tree["program"] = state.program;
-    if (state.profile)
-        tree["profile"] = Json::parse(profileJson(*state.profile));
-    for (std::size_t i = 0; i < state.furtherProfiles.size(); ++i)
-        if (const auto& profile = state.furtherProfiles[i])
-            tree["furtherProfiles"][channelName(i)] = Json::parse(profileJson(*profile));
+    if (state.side == Side::b)
+        tree["side"] = "B";
+    if (state.other)
+        tree["otherSide"] = settingsTree(*state.other);
     if (state.windowWidth > 0 && state.windowHeight > 0)
         tree["window"] = {{"width", state.windowWidth}, {"height", state.windowHeight}};
     if (!state.keepsCaptures)
@@ -99,9 +138,11 @@ Result<ReadState> readState(std::string_view text)
         return Error{ErrorCode::unsupportedVersion, "version", "was written by a newer version of the plugin"};
 
     ReadState read;
-    if (const auto named = tree->find("parameters"); named != tree->end() && named->is_object())
-        readValues(*named, read);
-    read.state.program = sizeOf(*tree, "program");
+    readSettings(*tree, read.state, read.note);
+    if (tree->value("side", Json()) == Json("B"))
+        read.state.side = Side::b;
+    if (const auto other = tree->find("otherSide"); other != tree->end() && other->is_object())
+        readSettings(*other, read.state.other.emplace(), read.note);
     if (const auto window = tree->find("window"); window != tree->end() && window->is_object())
     {
         read.state.windowWidth = sizeOf(*window, "width");
@@ -111,23 +152,31 @@ Result<ReadState> readState(std::string_view text)
         read.state.keepsCaptures = keeps->get<bool>();
     if (const auto clips = tree->find("clips"); clips != tree->end() && clips->is_object())
         read.state.clips = clips->dump();
-    const auto readContent = [&read](const Json& from, const std::string& name, const std::string& what)
-    {
-        std::optional<Profile> found;
-        const auto content = from.find(name);
-        if (content == from.end() || content->is_null())
-            return found;
-        if (auto profile = readProfileJson(content->dump()))
-            found = std::move(profile).value();
-        else
-            addNote(read.note, what + " of the session cannot be read: " + profile.error().text());
-        return found;
-    };
-    read.state.profile = readContent(*tree, "profile", "the actuator");
-    if (const auto further = tree->find("furtherProfiles"); further != tree->end() && further->is_object())
-        for (std::size_t i = 0; i < read.state.furtherProfiles.size(); ++i)
-            read.state.furtherProfiles[i] = readContent(*further, channelName(i), "actuator " + channelName(i));
     return read;
+}
+
+std::string presetText(const TranslatorParams& params)
+{
+    ParameterValues values;
+    values.setTranslator(params);
+    Json tree;
+    tree["format"] = stateFormatName;
+    tree["version"] = stateFormatVersion;
+    Json& named = tree["parameters"];
+    for (const ParameterRow& row : parameterTable)
+        if (isOfTranslator(row))
+            named[row.id] = values[row.parameter];
+    return tree.dump(2) + "\n";
+}
+
+Result<TranslatorParams> readPreset(std::string_view text)
+{
+    const auto read = readState(text);
+    if (!read)
+        return read.error();
+    if (!read->note.empty())
+        return Error{ErrorCode::invalidData, "parameters", read->note};
+    return read->state.values.translator();
 }
 
 } // namespace pacini::plugin

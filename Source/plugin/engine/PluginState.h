@@ -3,6 +3,7 @@
 
 // Plugin state: what a host's session keeps of the plugin, as JSON.
 
+#include "plugin/engine/EditHistory.h"
 #include "plugin/engine/ParameterValues.h"
 
 #include <pacini/actuator/Profile.h>
@@ -22,15 +23,35 @@ inline constexpr int stateFormatVersion = 1;
 /// Longer states are refused.
 inline constexpr std::size_t largestState = std::size_t(64) << 20;
 
-struct PluginState
+/// The sides of a comparison.
+enum class Side
+{
+    a,
+    b
+};
+[[nodiscard]] constexpr Side otherOf(Side side) noexcept
+{
+    return side == Side::a ? Side::b : Side::a;
+}
+
+/// What is heard and felt: one of the two sides of a comparison.
+struct PluginSettings
 {
     ParameterValues values;
     std::optional<Profile> profile; ///< the content of the chosen one, so that a session sounds the same for ever
     /// Likewise those of the haptic channels behind the first; none for one that follows that.
     std::array<std::optional<Profile>, maxHapticChannels - 1> furtherProfiles;
-    int program = 0;
-    std::string clips;   ///< the project of the clip editor, as text; empty: none
-    int windowWidth = 0; ///< 0: as it comes
+    PresetChoice preset;
+    bool operator==(const PluginSettings&) const = default;
+};
+
+/// The settings that are in use, and what else a session keeps.
+struct PluginState : PluginSettings
+{
+    Side side = Side::a;                 ///< the one that is in use
+    std::optional<PluginSettings> other; ///< those of the other side; none: nobody has been there
+    std::string clips;                   ///< the project of the clip editor, as text; empty: none
+    int windowWidth = 0;                 ///< 0: as it comes
     int windowHeight = 0;
     bool keepsCaptures = true; ///< captured clips keep their sound
     bool operator==(const PluginState&) const = default;
@@ -51,5 +72,12 @@ struct ReadState
 /// Errors: invalidData for what is no state, unsupportedVersion for one from the future, tooLarge; nothing of it is to
 /// be used then.
 [[nodiscard]] Result<ReadState> readState(std::string_view text);
+
+/// A preset of a user: a state that names the translator's parameters only.
+[[nodiscard]] std::string presetText(const TranslatorParams& params);
+
+/// The translator's part of a state, of a preset or of a whole session. Errors as in readState(), and invalidData for
+/// one with defects: a preset is used as a whole or not at all.
+[[nodiscard]] Result<TranslatorParams> readPreset(std::string_view text);
 
 } // namespace pacini::plugin

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "plugin/engine/UserPresets.h"
+
+#include "io/AtomicFile.h"
+#include "io/InputFile.h"
+#include "plugin/engine/PluginState.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <optional>
+#include <system_error>
+#include <utility>
+
+namespace pacini::plugin
+{
+
+namespace
+{
+constexpr std::string_view ending = ".json";
+
+std::string textOf(const std::filesystem::path& path)
+{
+    const std::u8string text = path.u8string();
+    return {text.begin(), text.end()};
+}
+
+/// Names that are devices in Windows, whatever their ending.
+bool isDevice(std::string_view name)
+{
+    std::string upper(name.substr(0, name.find('.')));
+    std::transform(upper.begin(), upper.end(), upper.begin(),
+                   [](char c) { return static_cast<char>(std::toupper(static_cast<unsigned char>(c))); });
+    constexpr std::array<std::string_view, 4> names{"CON", "PRN", "AUX", "NUL"};
+    const bool numbered = upper.size() == 4 && (upper.starts_with("COM") || upper.starts_with("LPT"));
+    return numbered || std::find(names.begin(), names.end(), upper) != names.end();
+}
+
+std::optional<Error> defectOf(std::string_view name)
+{
+    const auto defect = [&name](const char* what)
+    {
+        return Error{ErrorCode::invalidArgument, std::string(name), what};
+    };
+    if (name.empty())
+        return defect("is no name for a preset");
+    if (name.size() > UserPresets::longestName)
+        return defect("is too long for a preset's name");
+    const bool hasOthers = std::any_of(name.begin(), name.end(),
+                                       [](char c)
+                                       {
+                                           constexpr std::string_view reserved = "<>:\"/\\|?*";
+                                           return static_cast<unsigned char>(c) < 0x20 || c == 0x7f ||
+                                                  reserved.find(c) != std::string_view::npos;
+                                       });
+    if (hasOthers || name.front() == '.' || name.front() == ' ' || name.back() == '.' || name.back() == ' ' ||
+        isDevice(name))
+        return defect("cannot be the name of a file");
+    return std::nullopt;
+}
+} // namespace
+
+std::filesystem::path UserPresets::pathOf(std::string_view name) const
+{
+    const std::u8string file(name.begin(), name.end());
+    return home / std::filesystem::path(file + std::u8string(ending.begin(), ending.end()));
+}
+
+UserPresets::Listing UserPresets::list() const
+{
+    Listing found;
+    std::vector<std::filesystem::path> files;
+    std::error_code failed;
+    for (std::filesystem::directory_iterator at(home, failed), end; !failed && at != end; at.increment(failed))
+        if (const auto& path = at->path(); path.extension() == ending && !textOf(path.filename()).starts_with('.'))
+            files.push_back(path);
+    std::sort(files.begin(), files.end());
+    files.resize(std::min(files.size(), most));
+    for (const auto& file : files)
+    {
+        std::error_code unknown;
+        const bool regular = std::filesystem::is_regular_file(file, unknown); // a pipe would be waited for
+        auto text = regular ? readWholeFile(file, largestFile)
+                            : Result<std::string>(Error{ErrorCode::io, {}, "is no file that can be read"});
+        const auto params = text ? readPreset(*text) : Result<TranslatorParams>(text.error());
+        if (params)
+            found.presets.push_back({textOf(file.stem()), *params});
+        else
+            found.broken.push_back({params.error().code, textOf(file.filename()), params.error().text()});
+    }
+    return found;
+}
+
+bool UserPresets::exists(std::string_view name) const
+{
+    std::error_code unknown;
+    return !defectOf(name) && std::filesystem::exists(pathOf(name), unknown);
+}
+
+Result<void> UserPresets::save(std::string_view name, const TranslatorParams& params, bool replace) const
+{
+    if (auto defect = defectOf(name))
+        return *std::move(defect);
+    std::error_code failed;
+    std::filesystem::create_directories(home, failed);
+    if (failed)
+        return Error{ErrorCode::io, textOf(home), failed.message()};
+    const auto written =
+        writeFileAtomically(pathOf(name), presetText(params), replace ? Existing::replace : Existing::keep);
+    if (!written)
+        return written.error();
+    return {};
+}
+
+Result<void> UserPresets::remove(std::string_view name) const
+{
+    if (auto defect = defectOf(name))
+        return *std::move(defect);
+    std::error_code failed;
+    if (!std::filesystem::remove(pathOf(name), failed))
+        return Error{ErrorCode::io, std::string(name),
+                     failed ? failed.message() : std::string("is not there any more")};
+    return {};
+}
+
+} // namespace pacini::plugin
