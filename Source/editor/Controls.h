@@ -18,6 +18,26 @@ class Slider : public juce::Slider
 public:
     using juce::Slider::Slider;
 
+    std::function<void()> onMenu; ///< the right button was pressed, which moves nothing then
+
+    void mouseDown(const juce::MouseEvent& event) override
+    {
+        asksForMenu = onMenu && event.mods.isPopupMenu();
+        if (asksForMenu)
+            onMenu();
+        else
+            juce::Slider::mouseDown(event);
+    }
+    void mouseDrag(const juce::MouseEvent& event) override
+    {
+        if (!asksForMenu)
+            juce::Slider::mouseDrag(event);
+    }
+    void mouseUp(const juce::MouseEvent& event) override
+    {
+        if (!asksForMenu)
+            juce::Slider::mouseUp(event);
+    }
     void mouseWheelMove(const juce::MouseEvent& event, const juce::MouseWheelDetails& wheel) override
     {
         if (findParentComponentOfClass<juce::Viewport>() != nullptr)
@@ -25,6 +45,9 @@ public:
         else
             juce::Slider::mouseWheelMove(event, wheel);
     }
+
+private:
+    bool asksForMenu = false;
 };
 
 inline void prepareButton(juce::Button& button, const juce::String& tooltip, std::function<void()> click)

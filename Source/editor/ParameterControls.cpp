@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/ParameterControls.h"
 
+#include "editor/ParameterMenu.h"
 #include "editor/Theme.h"
 #include "editor/Translation.h"
 
@@ -79,9 +80,40 @@ ParameterSlider::ParameterSlider(juce::AudioProcessorParameter& shown, Shape wan
         else
             setAsGesture(parameter, value);
     };
+    slider.onMenu = [this]
+    {
+        showMenu(true);
+    };
+    slider.addMouseListener(this, true); // for the text of the value
     slider.setValue(static_cast<double>(parameter.getValue()), juce::dontSendNotification);
     slider.updateText();
     addAndMakeVisible(slider);
+}
+
+void ParameterSlider::showMenu(bool atPointer)
+{
+    std::function<void()> type;
+    if (isEnabled())
+        type = [safe = juce::Component::SafePointer<ParameterSlider>(this)]
+        {
+            if (safe)
+                safe->slider.showTextBox();
+        };
+    showParameterMenu(*this, parameter, std::move(type), atPointer);
+}
+
+void ParameterSlider::mouseDown(const juce::MouseEvent& event)
+{
+    if (event.mods.isPopupMenu() && event.eventComponent != &slider) // which tells by itself
+        showMenu(true);
+}
+
+bool ParameterSlider::keyPressed(const juce::KeyPress& key)
+{
+    if (!isContextMenuKey(key))
+        return false;
+    showMenu(false);
+    return true;
 }
 
 void ParameterSlider::refresh()
@@ -124,6 +156,28 @@ ParameterToggle::ParameterToggle(juce::AudioProcessorParameter& shown, const juc
     };
 }
 
+void ParameterToggle::mouseDown(const juce::MouseEvent& event)
+{
+    if (event.mods.isPopupMenu())
+        showParameterMenu(*this, parameter, {}, true);
+    else
+        juce::ToggleButton::mouseDown(event);
+}
+
+void ParameterToggle::mouseUp(const juce::MouseEvent& event)
+{
+    if (!event.mods.isPopupMenu())
+        juce::ToggleButton::mouseUp(event);
+}
+
+bool ParameterToggle::keyPressed(const juce::KeyPress& key)
+{
+    if (!isContextMenuKey(key))
+        return juce::ToggleButton::keyPressed(key);
+    showParameterMenu(*this, parameter, {}, false);
+    return true;
+}
+
 void ParameterToggle::refresh()
 {
     const bool on = parameter.getValue() >= 0.5f;
@@ -150,6 +204,22 @@ ParameterChoice::ParameterChoice(juce::AudioProcessorParameter& shownParameter, 
         shown = getSelectedId() - 1;
         setAsGesture(parameter, static_cast<float>(shown) / static_cast<float>(parameter.getNumSteps() - 1));
     };
+}
+
+void ParameterChoice::mouseDown(const juce::MouseEvent& event)
+{
+    if (event.mods.isPopupMenu())
+        showParameterMenu(*this, parameter, {}, true);
+    else
+        juce::ComboBox::mouseDown(event);
+}
+
+bool ParameterChoice::keyPressed(const juce::KeyPress& key)
+{
+    if (!isContextMenuKey(key))
+        return juce::ComboBox::keyPressed(key);
+    showParameterMenu(*this, parameter, {}, false);
+    return true;
 }
 
 int ParameterChoice::valueNow() const

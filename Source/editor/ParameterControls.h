@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Controls that show and set one parameter of a processor.
+// Controls that show and set one parameter of a processor. Each has the context menu of ParameterMenu.h.
 
 #include "editor/Controls.h"
 #include "editor/Refreshed.h"
@@ -30,8 +30,12 @@ public:
     void refresh() override;
     void resized() override;
     void enablementChanged() override;
+    void mouseDown(const juce::MouseEvent& event) override;
+    bool keyPressed(const juce::KeyPress& key) override;
 
 private:
+    void showMenu(bool atPointer);
+
     juce::AudioProcessorParameter& parameter;
     Shape shape;
     juce::Label title;
@@ -45,6 +49,9 @@ public:
     ParameterToggle(juce::AudioProcessorParameter& shown, const juce::String& text, const juce::String& name,
                     const juce::String& help);
     void refresh() override;
+    void mouseDown(const juce::MouseEvent& event) override;
+    void mouseUp(const juce::MouseEvent& event) override;
+    bool keyPressed(const juce::KeyPress& key) override;
 
 private:
     juce::AudioProcessorParameter& parameter;
@@ -58,6 +65,8 @@ public:
     ParameterChoice(juce::AudioProcessorParameter& shown, const std::vector<int>& values, const juce::String& name,
                     const juce::String& help);
     void refresh() override;
+    void mouseDown(const juce::MouseEvent& event) override;
+    bool keyPressed(const juce::KeyPress& key) override;
 
 private:
     [[nodiscard]] int valueNow() const;
