@@ -4,6 +4,8 @@
 #include "app/DevicePage.h"
 #include "editor/Translation.h"
 
+#include <cstdlib>
+
 namespace pacini::app
 {
 
@@ -32,8 +34,20 @@ public:
         addAndMakeVisible(bar);
         addAndMakeVisible(plugin);
         plugin.setResizable(true, false); // the window has borders of its own
+        plugin.onScaleChange = [this]
+        {
+            limitWindow();
+        };
         plugin.addComponentListener(this);
-        setSize(plugin.getWidth(), plugin.getHeight() + barHeight);
+        setSize(wantedSize().x, wantedSize().y);
+    }
+
+    /// The least size of the window depends on the scale.
+    void limitWindow()
+    {
+        if (auto* window = findParentComponentOfClass<juce::ResizableWindow>())
+            window->setResizeLimits(scaled(plugin::PluginWindow::leastWidth),
+                                    scaled(plugin::PluginWindow::leastHeight + barHeight), 4800, 3400);
     }
 
     ~Content() override
@@ -46,7 +60,9 @@ public:
 
     void resized() override
     {
-        auto area = getLocalBounds();
+        // Both are placed before they are scaled.
+        bar.setTransform(plugin.getTransform());
+        auto area = getLocalBounds().toFloat().transformedBy(plugin.getTransform().inverted()).toNearestInt();
         bar.setBounds(area.removeFromTop(barHeight));
         plugin.setBounds(area);
     }
@@ -54,8 +70,20 @@ public:
 private:
     void componentMovedOrResized(juce::Component&, bool, bool) override
     {
-        if (plugin.getWidth() != getWidth() || plugin.getHeight() + barHeight != getHeight())
-            setSize(plugin.getWidth(), plugin.getHeight() + barHeight);
+        const auto wanted = wantedSize();
+        if (std::abs(wanted.x - getWidth()) > 1 || std::abs(wanted.y - getHeight()) > 1) // beyond rounding
+            setSize(wanted.x, wanted.y);
+        else
+            resized();
+    }
+
+    [[nodiscard]] int scaled(int length) const
+    {
+        return juce::roundToInt(static_cast<float>(length) * plugin.scaleFactor());
+    }
+    [[nodiscard]] juce::Point<int> wantedSize() const
+    {
+        return {scaled(plugin.getWidth()), scaled(plugin.getHeight() + barHeight)};
     }
 
     void showDevices()
@@ -82,9 +110,10 @@ StandaloneWindow::StandaloneWindow(plugin::Plugin& processor, AudioDevices& rig)
     : DocumentWindow("Pacini", juce::Colours::black, DocumentWindow::allButtons)
 {
     setUsingNativeTitleBar(true);
-    setContentOwned(new Content(processor, rig), true);
+    auto* const content = new Content(processor, rig);
+    setContentOwned(content, true);
     setResizable(true, false);
-    setResizeLimits(936, 608 + barHeight, 2400, 1700);
+    content->limitWindow();
     centreWithSize(getWidth(), getHeight());
     setVisible(true);
 }

@@ -52,7 +52,8 @@ LITERALS = {
     "names of threads, folders, settings and functions of libraries": [
         "XESetWireToError", "Pacini capture", "Pacini joysticks", "js", "/dev/input", "/dev/snd/seq", "joycon-hd-rumble", "erm-coin", "Pacini set-up", "Pacini clips", "Application Support", "~/.config", "quiet", "devices",
         "state", "recovery", "profiles", "Resources/demo", "share/pacini/demo", "pacini", "json", "wav", "pacb",
-        "files", "clip", ".sound-", "md", "demo", "pacini-demo", "flac", "plain drive"],
+        "files", "clip", "Presets", "scale", ".sound-", "md", "demo", "pacini-demo", "flac", "plain drive"],
+    "names that Windows keeps for devices": ["CON", "PRN", "AUX", "NUL", "COM", "LPT"],
     "records of studies, which are the same file in every language": [
         "agreed: ", "the touch starts {:.3f} ms earlier", "stopped by the participant", "comfortable at ", "Pacini "],
     "what a measured delay lacks, which the page has own texts for": [

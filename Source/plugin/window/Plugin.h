@@ -5,6 +5,7 @@
 
 #include "plugin/engine/PluginProcessor.h"
 #include "plugin/window/HostedSession.h"
+#include "plugin/window/WindowSettings.h"
 
 namespace pacini::plugin
 {
@@ -17,10 +18,16 @@ public:
     juce::AudioProcessorEditor* createEditor() override;
     bool hasEditor() const override { return true; }
 
+    /// Where presets of the user and settings of all windows are. [message]
+    [[nodiscard]] const juce::File& userFolder() const noexcept { return folder; }
+    /// Before a window is made.
+    void setUserFolder(const juce::File& wanted) { folder = wanted; }
+
     /// The clips that are edited in the window; they stay open when it is closed.
     [[nodiscard]] HostedSession& clips() noexcept { return hostedSession; }
 
 private:
+    juce::File folder = usualUserFolder();
     HostedSession hostedSession{project()};
 
     JUCE_DECLARE_NON_COPYABLE_WITH_LEAK_DETECTOR(Plugin)

@@ -2,7 +2,10 @@
 #include "plugin/window/PluginWindow.h"
 
 #include "editor/Controls.h"
+#include "editor/Text.h"
 #include "editor/Translation.h"
+#include "editor/clip/commands/KeyText.h"
+#include "editor/clip/sheets/HelpSheet.h"
 #include "io/ShippedProfiles.h"
 #include "plugin/window/DisplayErrors.h"
 
@@ -11,6 +14,7 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace pacini::plugin
 {
@@ -22,11 +26,22 @@ using editor::grid;
 constexpr std::size_t mostKeptSound = std::size_t(16) << 20; // bytes, of a session
 constexpr int usualWidth = 1024;
 constexpr int usualHeight = 648;
-constexpr int leastWidth = 936;
-constexpr int leastHeight = 608;
 constexpr int framesPerSecond = 30;
 constexpr int rowHeight = 3 * grid + 2;
 constexpr int topCard = 28 * grid;
+
+juce::KeyPress undoKey()
+{
+    return {'z', juce::ModifierKeys::commandModifier, 0};
+}
+juce::KeyPress redoKey()
+{
+    return {'z', juce::ModifierKeys::commandModifier | juce::ModifierKeys::shiftModifier, 0};
+}
+juce::KeyPress helpKey()
+{
+    return juce::KeyPress(juce::KeyPress::F1Key);
+}
 
 juce::String nameOf(ParameterId parameter)
 {
@@ -73,6 +88,8 @@ PluginWindow::PluginWindow(Plugin& shown)
     : AudioProcessorEditor(shown),
       processor(shown),
       tooltips(this, 600),
+      settings(shown.userFolder()),
+      presets(shown, [this](std::unique_ptr<editor::Sheet> sheet) { ask(std::move(sheet)); }),
       inputMeter("Input", "Peak of the input sound", {.low = -60.0f, .high = 6.0f, .warnAbove = 0.0f}),
       outputMeter("Output", "Peak of the haptic signal; 0 dB is full drive",
                   {.low = -60.0f, .high = 0.0f, .warnAbove = -0.1f}),
@@ -88,20 +105,28 @@ PluginWindow::PluginWindow(Plugin& shown)
     setTitle("Pacini");
     setDescription("Turns sound into touch");
 
-    for (int i = 0; i < processor.getNumPrograms(); ++i)
-        programChoice.addItem(processor.getProgramName(i), i + 1);
-    programChoice.setTitle("Preset");
-    programChoice.setDescription("Preset to start from");
-    programChoice.setTooltip("Preset to start from");
-    programChoice.onChange = [this]
+    adopt(presets, nullptr);
+    undoButton.setTitle("Undo");
+    editor::prepareButton(undoButton, "Undoes the last step", [this] { processor.undo(); });
+    redoButton.setTitle("Redo");
+    editor::prepareButton(redoButton, "Redoes the last undone step", [this] { processor.redo(); });
+    for (IconButton* button : {&undoButton, &redoButton})
     {
-        if (programChoice.getSelectedId() > 0)
-        {
-            processor.applyProgram(programChoice.getSelectedId() - 1);
-            processor.updateHostDisplay(juce::AudioProcessor::ChangeDetails().withProgramChanged(true));
-        }
-    };
-    adopt(programChoice, nullptr);
+        button->setWantsKeyboardFocus(true);
+        adopt(*button, nullptr);
+    }
+    for (const Side side : {Side::a, Side::b})
+    {
+        juce::TextButton& button = sideButtons[static_cast<std::size_t>(side)];
+        button.setButtonText(side == Side::a ? "A" : "B");
+        button.setTitle(side == Side::a ? "Side A" : "Side B");
+        button.setClickingTogglesState(true);
+        button.setRadioGroupId(1);
+        button.setConnectedEdges(side == Side::a ? juce::Button::ConnectedOnRight : juce::Button::ConnectedOnLeft);
+        editor::prepareButton(button, "Two sides to compare: each has its own settings and actuators",
+                              [this, side] { processor.chooseSide(side); });
+        adopt(button, nullptr);
+    }
     actuator = choice(Id::profile);
     loadButton.setButtonText(juce::String::fromUTF8("Load…"));
     loadButton.setTitle("Load an actuator");
@@ -120,8 +145,11 @@ PluginWindow::PluginWindow(Plugin& shown)
     editor::prepareButton(clipsButton, "View, edit and export captured and opened clips; saved with the session",
                           [this] { show(clipsButton.getToggleState() ? Page::clips : Page::live); });
     adopt(clipsButton, nullptr);
-    editor::prepareButton(themeButton, "Switches between light and dark theme", [this] { setDark(!look.isDark()); });
-    adopt(themeButton, nullptr);
+    menuButton.setTitle("Menu");
+    menuButton.setWantsKeyboardFocus(true);
+    editor::prepareButton(menuButton, "Undo, sides, scale of the window, theme, help",
+                          [this] { menu().showMenuAsync(juce::PopupMenu::Options().withTargetComponent(menuButton)); });
+    adopt(menuButton, nullptr);
 
     sourceChoice = choice(Id::source);
     sourceMix = slider(Id::sourceMix, Shape::bar);
@@ -165,6 +193,8 @@ PluginWindow::PluginWindow(Plugin& shown)
     setResizable(true, true);
     setResizeLimits(leastWidth, leastHeight, 2400, 1600);
     setSize(wanted.x > 0 ? wanted.x : usualWidth, wanted.y > 0 ? wanted.y : usualHeight);
+    scale = settings.scale();
+    applyScale();
     refresh();
     startTimerHz(framesPerSecond);
 }
@@ -172,6 +202,7 @@ PluginWindow::PluginWindow(Plugin& shown)
 PluginWindow::~PluginWindow()
 {
     stopTimer();
+    question.show(nullptr);
     clipView.reset();
     setLookAndFeel(nullptr);
 }
@@ -211,8 +242,6 @@ std::unique_ptr<editor::ParameterChoice> PluginWindow::choice(ParameterId parame
 void PluginWindow::setDark(bool dark)
 {
     look.setDark(dark);
-    themeButton.setButtonText(editor::tr(dark ? "Light" : "Dark"));
-    themeButton.setTitle(editor::tr(dark ? "Light theme" : "Dark theme"));
     status.setColour(juce::Label::textColourId, look.palette().dim);
     sendLookAndFeelChange();
     if (clipView)
@@ -259,8 +288,78 @@ void PluginWindow::show(Page wanted)
 
 bool PluginWindow::keyPressed(const juce::KeyPress& key)
 {
-    return clipView && clipView->isVisible() && clipView->sheet() == nullptr &&
-           clipView->menus().keys()->keyPressed(key, clipView.get());
+    if (question.sheet() != nullptr)
+        return false;
+    if (clipView && clipView->isVisible())
+        return clipView->sheet() == nullptr && clipView->menus().keys()->keyPressed(key, clipView.get());
+    if (key == undoKey())
+        processor.undo();
+    else if (key == redoKey() || key == juce::KeyPress('y', juce::ModifierKeys::commandModifier, 0))
+        processor.redo();
+    else if (key == helpKey())
+        ask(std::make_unique<editor::HelpSheet>(true));
+    else
+        return false;
+    refresh();
+    return true;
+}
+
+juce::PopupMenu PluginWindow::menu()
+{
+    juce::PopupMenu menu;
+    const auto add = [](juce::PopupMenu& to, const juce::String& text, bool enabled, std::function<void()> action,
+                        const juce::String& key = {}, bool ticked = false)
+    {
+        juce::PopupMenu::Item item(text);
+        item.setEnabled(enabled).setTicked(ticked).setAction(std::move(action));
+        item.shortcutKeyDescription = key;
+        to.addItem(std::move(item));
+    };
+    add(
+        menu, editor::tr("Undo"), processor.canUndo(), [this] { processor.undo(); }, editor::keyText(undoKey()));
+    add(
+        menu, editor::tr("Redo"), processor.canRedo(), [this] { processor.redo(); }, editor::keyText(redoKey()));
+    menu.addSeparator();
+    const bool isA = processor.side() == Side::a;
+    add(menu, editor::tr(isA ? "Copy A to B" : "Copy B to A"), true, [this] { processor.copyToOtherSide(); });
+    menu.addSeparator();
+    juce::PopupMenu sizes;
+    for (const int percent : WindowSettings::scales)
+        add(
+            sizes, juce::String(percent) + " %", true, [this, percent] { chooseScale(percent); }, {}, percent == scale);
+    menu.addSubMenu(editor::tr("Scale of the window"), sizes);
+    const bool dark = look.isDark();
+    add(menu, editor::tr(dark ? "Light theme" : "Dark theme"), true, [this, dark] { setDark(!dark); });
+    menu.addSeparator();
+    add(
+        menu, editor::tr("Help"), true, [this] { ask(std::make_unique<editor::HelpSheet>(true)); },
+        editor::keyText(helpKey()));
+    return menu;
+}
+
+void PluginWindow::ask(std::unique_ptr<editor::Sheet> sheet)
+{
+    question.show(std::move(sheet));
+}
+
+void PluginWindow::chooseScale(int percent)
+{
+    settings.setScale(percent);
+    scale = settings.scale();
+    applyScale();
+}
+
+void PluginWindow::setScaleFactor(float byHost)
+{
+    hostScale = byHost;
+    applyScale();
+}
+
+void PluginWindow::applyScale()
+{
+    AudioProcessorEditor::setScaleFactor(hostScale * 0.01f * static_cast<float>(scale));
+    if (onScaleChange)
+        onScaleChange();
 }
 
 void PluginWindow::editCaptured(const editor::CapturedClip& captured)
@@ -298,7 +397,8 @@ void PluginWindow::refresh()
 {
     for (editor::Refreshed* each : refreshed)
         each->refresh();
-    showProgram();
+    presets.refresh();
+    showEdits();
     if (actuatorsPage && actuatorsPage->isVisible())
         actuatorsPage->refresh();
     showMeters();
@@ -311,20 +411,16 @@ void PluginWindow::refresh()
     }
 }
 
-/// With a mark where its values were changed since.
-void PluginWindow::showProgram()
+void PluginWindow::showEdits()
 {
-    const int program = processor.getCurrentProgram();
-    const bool altered =
-        processor.values().translator() != translatorPresets()[static_cast<std::size_t>(program)].params;
-    for (int i = 0; i < processor.getNumPrograms(); ++i)
+    undoButton.setEnabled(processor.canUndo());
+    redoButton.setEnabled(processor.canRedo());
+    sideButtons[static_cast<std::size_t>(processor.side())].setToggleState(true, juce::dontSendNotification);
+    if (--untilLoad < 0)
     {
-        const juce::String name = editor::tr(processor.getProgramName(i)) + (altered && i == program ? " *" : "");
-        if (programChoice.getItemText(i) != name)
-            programChoice.changeItemText(i + 1, name);
+        shownLoad = processor.load();
+        untilLoad = framesPerSecond; // figures that change faster cannot be read
     }
-    if (programChoice.getSelectedId() != program + 1 || programChoice.getText() != programChoice.getItemText(program))
-        programChoice.setSelectedId(program + 1, juce::dontSendNotification);
 }
 
 void PluginWindow::showMeters()
@@ -360,7 +456,9 @@ juce::String PluginWindow::statusText() const
     if (processor.isBypassedByHost())
         return editor::tr("Bypassed by the host");
     const double milliseconds = 1000.0 * processor.latency() / processor.sampleRate();
-    return editor::tr("{0}, latency {1} ms", {editor::tr(processor.actuatorName()), juce::String(milliseconds, 2)});
+    return editor::tr("{0}, latency {1} ms, load {2} %",
+                      {editor::tr(processor.actuatorName()), juce::String(milliseconds, 2),
+                       editor::numberText(100.0 * shownLoad, 2)});
 }
 
 void PluginWindow::chooseActuator(std::size_t channel)
@@ -471,19 +569,28 @@ void PluginWindow::resized()
 void PluginWindow::placeHeader(juce::Rectangle<int> area)
 {
     area = area.withSizeKeepingCentre(area.getWidth(), rowHeight);
-    area.removeFromLeft(10 * grid);
-    themeButton.setBounds(area.removeFromRight(7 * grid));
+    area.removeFromLeft(9 * grid);
+    const auto atRight = [&area](juce::Component& component, int width)
+    {
+        component.setBounds(area.removeFromRight(width * grid));
+        area.removeFromRight(grid);
+    };
+    atRight(menuButton, 4);
+    atRight(*bypassToggle, 9);
+    atRight(clipsButton, 8);
+    atRight(actuatorsButton, 11);
     area.removeFromRight(grid);
-    bypassToggle->setBounds(area.removeFromRight(9 * grid));
-    area.removeFromRight(grid);
-    clipsButton.setBounds(area.removeFromRight(8 * grid));
-    area.removeFromRight(grid);
-    actuatorsButton.setBounds(area.removeFromRight(12 * grid));
-    area.removeFromRight(2 * grid);
-    loadButton.setBounds(area.removeFromRight(9 * grid));
-    area.removeFromRight(grid);
-    actuator->setBounds(area.removeFromRight(area.getWidth() / 2).withTrimmedLeft(grid));
-    programChoice.setBounds(area);
+    atRight(loadButton, 8);
+    constexpr int edits = 4 * 4 * grid + 3 * grid; // and what is around them
+    const int box = (area.getWidth() - edits) / 2;
+    presets.setBounds(area.removeFromLeft(box));
+    area.removeFromLeft(grid);
+    undoButton.setBounds(area.removeFromLeft(4 * grid));
+    redoButton.setBounds(area.removeFromLeft(4 * grid));
+    area.removeFromLeft(grid);
+    for (juce::TextButton& button : sideButtons)
+        button.setBounds(area.removeFromLeft(4 * grid));
+    actuator->setBounds(area.withTrimmedLeft(grid));
 }
 
 void PluginWindow::placeKnobs(juce::Rectangle<int> area, std::initializer_list<editor::ParameterSlider*> knobs)

@@ -8,9 +8,13 @@
 #include "editor/ParameterControls.h"
 #include "editor/Theme.h"
 #include "editor/clip/EditorView.h"
+#include "editor/clip/sheets/SheetOver.h"
 #include "plugin/window/ActuatorsPage.h"
 #include "plugin/window/CapturePanel.h"
+#include "plugin/window/IconButton.h"
 #include "plugin/window/Plugin.h"
+#include "plugin/window/PresetBox.h"
+#include "plugin/window/WindowSettings.h"
 
 #include <juce_audio_processors/juce_audio_processors.h>
 
@@ -30,12 +34,23 @@ public:
 
     void paint(juce::Graphics& g) override;
     void resized() override;
-    /// The keys of the clip editor also work while the header has the focus.
+    /// Undo and redo. The keys of the clip editor also work while the header has the focus.
     bool keyPressed(const juce::KeyPress& key) override;
 
     /// Looks at everything that may have changed, as the timer does.
     void refresh();
     void setDark(bool dark);
+    /// Scales all of the window, for this one and those to come; one of WindowSettings::scales, %.
+    void chooseScale(int percent);
+    /// Of the host and the user together; 1 is 100 %.
+    [[nodiscard]] float scaleFactor() const noexcept { return getTransform().mat00; }
+    /// By the host, times that of the user.
+    void setScaleFactor(float byHost) override;
+    /// What the button at the right end of the header shows.
+    [[nodiscard]] juce::PopupMenu menu();
+    /// The question that is shown; null: none.
+    [[nodiscard]] editor::Sheet* sheet() const noexcept { return question.sheet(); }
+    static constexpr int leastWidth = 936, leastHeight = 608; ///< before it is scaled
     /// What is shown below the header.
     enum class Page
     {
@@ -46,6 +61,7 @@ public:
     void show(Page wanted);
     [[nodiscard]] editor::EditorView* clipEditor() const noexcept { return clipView.get(); }
     std::function<void()> onThemeChange; ///< for what shares the look
+    std::function<void()> onScaleChange; ///< for what shares the scale
     /// Puts a captured clip into the session's project, with its sound where it has been kept, and shows it.
     void editCaptured(const editor::CapturedClip& captured);
 
@@ -59,8 +75,10 @@ private:
     std::unique_ptr<editor::ParameterChoice> choice(ParameterId parameter);
     void adopt(juce::Component& component, editor::Refreshed* refreshed);
     void chooseActuator(std::size_t channel);
-    void showProgram();
+    void showEdits();
     void showMeters();
+    void ask(std::unique_ptr<editor::Sheet> sheet);
+    void applyScale();
     void showRouting();
     void placeHeader(juce::Rectangle<int> area);
     void placeKnobs(juce::Rectangle<int> area, std::initializer_list<editor::ParameterSlider*> knobs);
@@ -72,10 +90,16 @@ private:
     std::vector<editor::Refreshed*> refreshed;
     int focusOrder = 0;
 
-    juce::ComboBox programChoice;
+    WindowSettings settings;
+    float hostScale = 1.0f;
+    int scale = 100; // %
+    PresetBox presets;
+    IconButton undoButton{IconButton::Icon::undo}, redoButton{IconButton::Icon::redo};
+    std::array<juce::TextButton, 2> sideButtons;
     std::unique_ptr<editor::ParameterChoice> actuator;
-    juce::TextButton loadButton, themeButton, actuatorsButton, clipsButton;
+    juce::TextButton loadButton, actuatorsButton, clipsButton;
     std::unique_ptr<editor::ParameterToggle> bypassToggle;
+    IconButton menuButton{IconButton::Icon::menu};
 
     std::unique_ptr<editor::ParameterChoice> sourceChoice;
     std::unique_ptr<editor::ParameterSlider> sourceMix, inputGain;
@@ -99,7 +123,10 @@ private:
     std::unique_ptr<ActuatorsPage> actuatorsPage;
     std::unique_ptr<editor::EditorView> clipView;
     juce::Label status;
+    double shownLoad = 0.0; // see PluginProcessor::load()
+    int untilLoad = 0;      // refreshes
     std::unique_ptr<juce::FileChooser> chooser;
+    editor::SheetOver question{*this};
 
     struct Card
     {

@@ -4,6 +4,7 @@
 
 #include "plugin/engine/PluginProcessor.h"
 #include "support/Catch.h"
+#include "support/TempFolder.h"
 
 #include <pacini/foundation/Random.h>
 
@@ -52,6 +53,8 @@ public:
 
     explicit RigOf(const RigLayout& wanted = {}, int announcedBlock = 512) : layout(wanted)
     {
+        if constexpr (requires { plugin.setUserFolder(juce::File()); })
+            plugin.setUserFolder(juce::File(juce::String((home / "user").string())));
         REQUIRE(plugin.setBusesLayout(busesLayout(layout)));
         plugin.setRateAndBufferSizeDetails(layout.rate, announcedBlock);
         plugin.prepareToPlay(layout.rate, announcedBlock);
@@ -95,6 +98,7 @@ public:
         return out;
     }
 
+    TempFolder home; ///< of the user
     Plugin plugin;
     RigLayout layout;
 };

@@ -17,7 +17,7 @@ constexpr int listWidth = 24 * grid;
 constexpr int helpRowHeight = 4 * grid;
 } // namespace
 
-HelpSheet::HelpSheet() : Sheet("Manual", 820, 560), topics("Topics", this)
+HelpSheet::HelpSheet(bool onPlugin) : Sheet("Manual", 820, 560), topics("Topics", this)
 {
     topics.setRowHeight(helpRowHeight);
     topics.setTitle("Topics");
@@ -31,7 +31,7 @@ HelpSheet::HelpSheet() : Sheet("Manual", 820, 560), topics("Topics", this)
     addAndMakeVisible(topics);
     addAndMakeVisible(text);
     setAnswers({{"Close", {}}});
-    topics.selectRow(0);
+    topics.selectRow(onPlugin ? getNumRows() - 1 : 0);
 }
 
 HelpSheet::~HelpSheet()

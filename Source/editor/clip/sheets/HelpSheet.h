@@ -15,7 +15,8 @@ namespace pacini::editor
 class HelpSheet final : public Sheet, private juce::ListBoxModel
 {
 public:
-    HelpSheet();
+    /// Opens with its first topic, or with the last one, on the plugin.
+    explicit HelpSheet(bool onPlugin = false);
     ~HelpSheet() override;
 
 private:

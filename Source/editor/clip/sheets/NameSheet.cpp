@@ -7,7 +7,7 @@ namespace pacini::editor
 {
 
 NameSheet::NameSheet(const juce::String& title, const juce::String& label, const juce::String& name,
-                     std::function<void(const juce::String&)> named)
+                     std::function<void(const juce::String&)> named, const juce::String& answer)
     : Sheet(title, 440, 168), onNamed(std::move(named))
 {
     field.setTitle(label);
@@ -29,7 +29,8 @@ NameSheet::NameSheet(const juce::String& title, const juce::String& label, const
         setAnswerEnabled(field.getText().trim().isNotEmpty());
     };
     addAndMakeVisible(field);
-    setAnswers({{"Rename", {}}, {"Cancel", {}}});
+    setAnswers({{answer, {}}, {"Cancel", {}}});
+    setAnswerEnabled(name.trim().isNotEmpty());
     setUsualAnswer([this] { take(); });
 }
 

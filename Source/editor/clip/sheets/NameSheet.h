@@ -14,8 +14,9 @@ namespace pacini::editor
 class NameSheet final : public Sheet
 {
 public:
+    /// `answer` is the text of the button.
     NameSheet(const juce::String& title, const juce::String& label, const juce::String& name,
-              std::function<void(const juce::String&)> named);
+              std::function<void(const juce::String&)> named, const juce::String& answer = "Rename");
 
 private:
     void layOut(juce::Rectangle<int> area) override;
