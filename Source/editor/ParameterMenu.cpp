@@ -52,11 +52,12 @@ void showParameterMenu(juce::Component& control, juce::AudioProcessorParameter& 
                        bool atPointer)
 {
     const auto* window = control.findParentComponentOfClass<juce::AudioProcessorEditor>();
+    auto menu = parameterMenu(parameter, std::move(type), window != nullptr ? window->getHostContext() : nullptr);
+    menu.setLookAndFeel(&control.getLookAndFeel());
     auto options = juce::PopupMenu::Options().withTargetComponent(control);
     if (atPointer)
         options = options.withMousePosition();
-    parameterMenu(parameter, std::move(type), window != nullptr ? window->getHostContext() : nullptr)
-        .showMenuAsync(options);
+    menu.showMenuAsync(options);
 }
 
 } // namespace pacini::editor

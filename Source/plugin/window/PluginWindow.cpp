@@ -307,6 +307,7 @@ bool PluginWindow::keyPressed(const juce::KeyPress& key)
 juce::PopupMenu PluginWindow::menu()
 {
     juce::PopupMenu menu;
+    menu.setLookAndFeel(&look);
     const auto add = [](juce::PopupMenu& to, const juce::String& text, bool enabled, std::function<void()> action,
                         const juce::String& key = {}, bool ticked = false)
     {

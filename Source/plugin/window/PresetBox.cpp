@@ -59,10 +59,42 @@ void PresetBox::reload()
     refresh();
 }
 
+/// The preset in use can be chosen, too: that brings its values back.
 void PresetBox::showPopup()
 {
     reload(); // other instances may have saved some
-    juce::ComboBox::showPopup();
+    juce::PopupMenu menu = *getRootMenu();
+    menu.setLookAndFeel(&getLookAndFeel());
+    for (juce::PopupMenu::MenuItemIterator each(menu, true); each.next();)
+        each.getItem().isTicked = each.getItem().itemID == shown.id;
+    menu.showMenuAsync(juce::PopupMenu::Options()
+                           .withTargetComponent(this)
+                           .withMinimumWidth(getWidth())
+                           .withItemThatMustBeVisible(shown.id)
+                           .withInitiallySelectedItem(shown.id),
+                       [box = juce::Component::SafePointer<PresetBox>(this)](int id)
+                       {
+                           if (!box)
+                               return;
+                           box->hidePopup();
+                           if (id > 0)
+                               box->choose(id);
+                       });
+}
+
+bool PresetBox::keyPressed(const juce::KeyPress& key)
+{
+    const bool back = key == juce::KeyPress::upKey || key == juce::KeyPress::leftKey;
+    const bool on = key == juce::KeyPress::downKey || key == juce::KeyPress::rightKey;
+    if (!back && !on)
+        return juce::ComboBox::keyPressed(key);
+    const int programs = processor.getNumPrograms();
+    const int count = programs + static_cast<int>(listing.presets.size());
+    const int at = shown.id >= userIds ? programs + shown.id - userIds : shown.id - 1;
+    const int next = juce::jlimit(0, count - 1, back ? at - 1 : at + 1);
+    if (next != at)
+        choose(next < programs ? next + 1 : userIds + next - programs);
+    return true;
 }
 
 PresetBox::Shown PresetBox::now() const

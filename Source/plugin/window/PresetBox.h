@@ -25,6 +25,8 @@ public:
     /// Reads the user's presets anew.
     void reload();
     void showPopup() override;
+    /// Arrows go from preset to preset, and to none of the actions below them.
+    bool keyPressed(const juce::KeyPress& key) override;
 
     /// Asks for a name, and before another preset is replaced.
     void save();

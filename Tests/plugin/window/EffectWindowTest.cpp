@@ -200,6 +200,14 @@ TEST_CASE("Presets are saved, chosen and deleted in the menu of presets, and not
     name(window, "Rain");
     answer(window, "Replace");
     CHECK(box.getText() == "Rain");
+    // By arrows too, and never to what stands below the presets.
+    for (int i = 0; i < 10; ++i)
+        CHECK(box.keyPressed(juce::KeyPress(juce::KeyPress::upKey)));
+    CHECK(box.getText() == "Neutral");
+    for (int i = 0; i < 10; ++i)
+        CHECK(box.keyPressed(juce::KeyPress(juce::KeyPress::downKey)));
+    CHECK(box.getText() == "Rain");
+    CHECK(window.sheet() == nullptr);
     box.save();
     name(window, "a/b");
     CHECK(window.sheet()->getTitle() == "Preset not saved");
@@ -228,7 +236,7 @@ TEST_CASE("Presets are saved, chosen and deleted in the menu of presets, and not
     CHECK_FALSE(std::filesystem::exists(folder / "Rain.json"));
     CHECK(rig.plugin.values().translator() == second.translator());
     CHECK_FALSE(choose("Rain"));
-    CHECK(box.getText() == "Neutral *");
+    CHECK(box.getText() == rig.plugin.getProgramName(6) + " *"); // the one before it
 }
 
 TEST_CASE("The menu of a control resets it, lets a value be typed, and has what the host offers")
@@ -391,7 +399,7 @@ TEST_CASE("Pictures of the window at all scales, light and dark, for a person to
     WindowRig rig;
     plugin::PluginWindow window(rig.plugin);
     (void)rig.run(liveSounds(2, 48000, 3));
-    turn(window, "Attack", 0.7);
+    rig.set(ParameterId::attack, 61.0);
     const auto write = [&](const juce::String& called)
     {
         window.refresh();
@@ -412,13 +420,12 @@ TEST_CASE("Pictures of the window at all scales, light and dark, for a person to
     window.chooseScale(100);
     window.setSize(plugin::PluginWindow::leastWidth, plugin::PluginWindow::leastHeight);
     rig.plugin.chooseProgram(2);
-    window.refresh();
-    turn(window, "Attack", 0.7);
+    rig.set(ParameterId::attack, 61.0);
     write("least");
     window.show(plugin::PluginWindow::Page::actuators);
     write("actuators");
     window.show(plugin::PluginWindow::Page::live);
-    controlOf<plugin::PresetBox>(window, "Preset").save();
+    controlOf<plugin::PresetBox>(window, editor::tr("Preset")).save();
     write("save");
     name(window, "Rain");
     write("saved");
