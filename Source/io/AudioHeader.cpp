@@ -1,6 +1,7 @@
 #include "io/AudioHeader.h"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 
 namespace pacini
@@ -168,6 +169,29 @@ std::optional<std::uint64_t> endOfChunks(ByteWindow& file, const ChunkLayout& la
         offset = isPadded ? padded : *next;
     }
     return {};
+}
+
+std::vector<FileChunk> chunksOf(ByteWindow& file, std::uint64_t begin, std::uint64_t end, std::uint64_t audioEnd)
+{
+    const auto* const layout = std::find_if(std::begin(layouts), std::end(layouts),
+                                            [&](const ChunkLayout& known) { return file.has(begin, known.fileId); });
+    if (layout == std::end(layouts))
+        return {};
+    const auto headerBytes = layout->idBytes + layout->sizeBytes;
+    std::vector<FileChunk> chunks;
+    auto offset = begin + layout->firstChunk;
+    while (offset < end && hasId(file, *layout, offset) && chunks.size() < maxChunks)
+    {
+        const bool isAudio = file.has(offset, layout->dataId) && audioEnd > offset;
+        const auto next = isAudio ? audioEnd : nextChunk(file, *layout, offset, end).value_or(end);
+        const auto content = std::min(end, offset + headerBytes);
+        if (!isAudio)
+            chunks.push_back({offset, content, std::min(next, end) - content});
+        // A chunk of odd length may lack the byte behind it.
+        const auto padded = aligned(*layout, next, begin);
+        offset = hasId(file, *layout, padded) || !hasId(file, *layout, next) ? padded : next;
+    }
+    return chunks;
 }
 
 std::uint64_t startOfLastChunks(ByteWindow& file, const ChunkLayout& layout, std::uint64_t from, std::uint64_t end)

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 namespace pacini
 {
@@ -40,6 +41,14 @@ struct AudioChunk
     [[nodiscard]] std::uint64_t present(std::uint64_t end) const noexcept { return end > start ? end - start : 0; }
 };
 
+/// A chunk of a WAV, AIFF, CAF or W64 file: where its id and its content are.
+struct FileChunk
+{
+    std::uint64_t offset = 0;
+    std::uint64_t content = 0;
+    std::uint64_t bytes = 0; ///< of the content, as far as they are there
+};
+
 /// Finds the audio chunk of the file that begins at `begin` and may last until `end`. Nothing when the format has none
 /// (FLAC, Ogg, MP3), or when there is no such chunk. Trusts no number of the file.
 [[nodiscard]] std::optional<AudioChunk> findAudioChunk(ByteWindow& file, std::uint64_t begin, std::uint64_t end);
@@ -54,6 +63,11 @@ struct AudioChunk
 /// behind such chunks; nothing if there is something else.
 [[nodiscard]] std::optional<std::uint64_t> endOfChunks(ByteWindow& file, const ChunkLayout& layout,
                                                        std::uint64_t offset, std::uint64_t end);
+
+/// The chunks of the file that begins at `begin`, before and behind its audio, which lasts until `audioEnd`. As many as
+/// can be told; none for other formats.
+[[nodiscard]] std::vector<FileChunk> chunksOf(ByteWindow& file, std::uint64_t begin, std::uint64_t end,
+                                              std::uint64_t audioEnd);
 
 /// Where the chunks begin that follow an audio chunk of unknown size, up to `end`; `end` where there are none.
 [[nodiscard]] std::uint64_t startOfLastChunks(ByteWindow& file, const ChunkLayout& layout, std::uint64_t from,

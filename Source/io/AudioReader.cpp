@@ -156,7 +156,8 @@ struct AudioReader::State
     std::uint64_t replaced = 0;
     bool ended = false;
     std::vector<std::string> warnings;
-    std::vector<Marker> markers;
+    FoundMarkers markers; // of the parts up to the current one
+    bool markersAreTold = false;
     std::optional<RateRaiser> raiser;
 
     /// Fills `interleaved` at the rate of the file.
@@ -223,6 +224,17 @@ struct AudioReader::State
         const SoundLibraryCall inside;
         sound.reset(sf_open_virtual(&io, SFM_READ, &info, &view));
         return sound != nullptr;
+    }
+
+    /// Adds the markers of the current part, which is open and not read yet.
+    void findMarkers()
+    {
+        const auto before = current > 0 ? parts[current - 1].end : 0;
+        auto tags = tagMarkers(file.get(), part(), std::min(before, part().begin), info.samplerate);
+        const auto cues = tags.cues;
+        addMarkers(markers, soundMarkers(sound.get(), info.samplerate, cues), seconds(delivered));
+        addMarkers(markers, std::move(tags), seconds(delivered));
+        view.goTo(view.place); // where libsndfile left it
     }
 
     /// Opens parts[current].
@@ -415,6 +427,7 @@ struct AudioReader::State
             {
                 warnOfGap();
                 deliveredBefore = delivered;
+                findMarkers();
                 return true;
             }
             const auto bytes = part().end - part().begin;
@@ -451,7 +464,7 @@ Result<AudioReader> AudioReader::open(const fs::path& path, AudioReadOptions opt
     if (const auto opened = state->openPart(); !opened)
         return opened.error();
     state->warnOfGap();
-    state->markers = soundMarkers(state->sound.get(), state->info.samplerate);
+    state->findMarkers();
     if (const int rate = state->info.samplerate; rate < options.lowestSampleRate)
     {
         state->raiser.emplace(rate, options.lowestSampleRate, static_cast<std::size_t>(state->info.channels));
@@ -468,7 +481,33 @@ int AudioReader::sampleRate() const noexcept
 
 const std::vector<Marker>& AudioReader::markers() const noexcept
 {
-    return state->markers;
+    return state->markers.markers;
+}
+
+std::vector<Marker> AudioReader::takeMarkers(double duration)
+{
+    auto& [all, told] = state->markers;
+    std::vector<Marker> within;
+    std::size_t behind = 0, bytes = 0;
+    for (const Marker& marker : all)
+    {
+        behind += marker.time > duration ? 1u : 0u;
+        if (marker.time > duration || within.size() == limits::soundMarkers ||
+            bytes + marker.name.size() > limits::soundMarkerBytes)
+            continue;
+        bytes += marker.name.size();
+        within.push_back(marker);
+    }
+    if (std::exchange(state->markersAreTold, true))
+        return within;
+    state->warnings.insert(state->warnings.end(), told.begin(), told.end());
+    if (behind > 0)
+        state->warn("has {} behind the end of its sound, which {} left out",
+                    behind == 1 ? "a marker" : fmt::format("{} markers", behind), behind == 1 ? "is" : "are");
+    if (const auto left = all.size() - behind - within.size(); left > 0)
+        state->warn("has more markers than the {} or the {} bytes of names that a clip takes; {} are left out",
+                    limits::soundMarkers, limits::soundMarkerBytes, left);
+    return within;
 }
 
 int AudioReader::channels() const noexcept

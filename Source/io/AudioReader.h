@@ -84,8 +84,12 @@ public:
         }
     }
 
-    /// The markers of the file, in order, with times in s of its sound (which may end before them); see soundMarkers().
+    /// The markers of the file, in order, with times in s of its sound (which may end before them); see soundMarkers()
+    /// and tagMarkers(). Those of sounds behind the first are there when these are being read.
     [[nodiscard]] const std::vector<Marker>& markers() const noexcept;
+
+    /// Those that a clip of `duration` s takes; the others are told in warnings(), once. For the end of read().
+    [[nodiscard]] std::vector<Marker> takeMarkers(double duration);
 
     /// Samples that allowNan has replaced so far.
     [[nodiscard]] std::uint64_t replacedSamples() const noexcept;

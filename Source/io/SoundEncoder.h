@@ -101,7 +101,7 @@ public:
         auto clip = clipOf({reader.sampleRate(), reader.channels(), reader.frames().value_or(0), scale}, file,
                            clipNamesOf(input), work);
         if (clip)
-            addMarkers(*clip, reader.markers());
+            addMarkers(*clip, reader.takeMarkers(clip->duration));
         return clip;
     }
 
@@ -159,12 +159,10 @@ public:
     }
 
 private:
-    /// Those that lie within the clip, on its grid. Seals are made without markers.
-    static void addMarkers(Clip& clip, const std::vector<Marker>& markers)
+    /// Onto its grid. Seals are made without markers.
+    static void addMarkers(Clip& clip, std::vector<Marker> markers)
     {
-        for (const Marker& marker : markers)
-            if (marker.time <= clip.duration)
-                clip.markers.push_back(marker);
+        clip.markers = std::move(markers);
         if (!clip.markers.empty())
             clip = onGrids(std::move(clip));
     }

@@ -1,14 +1,24 @@
 #include "io/SoundMarkers.h"
 
+#include "io/AudioHeader.h"
+#include "io/ByteWindow.h"
+#include "io/CommentChapters.h"
+#include "io/Id3Chapters.h"
 #include "io/SoundHandle.h"
+#include "io/SoundTags.h"
 #include "io/Utf8.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <iterator>
+#include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace pacini
@@ -16,35 +26,206 @@ namespace pacini
 
 namespace
 {
-constexpr std::uint32_t mostMarkers = 10000;
+using namespace std::string_view_literals;
+
+void appendFound(FoundMarkers& all, FoundMarkers found)
+{
+    std::move(found.markers.begin(), found.markers.end(), std::back_inserter(all.markers));
+    std::move(found.warnings.begin(), found.warnings.end(), std::back_inserter(all.warnings));
+}
+
+/// `count` bytes from `offset` on, as far as they are there and no tag is longer.
+std::string bytesOf(ByteWindow& file, std::uint64_t offset, std::uint64_t count)
+{
+    std::string bytes;
+    count = std::min<std::uint64_t>(count, limits::tagBytes);
+    while (bytes.size() < count)
+    {
+        const auto piece = file.at(offset + bytes.size(),
+                                   static_cast<std::size_t>(std::min<std::uint64_t>(count - bytes.size(), file.most)));
+        if (piece.empty())
+            break;
+        bytes.append(reinterpret_cast<const char*>(piece.data()), piece.size());
+    }
+    return bytes;
+}
+
+/// The chapters of all ID3 tags between `offset` and `end`.
+void addTags(FoundMarkers& all, ByteWindow& file, std::uint64_t offset, std::uint64_t end)
+{
+    while (offset < end)
+    {
+        const auto bytes = tagBytesAt(file, offset);
+        if (bytes == 0)
+            return;
+        if (file.has(offset, "ID3"))
+            appendFound(all, id3Chapters(bytesOf(file, offset, std::min(bytes, end - offset))));
+        offset += bytes;
+    }
+}
+
+/// The list of comments of a FLAC stream, whose blocks of metadata begin at `offset`.
+std::string flacComments(ByteWindow& file, std::uint64_t offset, std::uint64_t end)
+{
+    constexpr unsigned comments = 4, last = 0x80;
+    while (offset + 4 <= end)
+    {
+        const auto type = file.number(offset, 1, true);
+        const auto bytes = file.number(offset + 1, 3, true);
+        if ((type & ~std::uint64_t(last)) == comments)
+            return bytesOf(file, offset + 4, std::min(bytes, end - offset - 4));
+        if ((type & last) != 0)
+            break;
+        offset += 4 + bytes;
+    }
+    return {};
+}
+
+/// The second packet of the first stream of an Ogg file, which holds its comments (RFC 3533).
+std::string oggComments(ByteWindow& file, std::uint64_t offset, std::uint64_t end)
+{
+    constexpr std::uint64_t headerBytes = 27;
+    const auto serial = file.number(offset + 14, 4, false);
+    std::string packet;
+    int packets = 0; // that have ended
+    while (offset + headerBytes <= end && file.has(offset, "OggS") && packet.size() < limits::tagBytes)
+    {
+        const auto laced = file.at(offset + headerBytes, static_cast<std::size_t>(file.number(offset + 26, 1, true)));
+        const std::string lengths(laced.begin(), laced.end());
+        const bool isOurs = file.number(offset + 14, 4, false) == serial;
+        offset += headerBytes + lengths.size();
+        for (const char length : lengths)
+        {
+            const auto bytes = static_cast<unsigned char>(length);
+            if (isOurs && packets == 1)
+                packet += bytesOf(file, offset, bytes);
+            offset += bytes;
+            packets += isOurs && bytes < 255 ? 1 : 0;
+            if (packets == 2)
+                return packet;
+        }
+    }
+    return packet;
+}
+
+/// The comments behind what a codec writes before them.
+std::string_view withoutCodecName(std::string_view packet)
+{
+    for (const auto name : {"\3vorbis"sv, "OpusTags"sv})
+        if (packet.starts_with(name))
+            return packet.substr(name.size());
+    // FLAC in Ogg has its block of metadata there.
+    return !packet.empty() && (packet.front() & 0x7F) == 4 ? packet.substr(std::min<std::size_t>(packet.size(), 4))
+                                                           : std::string_view();
+}
+
+/// The loops of a WAV: 36 bytes, of which the 28th begins their number, then 24 bytes each, with first and last frame
+/// at the 8th and 12th (Microsoft and IBM, "Multimedia Data Standards Update", 1994).
+void addLoops(FoundMarkers& all, ByteWindow& file, const FileChunk& chunk, bool bigEndian, int sampleRate)
+{
+    constexpr std::uint64_t headerBytes = 36, loopBytes = 24;
+    if (chunk.bytes < headerBytes || sampleRate <= 0)
+        return;
+    const auto stated = file.number(chunk.content + 28, 4, bigEndian);
+    const auto there = std::min<std::uint64_t>({stated, (chunk.bytes - headerBytes) / loopBytes, limits::soundMarkers});
+    std::uint64_t broken = stated - there;
+    for (std::uint64_t i = 0; i < there; ++i)
+    {
+        const auto loop = chunk.content + headerBytes + i * loopBytes;
+        const auto first = file.number(loop + 8, 4, bigEndian), last = file.number(loop + 12, 4, bigEndian);
+        if (last < first)
+        {
+            ++broken;
+            continue;
+        }
+        const auto name = i == 0 ? std::string("loop") : fmt::format("loop {}", i + 1);
+        const double rate = sampleRate;
+        all.markers.push_back({static_cast<double>(first) / rate, name + " start"});
+        all.markers.push_back({static_cast<double>(last + 1) / rate, name + " end"});
+    }
+    if (broken > 0)
+        all.warnings.push_back(fmt::format("has {} loops that are damaged and left out", broken));
+}
 } // namespace
 
-std::vector<Marker> soundMarkers(SNDFILE* file, int sampleRate)
+TagMarkers tagMarkers(std::FILE* opened, const SoundPart& part, std::uint64_t from, int sampleRate)
+{
+    ByteWindow file(opened);
+    TagMarkers found;
+    addTags(found, file, from, part.begin);
+    if (file.has(part.begin, "fLaC"))
+        appendFound(found, commentChapters(flacComments(file, part.begin + 4, part.end)));
+    if (file.has(part.begin, "OggS"))
+        if (const std::string packet = oggComments(file, part.begin, part.end); !packet.empty())
+            appendFound(found, commentChapters(withoutCodecName(packet)));
+    const auto audio = findAudioChunk(file, part.begin, part.end);
+    const auto audioEnd = audio && part.presentBytes > 0 ? audio->start + part.presentBytes : 0;
+    for (const FileChunk& chunk : chunksOf(file, part.begin, part.end, audioEnd))
+    {
+        if (file.has(chunk.offset, "id3 ") || file.has(chunk.offset, "ID3 "))
+            appendFound(found, id3Chapters(bytesOf(file, chunk.content, chunk.bytes)));
+        else if (file.has(chunk.offset, "smpl"))
+            addLoops(found, file, chunk, file.has(part.begin, "RIFX"), sampleRate);
+        else if (file.has(chunk.offset, "cue ") && chunk.bytes >= 4)
+            found.cues += file.number(chunk.content, 4, file.has(part.begin, "RIFX"));
+        else if (file.has(chunk.offset, "MARK") && chunk.bytes >= 2)
+            found.cues += file.number(chunk.content, 2, true);
+    }
+    return found;
+}
+
+FoundMarkers soundMarkers(SNDFILE* file, int sampleRate, std::uint64_t expected)
 {
     const SoundLibraryCall inside;
+    FoundMarkers found;
     std::uint32_t count = 0;
-    if (sf_command(file, SFC_GET_CUE_COUNT, &count, sizeof count) != SF_TRUE || count == 0)
-        return {};
+    if (sf_command(file, SFC_GET_CUE_COUNT, &count, sizeof count) != SF_TRUE)
+        count = 0;
     // libsndfile writes a count and, right behind it, as many cues as fit.
     constexpr std::size_t start = offsetof(SF_CUES, cue_points);
-    count = std::min(count, mostMarkers);
+    count = std::min(count, static_cast<std::uint32_t>(limits::soundMarkers));
     std::vector<std::byte> bytes(start + count * sizeof(SF_CUE_POINT));
-    if (sf_command(file, SFC_GET_CUE, bytes.data(), static_cast<int>(bytes.size())) != SF_TRUE)
-        return {};
     std::uint32_t stored = 0;
-    std::memcpy(&stored, bytes.data(), sizeof stored);
-    std::vector<Marker> markers;
-    for (std::size_t i = 0; i < std::min(count, stored); ++i)
+    if (count > 0 && sf_command(file, SFC_GET_CUE, bytes.data(), static_cast<int>(bytes.size())) == SF_TRUE)
+        std::memcpy(&stored, bytes.data(), sizeof stored);
+    stored = std::min(count, stored);
+    bool cuts = false;
+    for (std::size_t i = 0; i < stored; ++i)
     {
         SF_CUE_POINT cue;
         std::memcpy(&cue, bytes.data() + start + i * sizeof cue, sizeof cue);
         std::string name(std::begin(cue.name), std::find(std::begin(cue.name), std::end(cue.name), '\0'));
+        cuts = cuts || name.size() + 1 >= sizeof cue.name;
         if (name.empty())
             name = std::to_string(i + 1);
-        markers.push_back({static_cast<double>(cue.sample_offset) / sampleRate, wellFormedUtf8(name)});
+        found.markers.push_back({static_cast<double>(cue.sample_offset) / sampleRate, wellFormedUtf8(name)});
     }
-    std::stable_sort(markers.begin(), markers.end(), [](const Marker& a, const Marker& b) { return a.time < b.time; });
-    return markers;
+    if (stored < expected)
+        found.warnings.push_back(fmt::format("states {} markers, of which {} can be read", expected, stored));
+    if (cuts)
+        found.warnings.emplace_back("has names of markers that are longer than 255 bytes and are cut there");
+    return found;
+}
+
+void addMarkers(FoundMarkers& all, FoundMarkers found, double offset)
+{
+    std::set<std::pair<std::string_view, long long>> there; // times in ms
+    for (const Marker& marker : all.markers)
+        there.emplace(marker.name, std::llround(marker.time * 1000.0));
+    std::vector<Marker> fresh;
+    for (Marker& marker : found.markers)
+    {
+        marker.time += offset;
+        const auto ms = std::llround(marker.time * 1000.0);
+        const bool isThere = there.contains({marker.name, ms}) || there.contains({marker.name, ms - 1}) ||
+                             there.contains({marker.name, ms + 1});
+        if (!isThere)
+            fresh.push_back(std::move(marker));
+    }
+    there.clear();
+    appendFound(all, {std::move(fresh), std::move(found.warnings)});
+    std::stable_sort(all.markers.begin(), all.markers.end(),
+                     [](const Marker& a, const Marker& b) { return a.time < b.time; });
 }
 
 } // namespace pacini

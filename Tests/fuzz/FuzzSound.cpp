@@ -27,5 +27,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             break;
         frames += *read;
     }
+    const double duration = static_cast<double>(frames) / opened->sampleRate();
+    double before = 0.0;
+    for (const Marker& marker : opened->takeMarkers(duration))
+    {
+        FUZZ_CHECK(marker.time >= before && marker.time <= duration);
+        before = marker.time;
+    }
     return 0;
 }

@@ -1,16 +1,22 @@
 #include "io/AudioBytes.h"
 #include "io/AudioReader.h"
+#include "io/Id3Chapters.h"
 #include "io/SoundEncoder.h"
+#include "io/TagBytes.h"
 #include "support/Catch.h"
+#include "support/Paths.h"
 #include "support/TempFolder.h"
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 using namespace pacini;
 using namespace pacini::test;
+using namespace std::string_literals;
 
 namespace
 {
@@ -43,6 +49,53 @@ std::string withCues(const std::vector<Cue>& cues)
     std::string bytes = wavBytes({}, pcm16(samples)) + chunk("cue ", points) + chunk("LIST", labels);
     return bytes.replace(4, 4, littleEndian(bytes.size() - 8, 4));
 }
+
+std::string fixture(const std::string& name)
+{
+    return bytesOf(testFolder() / "io/audio" / name);
+}
+
+// The WAV with another chunk at its end.
+std::string withChunk(std::string wav, const std::string& name, const std::string& content)
+{
+    wav += chunk(name, content);
+    return wav.replace(4, 4, littleEndian(wav.size() - 8, 4));
+}
+
+std::string loops(const std::vector<std::pair<std::uint32_t, std::uint32_t>>& frames)
+{
+    std::string content = littleEndian(0, 28) + littleEndian(frames.size(), 4) + littleEndian(0, 4);
+    for (const auto& [first, last] : frames)
+        content += littleEndian(0, 8) + littleEndian(first, 4) + littleEndian(last, 4) + littleEndian(0, 8);
+    return content;
+}
+
+struct Taken
+{
+    std::vector<Marker> markers;
+    std::vector<std::string> warnings;
+};
+
+// What a clip of the whole sound gets.
+Taken takenOf(const std::string& bytes)
+{
+    TempFolder folder;
+    auto reader = AudioReader::open(put(folder / "sound", bytes));
+    REQUIRE(reader);
+    std::uint64_t frames = 0;
+    REQUIRE(reader->forEachBlock(4096,
+                                 [&](std::span<const float> block)
+                                 {
+                                     frames += block.size() / static_cast<std::size_t>(reader->channels());
+                                     return true;
+                                 }));
+    auto markers = reader->takeMarkers(static_cast<double>(frames) / reader->sampleRate());
+    return {std::move(markers), reader->warnings()};
+}
+
+const std::vector<Marker> two{{0.0625, "hit"}, {0.125, "L\xC3\xA4rm"}};
+const std::vector<std::string> twoComments{"TITLE=a", "CHAPTER002=00:00:00,125", "CHAPTER002NAME=L\xC3\xA4rm",
+                                           "chapter001=00:00:00.0625", "Chapter001Name=hit"};
 
 std::vector<Marker> markersOf(const std::string& bytes)
 {
@@ -81,4 +134,144 @@ TEST_CASE("A clip has the markers of its sound that lie within it", "[io]")
     CHECK(clip->markers[0].time == Approx(0.25).margin(0.001));
     CHECK(clip->markers[0].name == "hit");
     CHECK(onGrids(*clip) == *clip);
+}
+
+TEST_CASE("Chapters of Ogg and FLAC are markers, in whatever order their comments stand", "[io]")
+{
+    const auto comments = commentBytes(twoComments);
+    CHECK(takenOf(flacWithComments(fixture("tone.flac"), comments)).markers == two);
+    CHECK(takenOf(oggWithComments(fixture("tone.ogg"), comments)).markers == two);
+    CHECK(takenOf(oggWithComments(fixture("tone.opus"), comments)).markers == two);
+    // A picture before them takes many pages.
+    auto large = twoComments;
+    large.insert(large.begin(), "METADATA_BLOCK_PICTURE=" + std::string(300'000, 'A'));
+    for (const char* name : {"tone.ogg", "tone.opus"})
+    {
+        const auto taken = takenOf(oggWithComments(fixture(name), commentBytes(large)));
+        CHECK(taken.markers == two);
+        CHECK(taken.warnings.empty());
+    }
+    CHECK(takenOf(flacWithComments(fixture("tone.flac"), commentBytes({}))).markers.empty());
+}
+
+TEST_CASE("A chapter without a time is told, one without a name is called by its number", "[io]")
+{
+    const auto read = [](const std::vector<std::string>& comments)
+    {
+        return takenOf(flacWithComments(fixture("tone.flac"), commentBytes(comments)));
+    };
+    CHECK(read({"CHAPTER007=0.05"}).markers == std::vector<Marker>{{0.05, "7"}});
+    const auto none = read({"CHAPTER001NAME=lost", "CHAPTER002=soon", "CHAPTER003=1:2:3:4", "CHAPTER004=nan"});
+    CHECK(none.markers.empty());
+    CHECK(none.warnings == std::vector<std::string>{"has 4 chapters without a time that can be read, which are left "
+                                                    "out; the first has no time"});
+    CHECK(read({"CHAPTER001=soon"}).warnings ==
+          std::vector<std::string>{"has a chapter with the time \"soon\", which is left out"});
+    CHECK(read({"CHAPTER001=10:00:00"}).warnings ==
+          std::vector<std::string>{"has a marker behind the end of its sound, which is left out"});
+    CHECK(read({"CHAPTER=1", "CHAPTERX=1", "CHAPTER001URL=x", "noequals", ""}).warnings.empty());
+    const auto whole = commentBytes(twoComments);
+    const auto cut = takenOf(flacWithComments(fixture("tone.flac"), whole.substr(0, whole.size() - 3)));
+    CHECK(cut.warnings.size() == 1);
+}
+
+TEST_CASE("Chapters of an ID3 tag are markers, in any version and encoding", "[io]")
+{
+    const std::string utf16 = std::string("\1\xFF\xFEL\0\xE4\0r\0m\0", 11), latin = "\0L\xE4rm"s + '\0';
+    for (const int version : {3, 4})
+        for (const std::string& title : {utf16, latin, "\3L\xC3\xA4rm"s, std::string("\2\0L\0\xE4\0r\0m", 9)})
+        {
+            const auto tag = id3Tag(id3Frame("TIT2", "\3a", version) + id3Chapter("b", 125, title, version) +
+                                        id3Chapter("a", 62, "\3hit", version) + std::string(50, '\0'),
+                                    version);
+            const std::vector<Marker> expected{{0.062, "hit"}, {0.125, "L\xC3\xA4rm"}};
+            CHECK(takenOf(tag + fixture("tone.mp3")).markers == expected);
+            CHECK(takenOf(tag + fixture("tone.flac")).markers == expected);
+            CHECK(takenOf(withChunk(withCues({}), "id3 ", tag)).markers == expected);
+            // A chunk of odd length, without the byte behind it.
+            CHECK(takenOf(withChunk(withChunk(withCues({}), "ID3 ", tag), "JUNK", "x")).markers == expected);
+            CHECK(takenOf(tag + fixture("tone.mp3")).warnings == takenOf(fixture("tone.mp3")).warnings);
+        }
+    // Sizes of 8 bits in version 2.4, as some programs write them.
+    const std::string image(200, 'x');
+    const auto plain = "APIC" + bigEndian(image.size(), 4) + bigEndian(0, 2) + image;
+    CHECK(id3Chapters(id3Tag(plain + id3Chapter("a", 62, "", 4), 4)).markers == std::vector<Marker>{{0.062, "1"}});
+    // Zeros behind 0xFF.
+    auto apart = id3Chapter("a", 62, "\3hit", 3);
+    for (std::size_t at = 0; (at = apart.find('\xFF', at)) != std::string::npos; at += 2)
+        apart.insert(at + 1, 1, '\0');
+    CHECK(id3Chapters(id3Tag(apart, 3, 0x80)).markers == std::vector<Marker>{{0.062, "hit"}});
+}
+
+TEST_CASE("Damaged ID3 tags are told and break nothing", "[io]")
+{
+    const auto tag = id3Tag(id3Chapter("a", 62, "\3hit", 4) + id3Chapter("b", 125, "\1\xFF\xFE" + "a\0"s, 4), 4);
+    for (std::size_t length = 0; length < tag.size(); ++length)
+    {
+        const auto found = id3Chapters(tag.substr(0, length));
+        CHECK((length < 10 || !found.warnings.empty()));
+    }
+    for (std::size_t at = 0; at < tag.size(); ++at)
+        for (const char byte : {'\0', '\x7F', '\xFF'})
+        {
+            auto broken = tag;
+            broken[at] = byte;
+            CHECK(id3Chapters(broken).markers.size() <= 2);
+        }
+    const auto packed = id3Frame("CHAP", std::string(30, 'x'), 4, 0x08);
+    CHECK(id3Chapters(id3Tag(packed, 4)).warnings ==
+          std::vector<std::string>{
+              "has 1 chapters in its ID3 tag that are compressed, encrypted or damaged and left out"});
+}
+
+TEST_CASE("Loops of a WAV are two markers each", "[io]")
+{
+    const auto taken = takenOf(withChunk(withCues({}), "smpl", loops({{2000, 3999}, {0, 7999}})));
+    CHECK(taken.markers ==
+          std::vector<Marker>{{0.0, "loop 2 start"}, {0.25, "loop start"}, {0.5, "loop end"}, {1.0, "loop 2 end"}});
+    CHECK(taken.warnings.empty());
+    // Before the sound.
+    auto front = wavBytes({}, pcm16(std::vector<int>(8000)));
+    front.insert(36, chunk("smpl", loops({{2000, 3999}})));
+    CHECK(takenOf(front.replace(4, 4, littleEndian(front.size() - 8, 4))).markers.size() == 2);
+    CHECK(takenOf(withChunk(withCues({}), "smpl", loops({{4000, 2000}}))).warnings ==
+          std::vector<std::string>{"has 1 loops that are damaged and left out"});
+    auto claims = loops({{0, 100}});
+    claims.replace(28, 4, littleEndian(0xFFFFFFFF, 4));
+    CHECK(takenOf(withChunk(withCues({}), "smpl", claims)).markers.size() == 2);
+    CHECK(takenOf(withChunk(withCues({}), "smpl", claims)).warnings.size() == 1);
+    CHECK(takenOf(withChunk(withCues({}), "smpl", "short")).markers.empty());
+}
+
+TEST_CASE("The same marker in two places is one, and markers of what follows count from its start", "[io]")
+{
+    const auto tag = id3Tag(id3Chapter("a", 250, "\3hit", 4) + id3Chapter("b", 500, "\3other", 4), 4);
+    const auto both = withChunk(withCues({{2000, "hit"}}), "id3 ", tag);
+    CHECK(takenOf(both).markers == std::vector<Marker>{{0.25, "hit"}, {0.5, "other"}});
+    const auto once = flacWithComments(fixture("tone.flac"), commentBytes({"CHAPTER001=0.05"}));
+    const auto joined = takenOf(once + once).markers;
+    REQUIRE(joined.size() == 2);
+    CHECK(joined[1].time > joined[0].time + 0.1);
+    CHECK(joined[1].name == "1");
+}
+
+TEST_CASE("Markers that cannot be kept are told", "[io]")
+{
+    CHECK(takenOf(withCues({{2000, "hit"}, {9000, "beyond"}})).warnings ==
+          std::vector<std::string>{"has a marker behind the end of its sound, which is left out"});
+    CHECK(takenOf(withCues({{9000, "a"}, {0xFFFFFFFF, "b"}})).warnings ==
+          std::vector<std::string>{"has 2 markers behind the end of its sound, which are left out"});
+    std::vector<Cue> many;
+    for (std::uint32_t i = 0; i < 3000; ++i)
+        many.push_back({i, "m" + std::to_string(i)});
+    const auto taken = takenOf(withCues(many));
+    CHECK((taken.markers.size() == 3000 || taken.warnings.size() == 1));
+    CHECK(takenOf(withCues({{0, std::string(400, 'n')}})).warnings.size() == 1);
+    std::vector<std::string> chapters;
+    for (int i = 0; i < 2000; ++i)
+        chapters.push_back("CHAPTER" + std::to_string(1000 + i) + "=0.01"),
+            chapters.push_back("CHAPTER" + std::to_string(1000 + i) + "NAME=" + std::string(100, 'n') +
+                               char('a' + i % 26));
+    const auto full = takenOf(flacWithComments(fixture("tone.flac"), commentBytes(chapters)));
+    CHECK(full.markers.size() < 1000);
 }

@@ -1,0 +1,28 @@
+#pragma once
+
+// Markers found in a file, and what is to be said of those that were not.
+
+#include <pacini/clip/Clip.h>
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace pacini
+{
+
+namespace limits
+{
+inline constexpr std::size_t soundMarkers = 10000;            ///< of one file
+inline constexpr std::size_t soundMarkerBytes = 100'000;      ///< of all their names: two fifths of the texts of a clip
+inline constexpr std::size_t tagBytes = std::size_t(1) << 24; ///< of one tag or list of comments
+} // namespace limits
+
+/// Times are s of the sound. Each warning is a sentence about the file.
+struct FoundMarkers
+{
+    std::vector<Marker> markers;
+    std::vector<std::string> warnings;
+};
+
+} // namespace pacini
