@@ -2,6 +2,7 @@
 
 #include "cli/Task.h"
 #include "io/AudioReader.h"
+#include "io/FileExtension.h"
 #include "io/Fingerprint.h"
 #include "io/Stopwatch.h"
 #include "io/formats/json/ClipJson.h"
@@ -128,6 +129,19 @@ struct RenderInput
     Existing existing = Existing::replace;
 };
 
+/// The markers of a clip at the times that they have in its rendering.
+std::vector<Marker> renderedMarkers(const Clip& clip, const RenderParams& params)
+{
+    std::vector<Marker> markers;
+    for (const Marker& marker : clip.markers)
+    {
+        const double time = params.adjustment.delay + params.adjustment.stretch * marker.time;
+        if (time >= params.from && time <= params.to.value_or(time))
+            markers.push_back({time - params.from, marker.name});
+    }
+    return markers;
+}
+
 /// Reads `input` and finds out whether anything is to be done: nothing where the output is up to date, as `result` says
 /// then.
 Result<RenderInput> readInput(const std::filesystem::path& input, const std::filesystem::path& output,
@@ -182,6 +196,10 @@ Result<RenderResult> render(const std::filesystem::path& input, const std::files
     if (replaceable != Replaceable::named) // so that equal signals in named files are equal to the byte
         format.origin = found->origin;
     format.existing = found->existing;
+    if (!result.isScene)
+        format.markers = renderedMarkers(found->scene.clips.front(), settings);
+    if (!format.markers.empty() && lowerExtension(output) == ".flac")
+        result.warnings.emplace_back("has markers, which FLAC does not get; render a .wav to keep them");
     RenderedFile file(output, format, progress);
     const Profile* profile = settings.profile ? &*settings.profile : nullptr;
     Stopwatch work;

@@ -72,6 +72,7 @@ Result<std::vector<std::filesystem::path>> writeRendered(const Clip& clip, const
     if (!samples)
         return samples.error();
     params.expectedFrames = samples->size();
+    params.markers = clip.markers;
     if (auto written = writeAudio(path, *samples, params); !written)
         return written.error();
     return std::vector{path};

@@ -230,10 +230,9 @@ struct AudioReader::State
     void findMarkers()
     {
         const auto before = current > 0 ? parts[current - 1].end : 0;
-        auto tags = tagMarkers(file.get(), part(), std::min(before, part().begin), info.samplerate);
-        const auto cues = tags.cues;
-        addMarkers(markers, soundMarkers(sound.get(), info.samplerate, cues), seconds(delivered));
-        addMarkers(markers, std::move(tags), seconds(delivered));
+        const auto from = std::min(before, part().begin);
+        const auto until = current + 1 < parts.size() ? parts[current + 1].begin : ByteWindow(file.get()).size();
+        pacini::addMarkers(markers, soundMarkers(file.get(), part(), from, until, info.samplerate), seconds(delivered));
         view.goTo(view.place); // where libsndfile left it
     }
 
@@ -482,6 +481,11 @@ int AudioReader::sampleRate() const noexcept
 const std::vector<Marker>& AudioReader::markers() const noexcept
 {
     return state->markers.markers;
+}
+
+void AudioReader::addMarkers(FoundMarkers found)
+{
+    pacini::addMarkers(state->markers, std::move(found), 0.0);
 }
 
 std::vector<Marker> AudioReader::takeMarkers(double duration)

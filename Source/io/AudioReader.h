@@ -2,6 +2,8 @@
 
 // Streaming reader of audio files that may be damaged or hostile.
 
+#include "io/FoundMarkers.h"
+
 #include <pacini/clip/Clip.h>
 #include <pacini/foundation/DspBlock.h>
 #include <pacini/foundation/Result.h>
@@ -84,9 +86,12 @@ public:
         }
     }
 
-    /// The markers of the file, in order, with times in s of its sound (which may end before them); see soundMarkers()
-    /// and tagMarkers(). Those of sounds behind the first are there when these are being read.
+    /// The markers of the file, in order, with times in s of its sound (which may end before them); see soundMarkers().
+    /// Those of sounds behind the first are there when these are being read.
     [[nodiscard]] const std::vector<Marker>& markers() const noexcept;
+
+    /// Adds markers from elsewhere to those of the file.
+    void addMarkers(FoundMarkers found);
 
     /// Those that a clip of `duration` s takes; the others are told in warnings(), once. For the end of read().
     [[nodiscard]] std::vector<Marker> takeMarkers(double duration);

@@ -1,6 +1,7 @@
 #include "io/AudioWriter.h"
 
 #include "io/AudioReader.h"
+#include "io/CueChunks.h"
 #include "io/FileExtension.h"
 #include "io/SoundHandle.h"
 
@@ -13,6 +14,7 @@
 #include <cassert>
 #include <cctype>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -173,6 +175,31 @@ struct AudioWriter::State
         return {};
     }
 
+    /// Adds the markers to a file that is finished otherwise: behind the samples, since libsndfile has room for some
+    /// hundred of them before.
+    Result<void> addCues()
+    {
+        const int type = format & SF_FORMAT_TYPEMASK;
+        std::erase_if(
+            params.markers, [&](const Marker& marker)
+            { return std::llround(marker.time * params.sampleRate) > static_cast<std::int64_t>(report.frames); });
+        const std::string chunks = cueChunks(params.markers, params.sampleRate);
+        if (chunks.empty() || (type != SF_FORMAT_WAV && type != SF_FORMAT_RF64))
+            return {};
+        const auto size = static_cast<std::uint64_t>(std::max<std::int64_t>(file.size(), 0));
+        const std::string added = std::string(size % 2, '\0') + chunks;
+        const std::uint64_t stated = size + added.size() - 8;
+        const bool large = type == SF_FORMAT_RF64; // whose size is the first of its chunk ds64
+        if (!large && stated > std::numeric_limits<std::uint32_t>::max())
+            return Error{ErrorCode::tooLarge, "", "a WAV file ends at 4 GB, and its markers have no room there"};
+        std::array<std::byte, 8> number{};
+        for (std::size_t i = 0; i < number.size(); ++i)
+            number[i] = static_cast<std::byte>(stated >> (8 * i) & 0xFFu);
+        const bool done = file.seek(0, SEEK_END) && file.write(std::as_bytes(std::span(added))) &&
+                          file.seek(large ? 20 : 4, SEEK_SET) && file.write(std::span(number).first(large ? 8 : 4));
+        return done ? Result<void>() : failed("its markers");
+    }
+
     /// Completes the origin of a file that is finished otherwise.
     void seal()
     {
@@ -233,6 +260,8 @@ Result<AudioWriteReport> AudioWriter::finish()
     if (state->report.frames == 0)
         sf_command(state->sound.get(), SFC_UPDATE_HEADER_NOW, nullptr, 0);
     state->sound.reset();
+    if (auto added = state->addCues(); !added)
+        return added.error();
     state->seal();
     const auto size = state->file.size();
     if (auto done = state->file.commit(); !done)

@@ -5,6 +5,7 @@
 #include "io/AtomicFile.h"
 #include "io/FileOrigin.h"
 
+#include <pacini/clip/Clip.h>
 #include <pacini/foundation/Result.h>
 
 #include <cstdint>
@@ -12,6 +13,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <vector>
 
 namespace pacini
 {
@@ -39,6 +41,9 @@ struct AudioWriteParams
 
     /// What the file is made from, for its header (see FileOrigin.h).
     std::optional<FileOrigin> origin = std::nullopt;
+
+    /// WAV only: cues with labels, each at the nearest frame. Those behind the last frame are left out.
+    std::vector<Marker> markers = {};
 
     /// Treatment of a file that is at the target already.
     Existing existing = Existing::replace;

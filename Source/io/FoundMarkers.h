@@ -25,4 +25,11 @@ struct FoundMarkers
     std::vector<std::string> warnings;
 };
 
+/// Adds all of `found` to `all`.
+void appendFound(FoundMarkers& all, FoundMarkers found);
+
+/// Adds what was found of a sound that begins at `offset` s of the file. What has the name and, within a millisecond,
+/// the time of a marker that is there already is the same one, and is left out.
+void addMarkers(FoundMarkers& all, FoundMarkers found, double offset);
+
 } // namespace pacini

@@ -5,6 +5,7 @@
 
 #include "io/AtomicFile.h"
 #include "io/AudioReader.h"
+#include "io/ClipSeal.h"
 #include "io/FinishedClip.h"
 #include "io/Stopwatch.h"
 
@@ -159,12 +160,14 @@ public:
     }
 
 private:
-    /// Onto its grid. Seals are made without markers.
+    /// Onto its grid, and sealed with them: they may be edited as well.
     static void addMarkers(Clip& clip, std::vector<Marker> markers)
     {
+        if (markers.empty())
+            return;
         clip.markers = std::move(markers);
-        if (!clip.markers.empty())
-            clip = onGrids(std::move(clip));
+        clip = onGrids(std::move(clip));
+        sealClip(clip);
     }
 
     /// Sounds that are worth being read twice, so that what is found in them need not be kept.

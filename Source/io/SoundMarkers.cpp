@@ -4,19 +4,14 @@
 #include "io/ByteWindow.h"
 #include "io/CommentChapters.h"
 #include "io/Id3Chapters.h"
-#include "io/SoundHandle.h"
+#include "io/SoundCues.h"
 #include "io/SoundTags.h"
-#include "io/Utf8.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
-#include <iterator>
-#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -27,12 +22,6 @@ namespace pacini
 namespace
 {
 using namespace std::string_view_literals;
-
-void appendFound(FoundMarkers& all, FoundMarkers found)
-{
-    std::move(found.markers.begin(), found.markers.end(), std::back_inserter(all.markers));
-    std::move(found.warnings.begin(), found.warnings.end(), std::back_inserter(all.warnings));
-}
 
 /// `count` bytes from `offset` on, as far as they are there and no tag is longer.
 std::string bytesOf(ByteWindow& file, std::uint64_t offset, std::uint64_t count)
@@ -148,84 +137,31 @@ void addLoops(FoundMarkers& all, ByteWindow& file, const FileChunk& chunk, bool 
 }
 } // namespace
 
-TagMarkers tagMarkers(std::FILE* opened, const SoundPart& part, std::uint64_t from, int sampleRate)
+FoundMarkers soundMarkers(std::FILE* opened, const SoundPart& part, std::uint64_t from, std::uint64_t until,
+                          int sampleRate)
 {
     ByteWindow file(opened);
-    TagMarkers found;
-    addTags(found, file, from, part.begin);
+    FoundMarkers tags;
+    addTags(tags, file, from, part.begin);
     if (file.has(part.begin, "fLaC"))
-        appendFound(found, commentChapters(flacComments(file, part.begin + 4, part.end)));
+        appendFound(tags, commentChapters(flacComments(file, part.begin + 4, part.end)));
     if (file.has(part.begin, "OggS"))
         if (const std::string packet = oggComments(file, part.begin, part.end); !packet.empty())
-            appendFound(found, commentChapters(withoutCodecName(packet)));
-    const auto audio = findAudioChunk(file, part.begin, part.end);
-    const auto audioEnd = audio && part.presentBytes > 0 ? audio->start + part.presentBytes : 0;
-    for (const FileChunk& chunk : chunksOf(file, part.begin, part.end, audioEnd))
+            appendFound(tags, commentChapters(withoutCodecName(packet)));
+    const auto audio = findAudioChunk(file, part.begin, until);
+    const auto audioBytes = part.presentBytes > 0 ? part.presentBytes : audio ? audio->promise.value_or(0) : 0;
+    const auto audioEnd = audio && audioBytes > 0 ? audio->start + audioBytes : 0;
+    const auto chunks = chunksOf(file, part.begin, until, audioEnd);
+    for (const FileChunk& chunk : chunks)
     {
         if (file.has(chunk.offset, "id3 ") || file.has(chunk.offset, "ID3 "))
-            appendFound(found, id3Chapters(bytesOf(file, chunk.content, chunk.bytes)));
+            appendFound(tags, id3Chapters(bytesOf(file, chunk.content, chunk.bytes)));
         else if (file.has(chunk.offset, "smpl"))
-            addLoops(found, file, chunk, file.has(part.begin, "RIFX"), sampleRate);
-        else if (file.has(chunk.offset, "cue ") && chunk.bytes >= 4)
-            found.cues += file.number(chunk.content, 4, file.has(part.begin, "RIFX"));
-        else if (file.has(chunk.offset, "MARK") && chunk.bytes >= 2)
-            found.cues += file.number(chunk.content, 2, true);
+            addLoops(tags, file, chunk, file.has(part.begin, "RIFX"), sampleRate);
     }
+    FoundMarkers found = cuesOf(file, part.begin, chunks, sampleRate);
+    addMarkers(found, std::move(tags), 0.0);
     return found;
-}
-
-FoundMarkers soundMarkers(SNDFILE* file, int sampleRate, std::uint64_t expected)
-{
-    const SoundLibraryCall inside;
-    FoundMarkers found;
-    std::uint32_t count = 0;
-    if (sf_command(file, SFC_GET_CUE_COUNT, &count, sizeof count) != SF_TRUE)
-        count = 0;
-    // libsndfile writes a count and, right behind it, as many cues as fit.
-    constexpr std::size_t start = offsetof(SF_CUES, cue_points);
-    count = std::min(count, static_cast<std::uint32_t>(limits::soundMarkers));
-    std::vector<std::byte> bytes(start + count * sizeof(SF_CUE_POINT));
-    std::uint32_t stored = 0;
-    if (count > 0 && sf_command(file, SFC_GET_CUE, bytes.data(), static_cast<int>(bytes.size())) == SF_TRUE)
-        std::memcpy(&stored, bytes.data(), sizeof stored);
-    stored = std::min(count, stored);
-    bool cuts = false;
-    for (std::size_t i = 0; i < stored; ++i)
-    {
-        SF_CUE_POINT cue;
-        std::memcpy(&cue, bytes.data() + start + i * sizeof cue, sizeof cue);
-        std::string name(std::begin(cue.name), std::find(std::begin(cue.name), std::end(cue.name), '\0'));
-        cuts = cuts || name.size() + 1 >= sizeof cue.name;
-        if (name.empty())
-            name = std::to_string(i + 1);
-        found.markers.push_back({static_cast<double>(cue.sample_offset) / sampleRate, wellFormedUtf8(name)});
-    }
-    if (stored < expected)
-        found.warnings.push_back(fmt::format("states {} markers, of which {} can be read", expected, stored));
-    if (cuts)
-        found.warnings.emplace_back("has names of markers that are longer than 255 bytes and are cut there");
-    return found;
-}
-
-void addMarkers(FoundMarkers& all, FoundMarkers found, double offset)
-{
-    std::set<std::pair<std::string_view, long long>> there; // times in ms
-    for (const Marker& marker : all.markers)
-        there.emplace(marker.name, std::llround(marker.time * 1000.0));
-    std::vector<Marker> fresh;
-    for (Marker& marker : found.markers)
-    {
-        marker.time += offset;
-        const auto ms = std::llround(marker.time * 1000.0);
-        const bool isThere = there.contains({marker.name, ms}) || there.contains({marker.name, ms - 1}) ||
-                             there.contains({marker.name, ms + 1});
-        if (!isThere)
-            fresh.push_back(std::move(marker));
-    }
-    there.clear();
-    appendFound(all, {std::move(fresh), std::move(found.warnings)});
-    std::stable_sort(all.markers.begin(), all.markers.end(),
-                     [](const Marker& a, const Marker& b) { return a.time < b.time; });
 }
 
 } // namespace pacini

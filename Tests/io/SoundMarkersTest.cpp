@@ -1,5 +1,8 @@
 #include "io/AudioBytes.h"
 #include "io/AudioReader.h"
+#include "io/AudioWriter.h"
+#include "io/ClipSeal.h"
+#include "io/FileOrigin.h"
 #include "io/Id3Chapters.h"
 #include "io/SoundEncoder.h"
 #include "io/TagBytes.h"
@@ -9,6 +12,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <span>
 #include <string>
 #include <utility>
@@ -134,6 +138,10 @@ TEST_CASE("A clip has the markers of its sound that lie within it", "[io]")
     CHECK(clip->markers[0].time == Approx(0.25).margin(0.001));
     CHECK(clip->markers[0].name == "hit");
     CHECK(onGrids(*clip) == *clip);
+    CHECK(sealOf(*clip) == ClipSeal::whole);
+    auto edited = *clip;
+    edited.markers[0].name = "miss";
+    CHECK(sealOf(edited) == ClipSeal::broken);
 }
 
 TEST_CASE("Chapters of Ogg and FLAC are markers, in whatever order their comments stand", "[io]")
@@ -264,9 +272,17 @@ TEST_CASE("Markers that cannot be kept are told", "[io]")
     std::vector<Cue> many;
     for (std::uint32_t i = 0; i < 3000; ++i)
         many.push_back({i, "m" + std::to_string(i)});
-    const auto taken = takenOf(withCues(many));
-    CHECK((taken.markers.size() == 3000 || taken.warnings.size() == 1));
-    CHECK(takenOf(withCues({{0, std::string(400, 'n')}})).warnings.size() == 1);
+    CHECK(takenOf(withCues(many)).markers.size() == 3000);
+    CHECK(takenOf(withCues(many)).warnings.empty());
+    const std::string long400(400, 'n');
+    CHECK(takenOf(withCues({{0, long400}})).markers == std::vector<Marker>{{0.0, long400}});
+    auto claims = withCues({{0, "a"}, {100, "b"}});
+    claims.replace(claims.find("cue ") + 8, 4, littleEndian(0xFFFFFFFF, 4));
+    CHECK(takenOf(claims).markers.size() == 2);
+    CHECK(takenOf(claims).warnings == std::vector<std::string>{"states 4294967295 markers, of which 2 can be read"});
+    const auto region = chunk("ltxt", littleEndian(1, 4) + littleEndian(800, 4) + "rgn " + littleEndian(0, 8));
+    CHECK(takenOf(withChunk(withCues({{0, "a"}}), "LIST", "adtl" + region)).warnings ==
+          std::vector<std::string>{"has 1 regions, whose starts are read as markers, but not how long they last"});
     std::vector<std::string> chapters;
     for (int i = 0; i < 2000; ++i)
         chapters.push_back("CHAPTER" + std::to_string(1000 + i) + "=0.01"),
@@ -274,4 +290,99 @@ TEST_CASE("Markers that cannot be kept are told", "[io]")
                                char('a' + i % 26));
     const auto full = takenOf(flacWithComments(fixture("tone.flac"), commentBytes(chapters)));
     CHECK(full.markers.size() < 1000);
+}
+
+TEST_CASE("Cues are found behind a sound whose size is wrong, and in any kind of WAV", "[io]")
+{
+    const auto whole = withCues({{2000, "hit"}});
+    const std::vector<Marker> hit{{0.25, "hit"}};
+    const auto data = whole.find("data") + 4;
+    for (const std::uint32_t size : {0xFFFFFFFFu, 0x7FFFFF00u, 2'000'000'000u})
+    {
+        auto open = whole;
+        open.replace(data, 4, littleEndian(size, 4));
+        CHECK(takenOf(open).markers == hit);
+    }
+    for (const char* name : {"RF64", "BW64"})
+    {
+        auto large = whole;
+        large.replace(0, 4, name).replace(data, 4, littleEndian(0xFFFFFFFF, 4));
+        large.insert(12, chunk("ds64", littleEndian(large.size() + 28, 8) + littleEndian(16000, 8) +
+                                           littleEndian(8000, 8) + littleEndian(0, 4)));
+        CHECK(takenOf(large).markers == hit);
+    }
+    CHECK(takenOf(whole + whole).markers == std::vector<Marker>{{0.25, "hit"}, {1.25, "hit"}});
+}
+
+TEST_CASE("Cues that count frames in the order of play only are read", "[io]")
+{
+    auto bytes = withCues({{2000, "hit"}});
+    const auto cue = bytes.find("cue ") + 12;
+    bytes.replace(cue + 4, 4, littleEndian(2000, 4)).replace(cue + 20, 4, littleEndian(0, 4));
+    CHECK(markersOf(bytes) == std::vector<Marker>{{0.25, "hit"}});
+}
+
+TEST_CASE("Markers of an AIFF are read, and a list of them that is cut off breaks nothing", "[io]")
+{
+    const auto marker = [](int id, std::uint32_t frame, const std::string& name)
+    {
+        const auto text = bigEndian(name.size(), 1) + name;
+        return bigEndian(static_cast<unsigned>(id), 2) + bigEndian(frame, 4) + text +
+               std::string(text.size() % 2, '\0');
+    };
+    const auto content = bigEndian(3, 2) + marker(7, 40, "even") + marker(9, 10, "odd") + marker(1, 20, "");
+    const auto aiff = [](const std::string& marks)
+    {
+        auto bytes =
+            fixture("ramp.aiff") + "MARK" + bigEndian(marks.size(), 4) + marks + std::string(marks.size() % 2, '\0');
+        return bytes.replace(4, 4, bigEndian(bytes.size() - 8, 4));
+    };
+    const auto found = markersOf(aiff(content));
+    REQUIRE(found.size() == 3);
+    CHECK(found[0].name == "odd");
+    CHECK(found[1].name == "3");
+    CHECK(found[2].name == "even");
+    CHECK(found[1].time == Approx(2.0 * found[0].time));
+    for (std::size_t length = 0; length < content.size(); ++length)
+        CHECK(markersOf(aiff(content.substr(0, length))).size() <= 3);
+}
+
+TEST_CASE("Markers that are written to a WAV come back exactly", "[io]")
+{
+    TempFolder folder;
+    const std::vector<Marker> markers{
+        {0.0, "start"}, {0.25, "L\xC3\xA4rm"}, {0.25, ""}, {0.5, std::string(300, 'n')}, {1.0, "end"}};
+    auto expected = markers;
+    expected[2].name = "3";
+    for (const auto encoding : {SampleEncoding::float32, SampleEncoding::pcm24, SampleEncoding::pcm16})
+        for (const std::size_t frames : {8000u, 8001u})
+        {
+            AudioWriteParams params;
+            params.sampleRate = 8000;
+            params.encoding = encoding;
+            params.markers = markers;
+            params.markers.push_back({2.0, "behind"});
+            const auto path = folder / "out.wav";
+            const auto report = writeAudio(path, std::vector<float>(frames, 0.25f), params);
+            REQUIRE(report);
+            CHECK(report->bytes == std::filesystem::file_size(path));
+            const auto taken = takenOf(bytesOf(path));
+            CHECK(taken.markers == expected);
+            CHECK(taken.warnings.empty());
+            CHECK(readAudio(path)->samples == std::vector<float>(frames, 0.25f));
+            CHECK(littleEndian(report->bytes - 8, 4) == bytesOf(path).substr(4, 4));
+            params.origin = FileOrigin{"a.json", std::string(16, '1'), std::string(16, '2')};
+            REQUIRE(writeAudio(path, std::vector<float>(frames, 0.25f), params));
+            CHECK(isAsMade(path));
+        }
+    AudioWriteParams large;
+    large.sampleRate = 8000;
+    large.markers = {{0.5, "hit"}};
+    large.expectedFrames = std::uint64_t(1) << 40u; // RF64
+    auto writer = AudioWriter::create(folder / "large.wav", large);
+    REQUIRE(writer);
+    REQUIRE(writer->write(std::vector<float>(8000, 0.25f)));
+    REQUIRE(writer->finish());
+    CHECK(takenOf(bytesOf(folder / "large.wav")).markers == large.markers);
+    CHECK(takenOf(bytesOf(folder / "large.wav")).warnings.empty());
 }

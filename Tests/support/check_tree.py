@@ -25,6 +25,7 @@ BINARY = {
     "Tests/golden/editor/*.png": "blessed pictures of the windows",
     "Tests/io/audio/*": "a sound in each container that is read",
     "Tests/io/broken/*": "documents with bytes that no text has",
+    "Tests/fuzz/corpus/chapters/*": "tags and comments of sound files",
     "Tests/fuzz/corpus/hid/*": "descriptors of devices",
     "Tests/fuzz/corpus/packed/*": "packed clips",
     "Tests/fuzz/corpus/*/sound-*": "headers of sound files",

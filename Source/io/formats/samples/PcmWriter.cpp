@@ -1,3 +1,4 @@
+#include "io/CueChunks.h"
 #include "io/formats/ForeignText.h"
 #include "io/formats/samples/DriveSamples.h"
 #include "io/formats/samples/PcmFormat.h"
@@ -39,17 +40,18 @@ std::string pcmBytes(const std::vector<float>& samples, int bits, bool isSigned)
 }
 
 /// A WAV file in memory (RIFF, format 1).
-Result<std::string> wavBytes(const DriveSamples& drive, int bits)
+Result<std::string> wavBytes(const DriveSamples& drive, int bits, const std::vector<Marker>& markers)
 {
     const std::string data = pcmBytes(drive.samples, bits, bits > 8);
+    const std::string cues = cueChunks(markers, drive.sampleRate);
     constexpr std::size_t largest = 0xFFFF0000u;
-    if (data.size() > largest)
+    if (data.size() + cues.size() > largest)
         return Error{ErrorCode::tooLarge, "duration", "makes more than 4 GB"};
     const auto size = static_cast<std::uint32_t>(data.size());
     const auto frameBytes = static_cast<std::uint32_t>(bits / 8);
     const auto rate = static_cast<std::uint32_t>(drive.sampleRate);
     std::string wav = "RIFF";
-    putLittleEndian(wav, 36 + size + (size & 1u), 4);
+    putLittleEndian(wav, 36 + size + (size & 1u) + static_cast<std::uint32_t>(cues.size()), 4);
     wav += "WAVEfmt ";
     putLittleEndian(wav, 16, 4);
     putLittleEndian(wav, 1, 2); // PCM
@@ -63,7 +65,7 @@ Result<std::string> wavBytes(const DriveSamples& drive, int bits)
     wav += data;
     if (size & 1u)
         wav += '\0'; // chunks have even lengths
-    return wav;
+    return wav + cues;
 }
 
 std::string upperCase(std::string name)
@@ -76,10 +78,12 @@ std::string upperCase(std::string name)
 
 Result<ExportedClip> writeWav(const Clip& clip, const ExportParams& params, int bits)
 {
-    auto drive = driveSamples(clip, params, usualRate);
+    Clip rest = clip; // what is lost of it
+    rest.markers.clear();
+    auto drive = driveSamples(rest, params, usualRate);
     if (!drive)
         return drive.error();
-    auto wav = wavBytes(*drive, bits);
+    auto wav = wavBytes(*drive, bits, clip.markers);
     if (!wav)
         return wav.error();
     return oneFile(std::move(*wav), std::move(drive->losses));

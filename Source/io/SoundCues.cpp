@@ -1,0 +1,131 @@
+#include "io/SoundCues.h"
+
+#include "io/Utf8.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+
+namespace pacini
+{
+
+namespace
+{
+constexpr std::uint64_t cueBytes = 24; // id, place in the order of play, chunk, two places in that, frame
+
+/// Cues and what is said of them.
+struct CueList
+{
+    struct Cue
+    {
+        std::uint64_t id = 0;
+        std::uint64_t played = 0; ///< frame, by the order of play
+        std::uint64_t frame = 0;
+    };
+    std::vector<Cue> cues;
+    std::map<std::uint64_t, std::string> names; ///< by id
+    std::uint64_t stated = 0;
+    std::uint64_t regions = 0;
+};
+
+std::string cueTextAt(ByteWindow& file, std::uint64_t offset, std::uint64_t bytes)
+{
+    const auto found = file.at(offset, static_cast<std::size_t>(std::min<std::uint64_t>(bytes, file.most)));
+    const std::string_view text(reinterpret_cast<const char*>(found.data()), found.size());
+    return wellFormedUtf8(text.substr(0, text.find('\0')));
+}
+
+void readCues(CueList& list, ByteWindow& file, const FileChunk& chunk, bool bigEndian)
+{
+    if (chunk.bytes < 4)
+        return;
+    const auto stated = file.number(chunk.content, 4, bigEndian);
+    list.stated += stated;
+    for (std::uint64_t i = 0; i < std::min(stated, (chunk.bytes - 4) / cueBytes); ++i)
+    {
+        const auto cue = chunk.content + 4 + i * cueBytes;
+        list.cues.push_back(
+            {file.number(cue, 4, bigEndian), file.number(cue + 4, 4, bigEndian), file.number(cue + 20, 4, bigEndian)});
+    }
+}
+
+/// The labels of a list "adtl", and how many regions it has.
+void readLabels(CueList& list, ByteWindow& file, const FileChunk& chunk, bool bigEndian)
+{
+    if (!file.has(chunk.content, "adtl"))
+        return;
+    const auto end = chunk.content + chunk.bytes;
+    for (auto offset = chunk.content + 4; offset + 12 <= end;)
+    {
+        const auto bytes = std::min(file.number(offset + 4, 4, bigEndian), end - offset - 8);
+        const auto id = file.number(offset + 8, 4, bigEndian);
+        if (file.has(offset, "labl") && bytes > 4)
+            list.names[id] = cueTextAt(file, offset + 12, bytes - 4);
+        else if (file.has(offset, "ltxt") && bytes >= 8 && file.number(offset + 12, 4, bigEndian) > 0)
+            ++list.regions;
+        offset += 8 + bytes + bytes % 2;
+    }
+}
+
+/// The markers of an AIFF: an id, a frame, and a name behind its length.
+void readMarkers(CueList& list, ByteWindow& file, const FileChunk& chunk)
+{
+    constexpr std::uint64_t fixedBytes = 7;
+    if (chunk.bytes < 2)
+        return;
+    const auto end = chunk.content + chunk.bytes;
+    const auto stated = file.number(chunk.content, 2, true);
+    list.stated += stated;
+    auto offset = chunk.content + 2;
+    for (std::uint64_t i = 0; i < stated && offset + fixedBytes <= end; ++i)
+    {
+        const auto frame = file.number(offset + 2, 4, true);
+        const auto length = file.number(offset + 6, 1, true);
+        list.names[list.cues.size()] =
+            cueTextAt(file, offset + fixedBytes, std::min(length, end - offset - fixedBytes));
+        list.cues.push_back({list.cues.size(), frame, frame});
+        offset += fixedBytes + length + (length + 1) % 2;
+    }
+}
+
+} // namespace
+
+FoundMarkers cuesOf(ByteWindow& file, std::uint64_t begin, const std::vector<FileChunk>& chunks, int sampleRate)
+{
+    const bool bigEndian = file.has(begin, "RIFX");
+    const bool isAiff = file.has(begin, "FORM");
+    CueList list;
+    for (const FileChunk& chunk : chunks)
+    {
+        if (!isAiff && file.has(chunk.offset, "cue "))
+            readCues(list, file, chunk, bigEndian);
+        else if (!isAiff && file.has(chunk.offset, "LIST"))
+            readLabels(list, file, chunk, bigEndian);
+        else if (isAiff && file.has(chunk.offset, "MARK"))
+            readMarkers(list, file, chunk);
+    }
+    FoundMarkers found;
+    // Some programs count the frames only in the order of play.
+    const bool byPlay = std::all_of(list.cues.begin(), list.cues.end(), [](const auto& cue) { return cue.frame == 0; });
+    for (const auto& cue : list.cues)
+    {
+        const auto name = list.names.find(cue.id);
+        const bool isNamed = name != list.names.end() && !name->second.empty();
+        found.markers.push_back({static_cast<double>(byPlay ? cue.played : cue.frame) / sampleRate,
+                                 isNamed ? name->second : std::to_string(found.markers.size() + 1)});
+    }
+    if (list.cues.size() < list.stated)
+        found.warnings.push_back(
+            fmt::format("states {} markers, of which {} can be read", list.stated, list.cues.size()));
+    if (list.regions > 0)
+        found.warnings.push_back(
+            fmt::format("has {} regions, whose starts are read as markers, but not how long they last", list.regions));
+    return found;
+}
+
+} // namespace pacini
