@@ -15,6 +15,7 @@
 #include "io/EncoderPresets.h"
 #include "io/FileExtension.h"
 #include "io/GivenParameters.h"
+#include "io/OnsetFile.h"
 #include "io/SettingsFile.h"
 
 #include <pacini/analysis/methods/Method.h>
@@ -142,6 +143,7 @@ private:
     bool printSettings = false;
     std::string output;
     std::string format;
+    std::string markersFile;
     ExportOptions exporting;
     bool allowNan = false;
     bool allowTruncated = false;
@@ -192,6 +194,11 @@ CLI::App* EncodeCommand::declare(CLI::App& app)
         "Format to write: json (readable), packed (small), or a format of another program; 'pacini lint --targets' "
         "lists them [by the extension of OUT, else json]",
         oneOf(formats));
+    addOption(
+        *command, "--markers", markersFile,
+        "Text file of times in s and labels, such as Audacity's, that become markers of the clip besides those of "
+        "the sound; for one sound",
+        "FILE");
     group("Other formats");
     exporting.declare(*command);
     group("Files");
@@ -262,6 +269,10 @@ Result<void> EncodeCommand::checkOptions(const MethodInfo& method) const
                 option,
                 fmt::format("is for formats of other programs, but the method {} writes a WAV file; leave it out",
                             method.name));
+        if (!markersFile.empty())
+            return wrongUsage("--markers", fmt::format("is for clips, but the method {} writes a WAV file; these "
+                                                       "methods write clips: {}",
+                                                       method.name, clips));
         if (!format.empty())
             return wrongUsage(
                 "--format",
@@ -417,6 +428,17 @@ Exit EncodeCommand::run(Console& console)
         names = {output, ".wav", fmt::format(".{}.wav", method.name)};
 
     const InputFiles found = findSounds();
+    if (!markersFile.empty())
+    {
+        if (found.files.size() > 1)
+            return console.fail(
+                "--markers", wrongUsage("", "is for one sound; encode the others in calls of their own"), Exit::usage);
+        auto labels = readLabels(markersFile);
+        if (!labels)
+            return console.fail(markersFile, labels.error());
+        console.warnings(markersFile, std::exchange(labels->warnings, {}));
+        settings.markers = std::move(*labels);
+    }
     if (const auto fits = checkOutput(found, output, console.isJson()); !fits)
         return console.fail("", fits.error(), Exit::usage);
     if (isStandardOutput(output))

@@ -66,6 +66,8 @@ Result<EncodeResult> EncodeJob::run(const fs::path& input, const fs::path& outpu
         return withAdvice(reader.error(), true);
     if (settings.dryRun)
         return result;
+    if (settings.markers)
+        reader->addMarkers(*settings.markers);
     Stopwatch work;
     Result<std::size_t> written = std::size_t(0);
     if (makesClip)
@@ -168,7 +170,8 @@ Result<Existing> EncodeJob::lookAt(const fs::path& input, const Target& target, 
     const ClipSeal seal = clip != nullptr ? sealOf(*clip) : ClipSeal::missing;
     const bool mayBeEdited = seal == ClipSeal::missing;
     if (clip && seal != ClipSeal::broken && !(mayBeEdited && replaceable == Replaceable::any) && !settings.force &&
-        there == settings.format && wasWrittenBefore(input, output) && clip->source.file == source && isMadeSo(*clip))
+        !settings.markers && there == settings.format && wasWrittenBefore(input, output) &&
+        clip->source.file == source && isMadeSo(*clip))
     {
         std::error_code ignored;
         result.upToDate = true;

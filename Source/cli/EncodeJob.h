@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -23,6 +24,7 @@ struct EncodeSettings : SoundEncoderParams
 {
     const ClipFormat* format = &jsonFormat(); ///< never null
     ExportParams exporting;                   ///< for formats of others
+    std::optional<FoundMarkers> markers;      ///< besides those of the sound
     bool dryRun = false;                      ///< only look at the sound, write nothing
     bool force = false; ///< encode even what is up to date; signals and formats of others, which have no record of the
                         ///< method, always are

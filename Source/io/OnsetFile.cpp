@@ -3,6 +3,7 @@
 #include "io/InputFile.h"
 #include "io/JsonText.h"
 #include "io/TextMark.h"
+#include "io/Utf8.h"
 
 #include <pacini/foundation/ParseNumber.h>
 
@@ -10,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <sstream>
 #include <utility>
 
@@ -105,9 +107,18 @@ bool hasPoint(std::string_view line)
     return line.substr(0, line.find_first_of(" \t\r,;")).find('.') != std::string_view::npos;
 }
 
-Result<Onsets> readLines(std::string_view text)
+/// A line of times.
+struct TimeLine
 {
-    Onsets onsets;
+    double time = 0.0;
+    std::string_view rest;     ///< what follows it
+    std::optional<double> end; ///< where that begins with another time, behind which `rest` goes on
+};
+
+/// Hands visit(line) each line of times, which is valid until the next.
+template <typename Visit>
+Result<void> forEachLine(std::string_view text, Visit visit)
+{
     std::vector<std::string> lines;
     std::istringstream stream{std::string(text)};
     bool timesHavePoints = false;
@@ -120,17 +131,43 @@ Result<Onsets> readLines(std::string_view text)
         timesHavePoints = timesHavePoints || hasPoint(line);
         lines.push_back(std::move(line));
     }
+    const auto timeAt = [&](std::string_view line)
+    {
+        const std::string field = firstField(line, timesHavePoints);
+        const auto time = parseNumber(std::string_view(field).substr(field.starts_with('+') ? 1 : 0));
+        return std::pair(time && std::isfinite(*time) && *time >= 0.0 ? time : std::nullopt, field);
+    };
     for (std::size_t i = 0; i < lines.size(); ++i)
     {
         if (lines[i].empty())
             continue;
-        const std::string field = firstField(lines[i], timesHavePoints);
-        const auto time = parseNumber(std::string_view(field).substr(field.starts_with('+') ? 1 : 0));
-        if (!time || !std::isfinite(*time) || *time < 0.0)
+        const auto [time, field] = timeAt(lines[i]);
+        if (!time)
             return Error{ErrorCode::invalidData, fmt::format("line {}", i + 1),
                          fmt::format("\"{}\" is not a time in seconds, 0 or more", shownText(field))};
-        onsets.ofAny.push_back(*time);
+        const auto behind = [](std::string_view line, std::size_t bytes)
+        {
+            line.remove_prefix(std::min(bytes, line.size()));
+            line.remove_prefix(std::min(line.find_first_not_of(" \t\r,;"), line.size()));
+            return line;
+        };
+        TimeLine line{*time, behind(lines[i], field.size()), std::nullopt};
+        const auto [end, endField] = timeAt(line.rest);
+        if (end && *end >= *time)
+        {
+            line.end = end;
+            line.rest = behind(line.rest, endField.size());
+        }
+        visit(line);
     }
+    return {};
+}
+
+Result<Onsets> readLines(std::string_view text)
+{
+    Onsets onsets;
+    if (const auto read = forEachLine(text, [&](const TimeLine& line) { onsets.ofAny.push_back(line.time); }); !read)
+        return read.error();
     return onsets;
 }
 } // namespace
@@ -172,6 +209,41 @@ Result<Onsets> readOnsetText(std::string_view text)
     for (auto& [file, times] : onsets.byFile)
         std::sort(times.begin(), times.end());
     return onsets;
+}
+
+Result<FoundMarkers> readLabelText(std::string_view text)
+{
+    const auto unmarked = utf8Text(text);
+    if (!unmarked)
+        return unmarked.error();
+    FoundMarkers found;
+    std::size_t regions = 0;
+    const auto read =
+        forEachLine(*unmarked,
+                    [&](const TimeLine& line)
+                    {
+                        auto name = line.rest;
+                        name = name.substr(0, name.find_last_not_of(" \t\r") + 1);
+                        found.markers.push_back({line.time, name.empty() ? std::to_string(found.markers.size() + 1)
+                                                                         : wellFormedUtf8(name)});
+                        regions += line.end.value_or(line.time) > line.time ? 1u : 0u;
+                    });
+    if (!read)
+        return read.error();
+    if (regions > 0)
+        found.warnings.push_back(fmt::format(
+            "has labels of regions ({}), whose starts are read as markers, but not how long they last", regions));
+    std::stable_sort(found.markers.begin(), found.markers.end(),
+                     [](const Marker& a, const Marker& b) { return a.time < b.time; });
+    return found;
+}
+
+Result<FoundMarkers> readLabels(const std::filesystem::path& path)
+{
+    const auto text = readWholeFile(path, largestFile);
+    if (!text)
+        return text.error();
+    return readLabelText(*text);
 }
 
 Result<Onsets> readOnsets(const std::filesystem::path& path)

@@ -2,6 +2,8 @@
 
 // Files of annotated onsets, as JSON or plain text.
 
+#include "io/FoundMarkers.h"
+
 #include <pacini/foundation/Result.h>
 
 #include <filesystem>
@@ -33,5 +35,13 @@ struct Onsets
 
 /// The same from a file of at most 64 MB. Errors also: io.
 [[nodiscard]] Result<Onsets> readOnsets(const std::filesystem::path& path);
+
+/// The lines of such a text (not JSON) as markers, in order, each called by its label: what follows the time and, where
+/// there is one, the end of the label. One without is called by its number. A warning tells how many have an end that
+/// is not their start, which markers have no place for. Errors: those of readOnsetText().
+[[nodiscard]] Result<FoundMarkers> readLabelText(std::string_view text);
+
+/// The same from a file of at most 64 MB. Errors also: io.
+[[nodiscard]] Result<FoundMarkers> readLabels(const std::filesystem::path& path);
 
 } // namespace pacini

@@ -2,6 +2,7 @@
 
 #include "FuzzText.h"
 #include "io/OnsetFile.h"
+#include "io/TextMark.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,6 +16,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (!isReadOrRefused(text, [](std::string_view given) { return readOnsetText(given); }))
         return 0;
     const auto onsets = readOnsetText(text);
+    if (const auto labels = readLabelText(text))
+        for (const Marker& marker : labels->markers)
+            FUZZ_CHECK(std::isfinite(marker.time) && marker.time >= 0.0 && isUtf8(marker.name));
     const auto check = [](const std::vector<double>& times)
     {
         FUZZ_CHECK(std::is_sorted(times.begin(), times.end()));

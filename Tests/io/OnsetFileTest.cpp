@@ -76,3 +76,30 @@ TEST_CASE("What is no list of times is refused at its place", "[io]")
     CHECK_FALSE(readOnsetText("[1e999]").ok());
     CHECK(readOnsets("does-not-exist.json").error().code == ErrorCode::io);
 }
+
+TEST_CASE("Labels are markers by their names, in order; how long they last is told to be lost", "[io]")
+{
+    const auto read = [](const std::string& text)
+    {
+        const auto labels = readLabelText(text);
+        REQUIRE(labels);
+        return *labels;
+    };
+    const std::vector<Marker> two{{0.5, "hit"}, {1.25, "2 knocks, loud"}};
+    CHECK(read("1.250000\t1.250000\t2 knocks, loud\n0.500000\t0.500000\thit\n").markers == two);
+    CHECK(read("0,500000\t0,500000\thit\r\n\\\t100,5\t2000\r\n1,250000\t1,250000\t2 knocks, loud\r\n").markers == two);
+    CHECK(read("# by hand\n0.5 hit\n\n1.25;2 knocks, loud").markers.front() == two.front());
+    CHECK(read("0.5\t0.5\thit").warnings.empty());
+    CHECK(read("0.5\t0.7\thit\n1\t2\t").markers == std::vector<Marker>{{0.5, "hit"}, {1.0, "2"}});
+    CHECK(read("0.5\t0.7\thit\n1\t2\t").warnings ==
+          std::vector<std::string>{"has labels of regions (2), whose starts are read as markers, but not how long they "
+                                   "last"});
+    CHECK(read("0.5\t0.5\t7").markers == std::vector<Marker>{{0.5, "7"}});
+    CHECK(read("0.5\n0.5").markers == std::vector<Marker>{{0.5, "1"}, {0.5, "2"}});
+    CHECK(read("0.5\t0.5\t\xFF").markers == std::vector<Marker>{{0.5, "\xEF\xBF\xBD"}});
+    CHECK(read("").markers.empty());
+    CHECK(readLabelText("soon\t1\thit").error().text() == "line 1: \"soon\" is not a time in seconds, 0 or more");
+    CHECK_FALSE(readLabelText("[0.5]"));
+    CHECK_FALSE(readLabelText("-1\t0\thit"));
+    CHECK_FALSE(readLabels("missing.txt"));
+}
