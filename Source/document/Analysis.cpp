@@ -1,8 +1,10 @@
 #include "document/Analysis.h"
 
+#include "io/ClipSeal.h"
 #include "io/FinishedClip.h"
 
 #include <pacini/analysis/EncodeSound.h>
+#include <pacini/clip/PackedClip.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -42,7 +44,17 @@ Result<Clip> analyse(const StoredAudio& audio, const EncoderParams& params, cons
         return std::span<const float>(filled);
     };
     auto clip = encodeSound(encoder, {audio.rate(), audio.channels()}, next);
-    return clip ? finishClip(std::move(*clip), clipNamesOf(reference.path)) : clip;
+    if (!clip)
+        return clip;
+    Clip finished = finishClip(std::move(*clip), clipNamesOf(reference.path));
+    if (audio.markers().empty())
+        return finished;
+    for (const Marker& marker : audio.markers())
+        if (marker.time <= finished.duration)
+            finished.markers.push_back(marker);
+    finished = onGrids(std::move(finished));
+    sealClip(finished);
+    return finished;
 }
 
 } // namespace pacini

@@ -7,6 +7,7 @@
 #include "document/ProjectJson.h"
 #include "document/ProjectScene.h"
 #include "io/AtomicFile.h"
+#include "io/FoundMarkers.h"
 #include "io/InputFile.h"
 
 #include <pacini/clip/edits/TimeEdits.h>
@@ -32,6 +33,17 @@ bool replaceClip(Project& project, ClipItem item)
             return true;
         }
     return false;
+}
+
+/// Gives a new analysis of a sound the markers that the old one had and that it lacks, as far as it has room for them.
+void keepMarkers(Clip& analysis, const Clip& old)
+{
+    if (old.markers.empty())
+        return;
+    FoundMarkers all{std::move(analysis.markers), {}};
+    addMarkers(all, {old.markers, {}}, 0.0);
+    std::erase_if(all.markers, [&](const Marker& marker) { return marker.time > analysis.duration; });
+    analysis.markers = std::move(all.markers);
 }
 } // namespace
 
@@ -554,6 +566,8 @@ Result<void> Document::reanalyse(std::vector<Reanalysis> clips, std::string name
             return valid.error();
         ClipItem item = *old;
         item.encoder = encoder;
+        if (!one.sound)
+            keepMarkers(one.analysis, *old->analysis);
         if (one.sound)
         {
             one.sound->id = newSource++;

@@ -97,8 +97,9 @@ public:
     /// Adds a sound and the clip that analyse() made of it, as addClip() does.
     Result<int> addSound(AudioReference sound, const EncoderParams& encoder, Clip analysis);
 
-    /// Puts another analysis under the edits of a clip: other parameters, or `sound` in place of the old one. What does
-    /// not fit any more is listed in the clip's `unfitting` and waits there. Errors: those of validate(analysis).
+    /// Puts another analysis under the edits of a clip: other parameters, or `sound` in place of the old one. Markers
+    /// of the old analysis of the same sound are kept. What does not fit any more is listed in the clip's `unfitting`
+    /// and waits there. Errors: those of validate(analysis).
     Result<void> reanalyse(int id, std::string name, const EncoderParams& encoder, Clip analysis,
                            std::optional<AudioReference> sound = {});
 

@@ -63,6 +63,7 @@ Result<StoredAudio> StoredAudio::read(const std::filesystem::path& path)
     if (!fits)
         return tooManyFrames(limits::audioFrames);
     sound.close();
+    sound.marked = opened->takeMarkers(sound.duration());
     sound.doubts = opened->warnings();
     return sound;
 }

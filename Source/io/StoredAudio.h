@@ -46,6 +46,8 @@ public:
     [[nodiscard]] std::size_t bytes() const noexcept; ///< that the samples take
     /// What was let pass when its file was read: see AudioReader::warnings().
     [[nodiscard]] const std::vector<std::string>& warnings() const noexcept { return doubts; }
+    /// Those of the file that lie within the sound.
+    [[nodiscard]] const std::vector<Marker>& markers() const noexcept { return marked; }
 
     /// Interleaved samples from frame `first` on, for whole frames that are there.
     void read(std::size_t first, std::span<float> interleaved) const noexcept;
@@ -77,6 +79,7 @@ private:
     std::uint64_t total = 0; ///< samples: those that are 0 take no memory
     std::vector<std::shared_ptr<const Piece>> pieces;
     std::vector<float> open; ///< the last piece, while it is not full
+    std::vector<Marker> marked;
     std::vector<std::string> doubts;
 };
 

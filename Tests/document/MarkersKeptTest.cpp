@@ -1,0 +1,79 @@
+#include "document/Analysis.h"
+#include "document/Document.h"
+#include "io/AudioWriter.h"
+#include "support/Catch.h"
+#include "support/TempFolder.h"
+
+#include <cmath>
+#include <vector>
+
+using namespace pacini;
+using namespace pacini::test;
+
+namespace
+{
+/// A sound of a second with markers.
+StoredAudio soundWith(const std::vector<Marker>& markers)
+{
+    TempFolder folder;
+    std::vector<float> samples(8000);
+    for (std::size_t i = 0; i < samples.size(); ++i)
+        samples[i] = 0.5f * std::sin(0.08f * static_cast<float>(i));
+    AudioWriteParams params;
+    params.sampleRate = 8000;
+    params.markers = markers;
+    REQUIRE(writeAudio(folder / "door.wav", samples, params));
+    auto sound = StoredAudio::read(folder / "door.wav");
+    REQUIRE(sound);
+    return std::move(*sound);
+}
+
+AudioReference reference()
+{
+    AudioReference sound;
+    sound.path = "door.wav";
+    return sound;
+}
+
+Clip analysisOf(const StoredAudio& sound, const EncoderParams& params = {})
+{
+    auto clip = analyse(sound, params, reference());
+    REQUIRE(clip);
+    return *clip;
+}
+} // namespace
+
+TEST_CASE("An analysis has the markers of its sound, and the clip keeps them when it is analysed anew", "[document]")
+{
+    const auto sound = soundWith({{0.25, "hit"}, {0.5, "ring"}});
+    EncoderParams finer;
+    finer.bands = 10;
+    Document document;
+    const auto id = document.addSound(reference(), {}, analysisOf(sound));
+    REQUIRE(id);
+    REQUIRE(document.clip(*id)->clip->markers.size() == 2);
+    CHECK(document.clip(*id)->clip->markers[0].name == "hit");
+    CHECK(document.clip(*id)->clip->markers[0].time == Approx(0.25).margin(0.001));
+    REQUIRE(document.reanalyse(*id, "Finer", finer, analysisOf(sound, finer)));
+    CHECK(document.clip(*id)->clip->markers.size() == 2);
+}
+
+TEST_CASE("Markers that a clip has besides its sound's are kept when it is analysed anew", "[document]")
+{
+    const auto bare = soundWith({});
+    Clip labelled = analysisOf(bare);
+    labelled.markers = {{0.25, "label"}, {0.75, "late"}};
+    Document document;
+    const auto id = document.addSound(reference(), {}, labelled);
+    REQUIRE(id);
+    const auto changed = soundWith({{0.5, "new"}});
+    REQUIRE(document.reanalyse(*id, "Again", {}, analysisOf(changed)));
+    const auto markers = document.clip(*id)->clip->markers;
+    REQUIRE(markers.size() == 3);
+    CHECK(markers[0].name == "label");
+    CHECK(markers[1].name == "new");
+    CHECK(markers[2].name == "late");
+    // Another sound brings its own.
+    REQUIRE(document.reanalyse(*id, "Other", {}, analysisOf(changed), reference()));
+    CHECK(document.clip(*id)->clip->markers.size() == 1);
+}
