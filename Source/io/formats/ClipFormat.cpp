@@ -1,6 +1,7 @@
 #include "io/formats/ClipFormat.h"
 
 #include "io/formats/ahap/AhapFormat.h"
+#include "io/formats/ahap/AhapSlips.h"
 #include "io/formats/android/AndroidFormat.h"
 #include "io/formats/csv/CsvFormat.h"
 #include "io/formats/haps/HapsFormat.h"
@@ -68,6 +69,12 @@ constexpr ClipFormat samples(std::string_view name, std::string_view title, std:
             .isSamples = true};
 }
 
+#ifdef PACINI_READERS_ONLY
+constexpr auto ahapReader = readAhap;
+#else
+constexpr auto ahapReader = readAhapWithSlips;
+#endif
+
 /// Formats of one voice with a frequency, in the range of an actuator.
 constexpr ExportChoices voiceChoices{.amplitudePoints = true, .frequencyPoints = true, .profile = true};
 
@@ -113,7 +120,7 @@ constexpr std::array allFormats{
                .extension = ".ahap",
                .keeps = "One voice: intensity curve, sharpness curve and events.",
                .recognises = isAhap,
-               .reader = always<readAhap>,
+               .reader = always<ahapReader>,
                .writer = writeAhap,
                .companion = ahapTransients,
                .choices = {.amplitudePoints = true, .frequencyPoints = true, .profile = true, .split = true},

@@ -1,5 +1,6 @@
 #include "io/formats/ahap/AhapFormat.h"
 
+#include "io/formats/ClipFormat.h"
 #include "io/formats/EmphasisFit.h"
 #include "io/formats/EventsBeyond.h"
 #include "io/formats/ahap/SumLimit.h"
@@ -527,6 +528,46 @@ TEST_CASE("AHAP: a version in quotes, null for a name, and any audio event are r
         "EventWaveformUseVolumeEnvelope": false, "EventWaveformID": {"a": []}, "EventParameters": [{"AudioVolume": 1}]}})"));
     REQUIRE((audio.ok() ? "" : audio.error().text()) == "");
     CHECK(audio->warnings == std::vector<std::string>{"Pattern: audio events are not kept"});
+}
+
+TEST_CASE("AHAP: true for Sustained and null for what has a free name are read, and told", "[io][formats]")
+{
+    const auto read = [](const std::string& parameters, const std::string& more = "")
+    {
+        return clipFormatNamed("ahap")->read(pattern(
+            R"({"Event": {"EventType": "HapticContinuous", "Time": 0, "EventDuration": 0.5, "EventParameters": [)" +
+            parameters + "]}}" + more));
+    };
+    const std::string decays = R"({"ParameterID": "DecayTime", "ParameterValue": 0.2}, )";
+    const auto sustained = [&](const std::string& value)
+    {
+        return read(decays + R"({"ParameterID": "Sustained", "ParameterValue": )" + value + "}");
+    };
+    REQUIRE(sustained("true"));
+    CHECK(sustained("true")->clip == sustained("1")->clip);
+    CHECK(sustained("false")->clip == sustained("0")->clip);
+    CHECK_FALSE(sustained("false")->clip == sustained("true")->clip);
+    CHECK(sustained("true")->warnings.back() == "Pattern: Sustained is true or false instead of 1 or 0");
+    const auto plain = read("");
+    for (const char* slip :
+         {R"({"ParameterID": null, "ParameterValue": 1})", "null",
+          R"({"ParameterID": "HapticSharpness", "ParameterValue": null})",
+          R"({"ParameterID": "Mine", "ParameterValue": null})", R"({"ParameterID": "Mine", "ParameterValue": true})"})
+    {
+        CAPTURE(slip);
+        const auto mended = read(slip);
+        REQUIRE((mended.ok() ? "" : mended.error().text()) == "");
+        CHECK(mended->clip == plain->clip);
+        CHECK(mended->warnings.size() == 1);
+    }
+    REQUIRE(read("", ", null"));
+    CHECK(read("", ", null")->clip == plain->clip);
+    CHECK(read("", ", null")->warnings == std::vector<std::string>{"Pattern: null in the list Pattern is left out"});
+    CHECK(read(R"({"ParameterID": "HapticIntensity", "ParameterValue": true})").error().text() ==
+          "Pattern[0].Event.EventParameters[0].ParameterValue: must be a number");
+    CHECK_FALSE(read(R"({"ParameterID": "Sustained", "ParameterValue": "yes"})"));
+    CHECK_FALSE(clipFormatNamed("ahap")->read(R"({"Pattern": null})"));
+    CHECK_FALSE(clipFormatNamed("ahap")->read("null"));
 }
 
 TEST_CASE("AHAP: what Core Haptics mends is mended with a warning, the rest refused with its place", "[io][formats]")
