@@ -9,6 +9,8 @@ if(PACINI_BUILD_CLI OR PACINI_BUILD_LIBRARY OR PACINI_BUILD_PYTHON OR PACINI_BUI
     find_package(fmt REQUIRED)
     find_package(PkgConfig REQUIRED)
     pkg_check_modules(sndfile REQUIRED IMPORTED_TARGET sndfile)
+    # Without expat the vibration XML of Android is written, but not read.
+    pkg_search_module(expat IMPORTED_TARGET expat)
 endif()
 if(PACINI_BUILD_CLI OR PACINI_BUILD_TESTS OR PACINI_BUILD_PLUGIN)
     # Headers: Boost.Math's distributions, for what studies report, and Boost.Beast, for phones.

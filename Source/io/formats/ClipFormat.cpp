@@ -3,6 +3,7 @@
 #include "io/formats/ahap/AhapFormat.h"
 #include "io/formats/ahap/AhapSlips.h"
 #include "io/formats/android/AndroidFormat.h"
+#include "io/formats/android/VibrationXml.h"
 #include "io/formats/csv/CsvFormat.h"
 #include "io/formats/haps/HapsFormat.h"
 #include "io/formats/haptic/HapticFormat.h"
@@ -73,6 +74,12 @@ constexpr ClipFormat samples(std::string_view name, std::string_view title, std:
 constexpr auto ahapReader = readAhap;
 #else
 constexpr auto ahapReader = readAhapWithSlips;
+#endif
+
+#ifdef PACINI_HAS_EXPAT
+constexpr auto vibrationXmlReader = always<readVibrationXml>;
+#else
+constexpr Result<ImportedClip> (*vibrationXmlReader)(std::string_view, bool) = nullptr;
 #endif
 
 /// Formats of one voice with a frequency, in the range of an actuator.
@@ -155,6 +162,7 @@ constexpr std::array allFormats{
                .extension = ".xml",
                .keeps = "The strength of one voice in steps.",
                .recognises = isAndroidXml,
+               .reader = vibrationXmlReader,
                .writer = writeAndroidXml,
                .choices = {.amplitudePoints = true, .split = true}},
     ClipFormat{.name = "android-envelope",
@@ -162,6 +170,7 @@ constexpr std::array allFormats{
                .extension = ".xml",
                .keeps = "One voice as an envelope of amplitude and frequency.",
                .recognises = isAndroidEnvelopeXml,
+               .reader = vibrationXmlReader,
                .writer = writeAndroidEnvelopeXml,
                .choices = envelopeChoices},
     ClipFormat{.name = "android-basic",
@@ -169,6 +178,7 @@ constexpr std::array allFormats{
                .extension = ".xml",
                .keeps = "One voice as an envelope of intensity and sharpness.",
                .recognises = isAndroidBasicXml,
+               .reader = vibrationXmlReader,
                .writer = writeAndroidBasicXml,
                .choices = envelopeChoices},
     ClipFormat{.name = "android-kotlin",

@@ -13,7 +13,7 @@ namespace detail
 {
 [[nodiscard]] inline bool isVibrationXml(std::string_view bytes)
 {
-    return bytes.find("<vibration-effect>") != std::string_view::npos;
+    return bytes.find("<vibration-effect") != std::string_view::npos;
 }
 } // namespace detail
 
