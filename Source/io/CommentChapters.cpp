@@ -128,7 +128,9 @@ FoundMarkers commentChapters(std::string_view comments)
             continue;
         }
         if (broken++ == 0)
-            example = chapter.time ? fmt::format("the time \"{}\"", shownText(*chapter.time)) : "no time";
+            example = chapter.time
+                          ? fmt::format("the time \"{}\"", shownText(wellFormedUtf8(chapter.time->substr(0, 200))))
+                          : "no time";
     }
     if (broken == 1)
         found.warnings.push_back(fmt::format("has a chapter with {}, which is left out", example));

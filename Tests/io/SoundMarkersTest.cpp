@@ -175,6 +175,8 @@ TEST_CASE("A chapter without a time is told, one without a name is called by its
                                                     "out; the first has no time"});
     CHECK(read({"CHAPTER001=soon"}).warnings ==
           std::vector<std::string>{"has a chapter with the time \"soon\", which is left out"});
+    CHECK(read({"CHAPTER001=s\xE8"}).warnings ==
+          std::vector<std::string>{"has a chapter with the time \"s\xEF\xBF\xBD\", which is left out"});
     CHECK(read({"CHAPTER001=10:00:00"}).warnings ==
           std::vector<std::string>{"has a marker behind the end of its sound, which is left out"});
     CHECK(read({"CHAPTER=1", "CHAPTERX=1", "CHAPTER001URL=x", "noequals", ""}).warnings.empty());
