@@ -60,8 +60,9 @@ class Markers(CommandTest):
         self.fails(1, ["encode", "door.wav", "--markers", "soon.txt"], "soon.txt: line 1", "is not a time")
         self.fails(1, ["encode", "door.wav", "--markers", "none.txt"], "none.txt")
         self.put("b.wav", wav(sine(100, 1.0)))
-        self.fails(2, ["encode", "door.wav", "b.wav", "-o", "out/", "--markers", "labels.txt"], "--markers", "one sound")
-        self.fails(2, ["encode", "door.wav", "--method", "lowpass", "--markers", "labels.txt"], "--markers", "for clips")
+        labelled = ["--markers", "labels.txt"]
+        self.fails(2, ["encode", "door.wav", "b.wav", "-o", "out/", *labelled], "--markers", "one sound")
+        self.fails(2, ["encode", "door.wav", "--method", "lowpass", *labelled], "--markers", "for clips")
 
     def test_a_rendering_has_the_markers_at_the_times_that_they_have_there(self):
         names = self.marked()
@@ -73,7 +74,8 @@ class Markers(CommandTest):
         self.assertEqual(self.markers_of_sound("out.wav"), [(0.25, names[1])])
         self.succeeds("render", "clip.json")
         self.assertIn("up to date", self.succeeds("render", "clip.json"))
-        self.warns("render", "clip.json", "-o", "out.flac", "--encoding", "pcm16", says="has markers, which FLAC does not get")
+        self.warns("render", "clip.json", "-o", "out.flac", "--encoding", "pcm16",
+                   says="has markers, which FLAC does not get")
 
     def test_samples_of_a_wav_have_them_too(self):
         names = self.marked()
