@@ -11,6 +11,8 @@ if(PACINI_BUILD_CLI OR PACINI_BUILD_LIBRARY OR PACINI_BUILD_PYTHON OR PACINI_BUI
     pkg_check_modules(sndfile REQUIRED IMPORTED_TARGET sndfile)
     # Without expat the vibration XML of Android is written, but not read.
     pkg_search_module(expat IMPORTED_TARGET expat)
+    # Without libzip there are no bundles of Pulsar.
+    pkg_search_module(libzip IMPORTED_TARGET libzip)
 endif()
 if(PACINI_BUILD_CLI OR PACINI_BUILD_TESTS OR PACINI_BUILD_PLUGIN)
     # Headers: Boost.Math's distributions, for what studies report, and Boost.Beast, for phones.

@@ -28,6 +28,7 @@ BINARY = {
     "Tests/fuzz/corpus/chapters/*": "tags and comments of sound files",
     "Tests/fuzz/corpus/hid/*": "descriptors of devices",
     "Tests/fuzz/corpus/packed/*": "packed clips",
+    "Tests/fuzz/corpus/pulsar/*": "archives",
     "Tests/fuzz/corpus/*/sound-*": "headers of sound files",
     "Tests/fuzz/regressions/*/*": "inputs that broke a reader once",
 }

@@ -12,6 +12,7 @@
 #include "io/formats/json/JsonFormat.h"
 #include "io/formats/openxr/OpenXrFormat.h"
 #include "io/formats/packed/PackedFormat.h"
+#include "io/formats/pulsar/PulsarFormat.h"
 #include "io/formats/samples/PcmFormat.h"
 #include "io/formats/tact/TactFormat.h"
 #include "io/formats/vij/VijFormat.h"
@@ -149,6 +150,17 @@ constexpr std::array allFormats{
                .reader = always<readHaps>,
                .writer = writeHaps,
                .choices = voiceChoices},
+#ifdef PACINI_HAS_LIBZIP
+    ClipFormat{.name = "pulsar",
+               .title = "Pulsar bundle of one preset, version 1",
+               .extension = ".pulsar",
+               .keeps = "One voice: amplitude curve, frequency curve and events.",
+               .recognises = isPulsar,
+               .reader = always<readPulsar>,
+               .writer = writePulsar,
+               .choices = voiceChoices,
+               .events = usualEvents},
+#endif
     ClipFormat{.name = "android",
                .title = "Android vibration effects, JSON",
                .extension = ".json",
