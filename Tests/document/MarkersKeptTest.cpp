@@ -13,7 +13,7 @@ using namespace pacini::test;
 namespace
 {
 /// A sound of a second with markers.
-StoredAudio soundWith(const std::vector<Marker>& markers)
+StoredAudio markedSound(const std::vector<Marker>& markers)
 {
     TempFolder folder;
     std::vector<float> samples(8000);
@@ -28,16 +28,16 @@ StoredAudio soundWith(const std::vector<Marker>& markers)
     return std::move(*sound);
 }
 
-AudioReference reference()
+AudioReference markedReference()
 {
     AudioReference sound;
     sound.path = "door.wav";
     return sound;
 }
 
-Clip analysisOf(const StoredAudio& sound, const EncoderParams& params = {})
+Clip markedAnalysis(const StoredAudio& sound, const EncoderParams& params = {})
 {
-    auto clip = analyse(sound, params, reference());
+    auto clip = analyse(sound, params, markedReference());
     REQUIRE(clip);
     return *clip;
 }
@@ -45,35 +45,35 @@ Clip analysisOf(const StoredAudio& sound, const EncoderParams& params = {})
 
 TEST_CASE("An analysis has the markers of its sound, and the clip keeps them when it is analysed anew", "[document]")
 {
-    const auto sound = soundWith({{0.25, "hit"}, {0.5, "ring"}});
+    const auto sound = markedSound({{0.25, "hit"}, {0.5, "ring"}});
     EncoderParams finer;
     finer.bands = 10;
     Document document;
-    const auto id = document.addSound(reference(), {}, analysisOf(sound));
+    const auto id = document.addSound(markedReference(), {}, markedAnalysis(sound));
     REQUIRE(id);
     REQUIRE(document.clip(*id)->clip->markers.size() == 2);
     CHECK(document.clip(*id)->clip->markers[0].name == "hit");
     CHECK(document.clip(*id)->clip->markers[0].time == Approx(0.25).margin(0.001));
-    REQUIRE(document.reanalyse(*id, "Finer", finer, analysisOf(sound, finer)));
+    REQUIRE(document.reanalyse(*id, "Finer", finer, markedAnalysis(sound, finer)));
     CHECK(document.clip(*id)->clip->markers.size() == 2);
 }
 
 TEST_CASE("Markers that a clip has besides its sound's are kept when it is analysed anew", "[document]")
 {
-    const auto bare = soundWith({});
-    Clip labelled = analysisOf(bare);
+    const auto bare = markedSound({});
+    Clip labelled = markedAnalysis(bare);
     labelled.markers = {{0.25, "label"}, {0.75, "late"}};
     Document document;
-    const auto id = document.addSound(reference(), {}, labelled);
+    const auto id = document.addSound(markedReference(), {}, labelled);
     REQUIRE(id);
-    const auto changed = soundWith({{0.5, "new"}});
-    REQUIRE(document.reanalyse(*id, "Again", {}, analysisOf(changed)));
+    const auto changed = markedSound({{0.5, "new"}});
+    REQUIRE(document.reanalyse(*id, "Again", {}, markedAnalysis(changed)));
     const auto markers = document.clip(*id)->clip->markers;
     REQUIRE(markers.size() == 3);
     CHECK(markers[0].name == "label");
     CHECK(markers[1].name == "new");
     CHECK(markers[2].name == "late");
     // Another sound brings its own.
-    REQUIRE(document.reanalyse(*id, "Other", {}, analysisOf(changed), reference()));
+    REQUIRE(document.reanalyse(*id, "Other", {}, markedAnalysis(changed), markedReference()));
     CHECK(document.clip(*id)->clip->markers.size() == 1);
 }

@@ -30,7 +30,7 @@ struct Cue
     std::string name; // empty: without a label
 };
 
-std::string chunk(const std::string& name, const std::string& content)
+std::string wavChunk(const std::string& name, const std::string& content)
 {
     return name + littleEndian(content.size(), 4) + content + std::string(content.size() % 2, '\0');
 }
@@ -45,16 +45,16 @@ std::string withCues(const std::vector<Cue>& cues)
         const auto id = littleEndian(i + 1, 4);
         points += id + littleEndian(cues[i].frame, 4) + "data" + littleEndian(0, 8) + littleEndian(cues[i].frame, 4);
         if (!cues[i].name.empty())
-            labels += chunk("labl", id + cues[i].name + '\0');
+            labels += wavChunk("labl", id + cues[i].name + '\0');
     }
     std::vector<int> samples(8000);
     for (std::size_t i = 0; i < samples.size(); ++i)
         samples[i] = i % 80 < 40 ? 8000 : -8000;
-    std::string bytes = wavBytes({}, pcm16(samples)) + chunk("cue ", points) + chunk("LIST", labels);
+    std::string bytes = wavBytes({}, pcm16(samples)) + wavChunk("cue ", points) + wavChunk("LIST", labels);
     return bytes.replace(4, 4, littleEndian(bytes.size() - 8, 4));
 }
 
-std::string fixture(const std::string& name)
+std::string taggedSound(const std::string& name)
 {
     return bytesOf(testFolder() / "io/audio" / name);
 }
@@ -62,11 +62,11 @@ std::string fixture(const std::string& name)
 // The WAV with another chunk at its end.
 std::string withChunk(std::string wav, const std::string& name, const std::string& content)
 {
-    wav += chunk(name, content);
+    wav += wavChunk(name, content);
     return wav.replace(4, 4, littleEndian(wav.size() - 8, 4));
 }
 
-std::string loops(const std::vector<std::pair<std::uint32_t, std::uint32_t>>& frames)
+std::string loopChunk(const std::vector<std::pair<std::uint32_t, std::uint32_t>>& frames)
 {
     std::string content = littleEndian(0, 28) + littleEndian(frames.size(), 4) + littleEndian(0, 4);
     for (const auto& [first, last] : frames)
@@ -97,7 +97,7 @@ Taken takenOf(const std::string& bytes)
     return {std::move(markers), reader->warnings()};
 }
 
-const std::vector<Marker> two{{0.0625, "hit"}, {0.125, "L\xC3\xA4rm"}};
+const std::vector<Marker> twoChapters{{0.0625, "hit"}, {0.125, "L\xC3\xA4rm"}};
 const std::vector<std::string> twoComments{"TITLE=a", "CHAPTER002=00:00:00,125", "CHAPTER002NAME=L\xC3\xA4rm",
                                            "chapter001=00:00:00.0625", "Chapter001Name=hit"};
 
@@ -147,26 +147,26 @@ TEST_CASE("A clip has the markers of its sound that lie within it", "[io]")
 TEST_CASE("Chapters of Ogg and FLAC are markers, in whatever order their comments stand", "[io]")
 {
     const auto comments = commentBytes(twoComments);
-    CHECK(takenOf(flacWithComments(fixture("tone.flac"), comments)).markers == two);
-    CHECK(takenOf(oggWithComments(fixture("tone.ogg"), comments)).markers == two);
-    CHECK(takenOf(oggWithComments(fixture("tone.opus"), comments)).markers == two);
+    CHECK(takenOf(flacWithComments(taggedSound("tone.flac"), comments)).markers == twoChapters);
+    CHECK(takenOf(oggWithComments(taggedSound("tone.ogg"), comments)).markers == twoChapters);
+    CHECK(takenOf(oggWithComments(taggedSound("tone.opus"), comments)).markers == twoChapters);
     // A picture before them takes many pages.
     auto large = twoComments;
     large.insert(large.begin(), "METADATA_BLOCK_PICTURE=" + std::string(300'000, 'A'));
     for (const char* name : {"tone.ogg", "tone.opus"})
     {
-        const auto taken = takenOf(oggWithComments(fixture(name), commentBytes(large)));
-        CHECK(taken.markers == two);
+        const auto taken = takenOf(oggWithComments(taggedSound(name), commentBytes(large)));
+        CHECK(taken.markers == twoChapters);
         CHECK(taken.warnings.empty());
     }
-    CHECK(takenOf(flacWithComments(fixture("tone.flac"), commentBytes({}))).markers.empty());
+    CHECK(takenOf(flacWithComments(taggedSound("tone.flac"), commentBytes({}))).markers.empty());
 }
 
 TEST_CASE("A chapter without a time is told, one without a name is called by its number", "[io]")
 {
     const auto read = [](const std::vector<std::string>& comments)
     {
-        return takenOf(flacWithComments(fixture("tone.flac"), commentBytes(comments)));
+        return takenOf(flacWithComments(taggedSound("tone.flac"), commentBytes(comments)));
     };
     CHECK(read({"CHAPTER007=0.05"}).markers == std::vector<Marker>{{0.05, "7"}});
     const auto none = read({"CHAPTER001NAME=lost", "CHAPTER002=soon", "CHAPTER003=1:2:3:4", "CHAPTER004=nan"});
@@ -181,7 +181,7 @@ TEST_CASE("A chapter without a time is told, one without a name is called by its
           std::vector<std::string>{"has a marker behind the end of its sound, which is left out"});
     CHECK(read({"CHAPTER=1", "CHAPTERX=1", "CHAPTER001URL=x", "noequals", ""}).warnings.empty());
     const auto whole = commentBytes(twoComments);
-    const auto cut = takenOf(flacWithComments(fixture("tone.flac"), whole.substr(0, whole.size() - 3)));
+    const auto cut = takenOf(flacWithComments(taggedSound("tone.flac"), whole.substr(0, whole.size() - 3)));
     CHECK(cut.warnings.size() == 1);
 }
 
@@ -195,12 +195,12 @@ TEST_CASE("Chapters of an ID3 tag are markers, in any version and encoding", "[i
                                         id3Chapter("a", 62, "\3hit", version) + std::string(50, '\0'),
                                     version);
             const std::vector<Marker> expected{{0.062, "hit"}, {0.125, "L\xC3\xA4rm"}};
-            CHECK(takenOf(tag + fixture("tone.mp3")).markers == expected);
-            CHECK(takenOf(tag + fixture("tone.flac")).markers == expected);
+            CHECK(takenOf(tag + taggedSound("tone.mp3")).markers == expected);
+            CHECK(takenOf(tag + taggedSound("tone.flac")).markers == expected);
             CHECK(takenOf(withChunk(withCues({}), "id3 ", tag)).markers == expected);
             // A chunk of odd length, without the byte behind it.
             CHECK(takenOf(withChunk(withChunk(withCues({}), "ID3 ", tag), "JUNK", "x")).markers == expected);
-            CHECK(takenOf(tag + fixture("tone.mp3")).warnings == takenOf(fixture("tone.mp3")).warnings);
+            CHECK(takenOf(tag + taggedSound("tone.mp3")).warnings == takenOf(taggedSound("tone.mp3")).warnings);
         }
     // Sizes of 8 bits in version 2.4, as some programs write them.
     const std::string image(200, 'x');
@@ -236,17 +236,17 @@ TEST_CASE("Damaged ID3 tags are told and break nothing", "[io]")
 
 TEST_CASE("Loops of a WAV are two markers each", "[io]")
 {
-    const auto taken = takenOf(withChunk(withCues({}), "smpl", loops({{2000, 3999}, {0, 7999}})));
+    const auto taken = takenOf(withChunk(withCues({}), "smpl", loopChunk({{2000, 3999}, {0, 7999}})));
     CHECK(taken.markers ==
           std::vector<Marker>{{0.0, "loop 2 start"}, {0.25, "loop start"}, {0.5, "loop end"}, {1.0, "loop 2 end"}});
     CHECK(taken.warnings.empty());
     // Before the sound.
     auto front = wavBytes({}, pcm16(std::vector<int>(8000)));
-    front.insert(36, chunk("smpl", loops({{2000, 3999}})));
+    front.insert(36, wavChunk("smpl", loopChunk({{2000, 3999}})));
     CHECK(takenOf(front.replace(4, 4, littleEndian(front.size() - 8, 4))).markers.size() == 2);
-    CHECK(takenOf(withChunk(withCues({}), "smpl", loops({{4000, 2000}}))).warnings ==
+    CHECK(takenOf(withChunk(withCues({}), "smpl", loopChunk({{4000, 2000}}))).warnings ==
           std::vector<std::string>{"has 1 loops that are damaged and left out"});
-    auto claims = loops({{0, 100}});
+    auto claims = loopChunk({{0, 100}});
     claims.replace(28, 4, littleEndian(0xFFFFFFFF, 4));
     CHECK(takenOf(withChunk(withCues({}), "smpl", claims)).markers.size() == 2);
     CHECK(takenOf(withChunk(withCues({}), "smpl", claims)).warnings.size() == 1);
@@ -258,7 +258,7 @@ TEST_CASE("The same marker in two places is one, and markers of what follows cou
     const auto tag = id3Tag(id3Chapter("a", 250, "\3hit", 4) + id3Chapter("b", 500, "\3other", 4), 4);
     const auto both = withChunk(withCues({{2000, "hit"}}), "id3 ", tag);
     CHECK(takenOf(both).markers == std::vector<Marker>{{0.25, "hit"}, {0.5, "other"}});
-    const auto once = flacWithComments(fixture("tone.flac"), commentBytes({"CHAPTER001=0.05"}));
+    const auto once = flacWithComments(taggedSound("tone.flac"), commentBytes({"CHAPTER001=0.05"}));
     const auto joined = takenOf(once + once).markers;
     REQUIRE(joined.size() == 2);
     CHECK(joined[1].time > joined[0].time + 0.1);
@@ -282,7 +282,7 @@ TEST_CASE("Markers that cannot be kept are told", "[io]")
     claims.replace(claims.find("cue ") + 8, 4, littleEndian(0xFFFFFFFF, 4));
     CHECK(takenOf(claims).markers.size() == 2);
     CHECK(takenOf(claims).warnings == std::vector<std::string>{"states 4294967295 markers, of which 2 can be read"});
-    const auto region = chunk("ltxt", littleEndian(1, 4) + littleEndian(800, 4) + "rgn " + littleEndian(0, 8));
+    const auto region = wavChunk("ltxt", littleEndian(1, 4) + littleEndian(800, 4) + "rgn " + littleEndian(0, 8));
     CHECK(takenOf(withChunk(withCues({{0, "a"}}), "LIST", "adtl" + region)).warnings ==
           std::vector<std::string>{"has 1 regions, whose starts are read as markers, but not how long they last"});
     std::vector<std::string> chapters;
@@ -290,7 +290,7 @@ TEST_CASE("Markers that cannot be kept are told", "[io]")
         chapters.push_back("CHAPTER" + std::to_string(1000 + i) + "=0.01"),
             chapters.push_back("CHAPTER" + std::to_string(1000 + i) + "NAME=" + std::string(100, 'n') +
                                char('a' + i % 26));
-    const auto full = takenOf(flacWithComments(fixture("tone.flac"), commentBytes(chapters)));
+    const auto full = takenOf(flacWithComments(taggedSound("tone.flac"), commentBytes(chapters)));
     CHECK(full.markers.size() < 1000);
 }
 
@@ -309,8 +309,8 @@ TEST_CASE("Cues are found behind a sound whose size is wrong, and in any kind of
     {
         auto large = whole;
         large.replace(0, 4, name).replace(data, 4, littleEndian(0xFFFFFFFF, 4));
-        large.insert(12, chunk("ds64", littleEndian(large.size() + 28, 8) + littleEndian(16000, 8) +
-                                           littleEndian(8000, 8) + littleEndian(0, 4)));
+        large.insert(12, wavChunk("ds64", littleEndian(large.size() + 28, 8) + littleEndian(16000, 8) +
+                                              littleEndian(8000, 8) + littleEndian(0, 4)));
         CHECK(takenOf(large).markers == hit);
     }
     CHECK(takenOf(whole + whole).markers == std::vector<Marker>{{0.25, "hit"}, {1.25, "hit"}});
@@ -335,8 +335,8 @@ TEST_CASE("Markers of an AIFF are read, and a list of them that is cut off break
     const auto content = bigEndian(3, 2) + marker(7, 40, "even") + marker(9, 10, "odd") + marker(1, 20, "");
     const auto aiff = [](const std::string& marks)
     {
-        auto bytes =
-            fixture("ramp.aiff") + "MARK" + bigEndian(marks.size(), 4) + marks + std::string(marks.size() % 2, '\0');
+        auto bytes = taggedSound("ramp.aiff") + "MARK" + bigEndian(marks.size(), 4) + marks +
+                     std::string(marks.size() % 2, '\0');
         return bytes.replace(4, 4, bigEndian(bytes.size() - 8, 4));
     };
     const auto found = markersOf(aiff(content));

@@ -24,7 +24,7 @@ bool hasPulsar()
     return has;
 }
 
-std::string bytesOfNumber(std::uint64_t value, int count)
+std::string zipNumber(std::uint64_t value, int count)
 {
     std::string bytes;
     for (int i = 0; i < count; ++i)
@@ -32,7 +32,7 @@ std::string bytesOfNumber(std::uint64_t value, int count)
     return bytes;
 }
 
-std::uint32_t crcOf(std::string_view bytes)
+std::uint32_t zipCrc(std::string_view bytes)
 {
     std::uint32_t crc = 0xFFFFFFFFu;
     for (const char c : bytes)
@@ -45,48 +45,47 @@ std::uint32_t crcOf(std::string_view bytes)
 }
 
 // An archive of stored files, by its specification (PKWARE, APPNOTE.TXT 6.3).
-std::string zip(const std::vector<std::pair<std::string, std::string>>& files)
+std::string zipOfFiles(const std::vector<std::pair<std::string, std::string>>& files)
 {
     std::string bytes, directory;
     for (const auto& [name, content] : files)
     {
-        const auto head = bytesOfNumber(20, 2) + bytesOfNumber(0, 8) + bytesOfNumber(crcOf(content), 4) +
-                          bytesOfNumber(content.size(), 4) + bytesOfNumber(content.size(), 4) +
-                          bytesOfNumber(name.size(), 2) + bytesOfNumber(0, 2);
-        directory +=
-            "PK\1\2" + bytesOfNumber(20, 2) + head + bytesOfNumber(0, 10) + bytesOfNumber(bytes.size(), 4) + name;
+        const auto head = zipNumber(20, 2) + zipNumber(0, 8) + zipNumber(zipCrc(content), 4) +
+                          zipNumber(content.size(), 4) + zipNumber(content.size(), 4) + zipNumber(name.size(), 2) +
+                          zipNumber(0, 2);
+        directory += "PK\1\2" + zipNumber(20, 2) + head + zipNumber(0, 10) + zipNumber(bytes.size(), 4) + name;
         bytes += "PK\3\4" + head + name + content;
     }
-    return bytes + directory + "PK\5\6" + bytesOfNumber(0, 4) + bytesOfNumber(files.size(), 2) +
-           bytesOfNumber(files.size(), 2) + bytesOfNumber(directory.size(), 4) + bytesOfNumber(bytes.size(), 4) +
-           bytesOfNumber(0, 2);
+    return bytes + directory + "PK\5\6" + zipNumber(0, 4) + zipNumber(files.size(), 2) + zipNumber(files.size(), 2) +
+           zipNumber(directory.size(), 4) + zipNumber(bytes.size(), 4) + zipNumber(0, 2);
 }
 
-const std::string preset = R"({"id": "tap", "name": "Tap", "haptics": "haptics/tap.json"})";
+const std::string pulsarPreset = R"({"id": "tap", "name": "Tap", "haptics": "haptics/tap.json"})";
 
-std::string manifestOf(const std::string& presets, const std::string& schema = "pulsar.bundle/1")
+std::string pulsarManifest(const std::string& presets, const std::string& schema = "pulsar.bundle/1")
 {
     return R"({"schema": ")" + schema + R"(", "id": "a.b", "name": "x", "extra": 1, "presets": [)" + presets + "]}";
 }
 
-const std::string pattern =
+const std::string pulsarPattern =
     R"({"continuousPattern": {"amplitude": [{"time": 0, "value": 0.5}, {"time": 250.5, "value": 1}],
     "frequency": [{"time": 0, "value": 0}, {"time": 250, "value": 1}]},
     "discretePattern": [{"time": 100, "amplitude": 0.75, "frequency": 0.25}]})";
 
-std::string bundle(const std::string& content = pattern, const std::string& manifest = manifestOf(preset))
+std::string pulsarBundle(const std::string& content = pulsarPattern,
+                         const std::string& manifest = pulsarManifest(pulsarPreset))
 {
-    return zip({{"haptics/tap.json", content}, {"manifest.json", manifest}});
+    return zipOfFiles({{"haptics/tap.json", content}, {"manifest.json", manifest}});
 }
 
-Result<ImportedClip> readBundle(const std::string& bytes)
+Result<ImportedClip> readPulsarBundle(const std::string& bytes)
 {
     return clipFormatNamed("pulsar")->read(bytes);
 }
 
-std::string errorOf(const std::string& bytes)
+std::string pulsarErrorOf(const std::string& bytes)
 {
-    const auto imported = readBundle(bytes);
+    const auto imported = readPulsarBundle(bytes);
     return imported.ok() ? "" : imported.error().text();
 }
 } // namespace
@@ -95,7 +94,7 @@ TEST_CASE("A bundle of Pulsar is a clip of one voice and events", "[io][formats]
 {
     if (!hasPulsar())
         return;
-    const auto read = readBundle(bundle());
+    const auto read = readPulsarBundle(pulsarBundle());
     REQUIRE((read.ok() ? "" : read.error().text()) == "");
     CHECK(read->warnings.empty());
     CHECK(read->clip.name == "Tap");
@@ -104,7 +103,7 @@ TEST_CASE("A bundle of Pulsar is a clip of one voice and events", "[io][formats]
     CHECK(read->clip.bands[0].amplitude == Curve{{0.0, 0.5}, {0.2505, 1.0}});
     CHECK(read->clip.bands[0].pitch == Curve{{0.0, 65.0}, {0.25, 300.0}});
     CHECK(read->clip.transients == std::vector<Transient>{{0.1, 0.75, 0.25}});
-    CHECK(clipFormatOf("", bundle()) == clipFormatNamed("pulsar"));
+    CHECK(clipFormatOf("", pulsarBundle()) == clipFormatNamed("pulsar"));
 }
 
 TEST_CASE("A bundle of Pulsar that is written is read again, and is the same each time", "[io][formats]")
@@ -136,40 +135,44 @@ TEST_CASE("What a bundle of Pulsar holds besides is named, and what is wrong ref
 {
     if (!hasPulsar())
         return;
-    const auto loud = readBundle(bundle(
+    const auto loud = readPulsarBundle(pulsarBundle(
         R"({"continuousPattern": {"amplitude": [{"time": 5, "value": 2}], "frequency": []}, "discretePattern": []})",
-        manifestOf(R"({"id": "a", "haptics": "haptics/tap.json", "audio": {"src": "a.wav"}, "animation": {}})")));
+        pulsarManifest(R"({"id": "a", "haptics": "haptics/tap.json", "audio": {"src": "a.wav"}, "animation": {}})")));
     REQUIRE(loud);
     CHECK(loud->warnings.size() == 4);
     CHECK(loud->clip.name == "a");
-    CHECK(errorOf(bundle(pattern, manifestOf(preset + "," + preset))) ==
+    CHECK(pulsarErrorOf(pulsarBundle(pulsarPattern, pulsarManifest(pulsarPreset + "," + pulsarPreset))) ==
           "manifest.json: presets: has 2 presets ('Tap', 'Tap'), but a clip is one; unpack the bundle and put each in "
           "one of its own");
-    CHECK(errorOf(bundle(pattern, manifestOf(""))) == "manifest.json: presets: has no preset");
-    CHECK(errorOf(bundle(pattern, manifestOf(preset, "pulsar.bundle/2"))) ==
+    CHECK(pulsarErrorOf(pulsarBundle(pulsarPattern, pulsarManifest(""))) == "manifest.json: presets: has no preset");
+    CHECK(pulsarErrorOf(pulsarBundle(pulsarPattern, pulsarManifest(pulsarPreset, "pulsar.bundle/2"))) ==
           "manifest.json: schema: is \"pulsar.bundle/2\", but only pulsar.bundle/1 is read");
-    CHECK(errorOf(bundle(pattern, "{}")) == "manifest.json: schema: is missing");
-    CHECK(errorOf(bundle(pattern, "[")).starts_with("manifest.json: "));
-    CHECK(errorOf(zip({{"manifest.json", manifestOf(preset)}})) == "haptics/tap.json: is missing in the archive");
-    CHECK(errorOf(zip({{"a", "manifest.json"}})) == "manifest.json: is missing in the archive");
-    CHECK(errorOf(bundle("{}")) == "haptics/tap.json: continuousPattern: is missing");
-    CHECK(errorOf(bundle(R"({"continuousPattern": {}, "discretePattern": []})")).starts_with("haptics/tap.json: "));
+    CHECK(pulsarErrorOf(pulsarBundle(pulsarPattern, "{}")) == "manifest.json: schema: is missing");
+    CHECK(pulsarErrorOf(pulsarBundle(pulsarPattern, "[")).starts_with("manifest.json: "));
+    CHECK(pulsarErrorOf(zipOfFiles({{"manifest.json", pulsarManifest(pulsarPreset)}})) ==
+          "haptics/tap.json: is missing in the archive");
+    CHECK(pulsarErrorOf(zipOfFiles({{"a", "manifest.json"}})) == "manifest.json: is missing in the archive");
+    CHECK(pulsarErrorOf(pulsarBundle("{}")) == "haptics/tap.json: continuousPattern: is missing");
+    CHECK(pulsarErrorOf(pulsarBundle(R"({"continuousPattern": {}, "discretePattern": []})"))
+              .starts_with("haptics/tap.json: "));
     for (const char* event : {R"({"time": -1, "amplitude": 1, "frequency": 1})", R"({"time": 1e300, "amplitude": 1,
         "frequency": 1})",
                               R"({"amplitude": 1, "frequency": 1})", "3", R"({"time": 1, "frequency": 1})"})
-        CHECK(errorOf(bundle(R"({"continuousPattern": {}, "discretePattern": [)" + std::string(event) + "]}"))
-                  .starts_with("haptics/tap.json: discretePattern[0]"));
-    CHECK(errorOf(bundle(R"({"continuousPattern": {"amplitude": [{"time": 5, "value": 1}, {"time": 4, "value": 1}]},
+        CHECK(
+            pulsarErrorOf(pulsarBundle(R"({"continuousPattern": {}, "discretePattern": [)" + std::string(event) + "]}"))
+                .starts_with("haptics/tap.json: discretePattern[0]"));
+    CHECK(pulsarErrorOf(
+              pulsarBundle(R"({"continuousPattern": {"amplitude": [{"time": 5, "value": 1}, {"time": 4, "value": 1}]},
         "discretePattern": []})")) ==
           "haptics/tap.json: continuousPattern.amplitude[1]: is earlier than the point before it");
-    const auto whole = bundle();
+    const auto whole = pulsarBundle();
     for (std::size_t length = 0; length < whole.size(); ++length)
-        CHECK_FALSE(readBundle(whole.substr(0, length)));
+        CHECK_FALSE(readPulsarBundle(whole.substr(0, length)));
     for (std::size_t at = 0; at < whole.size(); ++at)
     {
         auto broken = whole;
         broken[at] = static_cast<char>(broken[at] ^ 0x55);
-        const auto read = readBundle(broken);
+        const auto read = readPulsarBundle(broken);
         CHECK((read.ok() || !read.error().message.empty()));
     }
 }
