@@ -168,28 +168,65 @@ pacini_result guarded(Work&& work) noexcept
     }
 }
 
-/// The fields of the caller's struct, which may be older and shorter, with defaults for the rest.
-template <typename Struct>
-bool readStruct(const Struct* from, Struct& to)
+// Structs of the interface begin with their size: those of callers may be older and shorter.
+
+bool isSize(std::uint32_t size)
+{
+    return size >= sizeof(size) && size <= 4096;
+}
+
+/// Zeros and its size for a struct of `size` bytes; null is left alone.
+[[gnu::noinline]] void beginBytes(void* bytes, std::uint32_t size)
+{
+    if (bytes == nullptr)
+        return;
+    std::memset(bytes, 0, size);
+    std::memcpy(bytes, &size, sizeof(size));
+}
+
+[[gnu::noinline]] bool readBytes(const void* from, void* to, std::uint32_t known)
 {
     if (from == nullptr)
         return true;
-    const std::uint32_t size = from->struct_size;
-    if (size < sizeof(std::uint32_t) || size > 4096)
+    std::uint32_t size = 0;
+    std::memcpy(&size, from, sizeof(size));
+    if (!isSize(size))
         return false;
-    std::memcpy(&to, from, std::min<std::size_t>(size, sizeof(Struct)));
+    std::memcpy(to, from, std::min(size, known));
     return true;
+}
+
+[[gnu::noinline]] pacini_result writeBytes(const void* from, void* to, std::uint32_t known)
+{
+    std::uint32_t size = 0;
+    if (to != nullptr)
+        std::memcpy(&size, to, sizeof(size));
+    if (!isSize(size))
+        return fail(PACINI_INVALID, "info: call its init function first");
+    std::memcpy(to, from, std::min(size, known));
+    std::memcpy(to, &size, sizeof(size));
+    return PACINI_OK;
+}
+
+template <typename Struct>
+void beginStruct(Struct* made)
+{
+    static_assert(offsetof(Struct, struct_size) == 0);
+    beginBytes(made, sizeof(Struct));
+}
+
+/// The fields of the caller's struct, with those of `to` for the rest.
+template <typename Struct>
+bool readStruct(const Struct* from, Struct& to)
+{
+    return readBytes(from, &to, sizeof(Struct));
 }
 
 /// Writes the fields that fit into the caller's struct.
 template <typename Struct>
-pacini_result writeStruct(Struct& from, Struct* to)
+pacini_result writeStruct(const Struct& from, Struct* to)
 {
-    if (to == nullptr || to->struct_size < sizeof(std::uint32_t) || to->struct_size > 4096)
-        return fail(PACINI_INVALID, "info: call its init function first");
-    from.struct_size = to->struct_size;
-    std::memcpy(to, &from, std::min<std::size_t>(to->struct_size, sizeof(Struct)));
-    return PACINI_OK;
+    return writeBytes(&from, to, sizeof(Struct));
 }
 
 std::span<const std::byte> bytesOf(std::string_view text)
@@ -738,10 +775,7 @@ extern "C"
 
     void pacini_clip_info_init(pacini_clip_info* info)
     {
-        if (info == nullptr)
-            return;
-        *info = {};
-        info->struct_size = sizeof(pacini_clip_info);
+        beginStruct(info);
     }
 
     pacini_result pacini_clip_get_info(pacini_clip clip, pacini_clip_info* info)
@@ -782,9 +816,8 @@ extern "C"
     {
         if (config == nullptr)
             return;
-        *config = {};
+        beginStruct(config);
         const EngineParams usual;
-        config->struct_size = sizeof(pacini_engine_config);
         config->actuator_count = 1;
         config->sample_rate = usual.sampleRate;
         for (pacini_actuator& actuator : config->actuators)
@@ -895,10 +928,7 @@ extern "C"
 
     void pacini_engine_info_init(pacini_engine_info* info)
     {
-        if (info == nullptr)
-            return;
-        *info = {};
-        info->struct_size = sizeof(pacini_engine_info);
+        beginStruct(info);
     }
 
     pacini_result pacini_engine_get_info(pacini_engine engine, pacini_engine_info* info)
@@ -965,8 +995,7 @@ extern "C"
     {
         if (settings == nullptr)
             return;
-        *settings = {};
-        settings->struct_size = sizeof(pacini_play_settings);
+        beginStruct(settings);
         settings->gain = settings->intensity = settings->speed = 1.0;
         settings->pan = 0.5;
     }
@@ -1045,10 +1074,7 @@ extern "C"
 
     void pacini_play_info_init(pacini_play_info* info)
     {
-        if (info == nullptr)
-            return;
-        *info = {};
-        info->struct_size = sizeof(pacini_play_info);
+        beginStruct(info);
     }
 
     pacini_result pacini_play_get_info(pacini_play play, pacini_play_info* info)
@@ -1106,10 +1132,7 @@ extern "C"
 
     void pacini_controller_info_init(pacini_controller_info* info)
     {
-        if (info == nullptr)
-            return;
-        *info = {};
-        info->struct_size = sizeof(pacini_controller_info);
+        beginStruct(info);
     }
 
     pacini_result pacini_controller_get_info(pacini_controller controller, pacini_controller_info* info)
@@ -1132,10 +1155,7 @@ extern "C"
 
     void pacini_attach_settings_init(pacini_attach_settings* settings)
     {
-        if (settings == nullptr)
-            return;
-        *settings = {};
-        settings->struct_size = sizeof(pacini_attach_settings);
+        beginStruct(settings);
     }
 
     pacini_result pacini_engine_attach(pacini_engine engine, pacini_controller controller,
@@ -1173,10 +1193,7 @@ extern "C"
 
     void pacini_attachment_info_init(pacini_attachment_info* info)
     {
-        if (info == nullptr)
-            return;
-        *info = {};
-        info->struct_size = sizeof(pacini_attachment_info);
+        beginStruct(info);
     }
 
     pacini_result pacini_engine_get_attachment(pacini_engine engine, pacini_attachment_info* info)

@@ -124,6 +124,7 @@ TEST_CASE("No page, sheet or menu of the editor has a text that bypasses the tab
                                   ".ahap",
                                   ".hjif",
                                   ".haps",
+                                  ".pulsar",
                                   ".xml",
                                   ".java",
                                   ".tact",
