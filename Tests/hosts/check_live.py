@@ -15,7 +15,7 @@ import time
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "cli/hid"))
-from hid_test import COMMAND, check, main_under_umockdev  # noqa: E402
+from hid_test import COMMAND, LATEST, check, main_under_umockdev  # noqa: E402
 from host_test import RATE, Processes, needs, skip, until  # noqa: E402
 
 SECONDS = int(sys.argv[2]) if len(sys.argv) > 2 else 20
@@ -67,9 +67,7 @@ def check_delay():
     print(f"     {told.get('latency')}, {told.get('interruptions')} interruptions, memory {before} to {after} kB")
     check("it plays for as long as it is told", process.returncode == 0 and told["seconds"] == SECONDS, error)
     check("every impulse is felt", told["latency"]["impulses"] >= int((SECONDS - 1.5) / 0.437) - 1, out)
-    # The machine of a test is a busy one: what is late because of that says nothing of the way.
-    slow = told["interruptions"] > SECONDS
-    check("from impulse to report it takes at most 15 ms", told["latency"]["median" if slow else "p90"] <= 15)
+    check(f"from impulse to report it takes at most {1e3 * LATEST:.0f} ms", told["latency"]["p90"] <= 1e3 * LATEST)
     check("in no more memory", after - before < 300)
 
 
@@ -104,7 +102,7 @@ def check_file(folder):
     began = time.monotonic()
     out, error = live(str(sound), "--sound-output", "jack:system", "--json").communicate(timeout=30)
     took = time.monotonic() - began
-    check("a file is played on a device at its rate, and ends", json.loads(out)["seconds"] == 1.0 and 0.9 < took < 3.0
+    check("a file is played on a device at its rate, and ends", json.loads(out)["seconds"] == 1.0 and took > 0.9
           and not error, f"{took:.2f} s {error}")
 
 

@@ -12,6 +12,9 @@ from host_test import check, failures, needs, skip  # noqa: E402
 COMMAND = sys.argv[1]
 PYTHON = "/usr/bin/python3"  # the one that Debian's modules belong to
 LONGEST = 60  # s; a hang fails the test
+# How late a report may be, s: with PACINI_QUIET=1, on a machine that does nothing else, as promised; elsewhere only what
+# waits in a queue is that late.
+LATEST = 0.015 if os.environ.get("PACINI_QUIET") else 0.1
 
 
 def clip(folder, name, seconds):
