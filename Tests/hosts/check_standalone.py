@@ -46,7 +46,7 @@ def main():
                               env=environment)
         check("the program takes the interface", until(lambda: "JUCEJack:out_4" in ports(), 60))
         check("its third output is wired to the third of the interface",
-              "system:playback_3\n   JUCEJack:out_3" in ports())
+              until(lambda: "system:playback_3\n   JUCEJack:out_3" in ports()))
         time.sleep(7)
         for name in ("first.png", "second.png"):
             check(f"{name} is taken", picture(display, folder / name))
