@@ -250,7 +250,7 @@ std::optional<Settings> EncodeCommand::chosenSettings(Console& console) const
     if (!preset.empty())
         if (const auto used = usePreset(settings, preset); !used)
         {
-            console.fail("", wrongUsage("--preset", used.error().message), Exit::usage);
+            console.error("--preset", used.error());
             return std::nullopt;
         }
     described.addGiven(settings.encode);

@@ -149,6 +149,7 @@ class Documents(CommandTest):
         self.put("sounds/bench.wav", wav(hits(*bench, seconds=1.2, frequency=90.0, seed=3), RATE))
         self.put("sounds/outside/rain.wav", wav(rain(1.0, seed=4), RATE))
         self.put("onsets.json", json.dumps({"bench.wav": bench, "outside/rain.wav": []}))
+        self.put("labels.txt", "0.2\t0.2\tknock\n0.9\t1.1\tanother\n")
         self.put("quest.acf", ACF)
         self.put("ratings.csv", "group,stimulus,participant,rating\n" + "".join(
             f"{group},{stimulus},{person},{(person * stimulus + ord(group)) % 9}\n"

@@ -65,6 +65,7 @@ class Constant:
     start: int
     end: int
     head: str  # "static constexpr "
+    in_function: bool
 
 
 def constants_of(text, tokens, pairs):
@@ -75,8 +76,15 @@ def constants_of(text, tokens, pairs):
         while tokens[i].text != ";":
             i = pairs.get(i, i) + 1 if tokens[i].text in OPENING else i + 1
         start = match.start(1)
-        found.append(Constant(start, tokens[i].start, text[start:match.end()]))
+        found.append(Constant(start, tokens[i].start, text[start:match.end()], in_function(start, tokens, pairs)))
     return found
+
+
+def in_function(position, tokens, pairs):
+    """Whether a place is in the body of a function, and not of a class or namespace."""
+    around = [begin for begin, end in pairs.items() if tokens[begin].text == "{" and begin > 0
+              and tokens[begin].start < position < tokens[end].start]
+    return bool(around) and tokens[max(around) - 1].text in (")", "const", "noexcept", "override")
 
 
 def other_number(text, choice):
@@ -113,6 +121,8 @@ def changes_of(path, text):
             if any(edit[0] < constant.start + len(constant.head) for edit in edits):
                 return
             inline = "inline " if "inline" in constant.head else "static inline " if "static" in constant.head else ""
+            if constant.in_function:
+                inline = inline.replace("inline ", "")
             extra = [(constant.start, constant.start + len(constant.head), f"{inline}const ")]
             # Else the compiler would work it out all the same, as it does for every constant that it can.
             edits = [(start, end, new.replace("<N", "<mutants::most + N")) for start, end, new in edits]

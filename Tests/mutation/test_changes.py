@@ -61,6 +61,13 @@ class Changes(unittest.TestCase):
     def test_comments_and_what_the_compiler_needs_stay(self):
         self.assertFalse([change for change in self.found if change.line in (1, 2, 4)])
 
+    def test_constants_of_functions_and_of_classes_stay_what_they_are(self):
+        text = ("struct A\n{\n    static constexpr double a = 2.0;\n};\ninline const double& f() noexcept\n{\n"
+                "    static constexpr double a = 3.0;\n    return a;\n}\n")
+        changed = in_place(text, list(enumerate(changes_of("f.h", text))))
+        self.assertIn("    static inline const double a = mutants::either<", changed)
+        self.assertEqual(changed.count("    static const double a = mutants::either<"), 1)
+
     def test_lines_stay_where_they_are(self):
         changed = in_place(TEXT, list(enumerate(self.found)))
         self.assertEqual(changed.count("\n"), TEXT.count("\n"))

@@ -111,7 +111,7 @@ TEST_CASE("A bundle of Pulsar that is written is read again, and is the same eac
     if (!hasPulsar())
         return;
     const ClipFormat& format = *clipFormatNamed("pulsar");
-    for (const std::uint64_t seed : {1, 2, 3, 4, 5})
+    for (const std::uint64_t seed : {1u, 2u, 3u, 4u, 5u})
     {
         CAPTURE(seed);
         const Clip clip = randomFullClip(seed);

@@ -56,7 +56,7 @@ TEST_CASE("Vibration XML that Pacini writes says what its JSON says", "[io][form
 {
     if (!readsXml())
         return;
-    for (const std::uint64_t seed : {1, 2, 3, 4, 5})
+    for (const std::uint64_t seed : {1u, 2u, 3u, 4u, 5u})
     {
         const Clip clip = randomFullClip(seed);
         for (const char* name : {"android-xml", "android-envelope", "android-basic"})

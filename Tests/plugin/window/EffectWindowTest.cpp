@@ -218,8 +218,8 @@ TEST_CASE("Presets are saved, chosen and deleted in the menu of presets, and not
     {
         WindowRig other;
         other.plugin.setUserFolder(rig.plugin.userFolder());
-        plugin::PluginWindow second(other.plugin);
-        auto& theirs = controlOf<plugin::PresetBox>(second, "Preset");
+        plugin::PluginWindow another(other.plugin);
+        auto& theirs = controlOf<plugin::PresetBox>(another, "Preset");
         juce::StringArray offered;
         for (int i = 0; i < theirs.getNumItems(); ++i)
         {
