@@ -52,7 +52,7 @@ for name in ("l5-wristband", "lra-175"):
 
 # %%
 comparison = pacini.compare(sound, clip)
-print(f"match {comparison.match:.1f}, of the sound itself {comparison.match_ceiling:.1f}; HTS {comparison.hts:.1f}")
+print(f"match {comparison.match:.1f}, of the sound itself {comparison.match_of_sound:.1f}; HTS {comparison.hts:.1f}")
 
 # %% [markdown]
 # ## Edits

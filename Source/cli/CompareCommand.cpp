@@ -164,8 +164,10 @@ CLI::App* CompareCommand::declare(CLI::App& app)
 {
     auto* command = app.add_subcommand("compare", "Measure how much of a sound a haptic signal keeps");
     addOption(*command, "reference", reference, "Sound: an audio file or a folder of audio files", "REF")->required();
-    addOption(*command, "candidate", candidate,
-              "Haptic signal, such as a rendered clip: an audio file, or a folder of files with the same names", "CAND")
+    addOption(
+        *command, "candidate", candidate,
+        "Haptic signal: an audio file, or a clip, which is rendered first; or a folder of files with the same names",
+        "CAND")
         ->required();
     auto* onsetOption =
         addOption(*command, "--onsets", onsets,
@@ -183,8 +185,9 @@ CLI::App* CompareCommand::declare(CLI::App& app)
     command->footer(
         "Measures (from 30 to 1000 Hz unless noted; the level of the candidate does not matter):\n"
         "  match           predicted mean rating by people of how well it matches the sound, 0 to 100. Values range\n  "
-        "                from 35 to 71; the JSON also has its parts and the match of the sound itself\n"
+        "                from 35 (nothing is felt) to 71; the JSON also has its parts\n"
         "  HTS             haptic translation similarity, 0 to 100: envelope and events as heard, spectrum as felt\n"
+        "  sound itself    a row: the sound played as it is; silence: nothing is felt\n"
         "  of REF          the HTS of the unchanged sound. It is below 100 when much of the sound cannot be felt; a\n  "
         "                translation that makes this part perceptible can score higher\n"
         "  HTS-F           like HTS, but compares only the parts that can be felt\n"
@@ -195,6 +198,7 @@ CLI::App* CompareCommand::declare(CLI::App& app)
         "  F1              events within 25 ms of the onsets: 2 hits / (2 hits + spurious + missed)\n"
         "Sample rates from 2 to 768 kHz; channels are mixed down. Signals are not aligned in time.\n\n"
         "Examples:\n"
+        "  pacini compare door.wav door.json\n"
         "  pacini compare door.wav door_haptic.wav\n"
         "  pacini compare sounds/ rendered/ --json -j 4\n"
         "  pacini compare door.wav door_haptic.wav --onsets onsets.json --events door.pacb");

@@ -2,7 +2,10 @@
 
 #include "cli/ReadingAdvice.h"
 #include "io/ClipFile.h"
+#include "io/FileExtension.h"
 #include "io/Stopwatch.h"
+
+#include <pacini/synthesis/RenderScene.h>
 
 #include <algorithm>
 #include <cmath>
@@ -66,6 +69,27 @@ Result<MonoSound> readMono(const fs::path& path, const AudioReadOptions& options
     return sound;
 }
 
+/// By extension: what exports of clips to WAV are, too.
+bool isSound(const fs::path& path)
+{
+    return std::ranges::count(audioExtensions(), lowerExtension(path)) > 0;
+}
+
+/// The drive of a clip as `pacini render` writes it when no option is given.
+Result<MonoSound> readDrive(const fs::path& path, bool strict, Stopwatch& work)
+{
+    auto read = readClip(path, strict);
+    if (!read)
+        return read.error();
+    Result<RenderedScene> rendered = RenderedScene{};
+    const RenderParams params;
+    work.run([&] { rendered = renderScene(sceneOf(std::move(read->clip)), nullptr, params); });
+    if (!rendered)
+        return rendered.error();
+    return MonoSound{static_cast<int>(params.compile.sampleRate), std::move(rendered->samples),
+                     std::move(read->warnings)};
+}
+
 } // namespace
 
 CompareJob::CompareJob(const CompareSettings& wanted) : settings(wanted), comparer(UnsoundFrames::silence) {}
@@ -77,10 +101,10 @@ std::variant<CompareResult, InputFailure> CompareJob::run(const ComparePair& pai
     const AudioReadOptions reading{
         .allowTruncated = settings.allowTruncated, .keepNan = true, .lowestSampleRate = lowestResamplerRate};
     Stopwatch work;
-    const auto analyze = [&](const fs::path& path, Result<void> (Comparer::*set)(std::span<const float>, int),
+    const auto analyze = [&](const fs::path& path, const Result<MonoSound>& sound,
+                             Result<void> (Comparer::*set)(std::span<const float>, int),
                              std::vector<std::string>& warnings) -> std::optional<InputFailure>
     {
-        const auto sound = readMono(path, reading, work);
         if (!sound)
             return InputFailure{path, withAdvice(sound.error(), false)};
         warnings = sound->warnings;
@@ -89,10 +113,17 @@ std::variant<CompareResult, InputFailure> CompareJob::run(const ComparePair& pai
         return done ? std::nullopt : std::optional(InputFailure{path, done.error()});
     };
     CompareResult result;
-    if (auto failure = analyze(pair.reference, &Comparer::setReference, result.referenceWarnings))
+    if (!isSound(pair.reference) && looksLikeClip(pair.reference))
+        return InputFailure{pair.reference,
+                            {ErrorCode::invalidArgument, "", "is a clip; name its sound first, then the clip"}};
+    if (auto failure = analyze(pair.reference, readMono(pair.reference, reading, work), &Comparer::setReference,
+                               result.referenceWarnings))
         return *failure;
     progress(0.5);
-    if (auto failure = analyze(pair.candidate, &Comparer::setCandidate, result.candidateWarnings))
+    const auto candidate = !isSound(pair.candidate) && looksLikeClip(pair.candidate)
+                               ? readDrive(pair.candidate, settings.strict, work)
+                               : readMono(pair.candidate, reading, work);
+    if (auto failure = analyze(pair.candidate, candidate, &Comparer::setCandidate, result.candidateWarnings))
         return *failure;
 
     std::vector<double> events = comparer.onsets();

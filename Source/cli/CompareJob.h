@@ -40,9 +40,9 @@ class CompareJob
 public:
     explicit CompareJob(const CompareSettings& settings);
 
-    /// Compares over the reference's length. Channels are mixed down to their mean; rates from 2 to 768 kHz.
-    /// `progress(share)` is called now and then. A failure names the file: those of AudioReader, tooLarge beyond 24
-    /// hours, and of readClip.
+    /// Compares over the reference's length; a clip as candidate is rendered first. Channels are mixed down to their
+    /// mean; rates from 2 to 768 kHz. `progress(share)` is called now and then. A failure names the file: those of
+    /// AudioReader, tooLarge beyond 24 hours, those of readClip and renderScene.
     [[nodiscard]] std::variant<CompareResult, InputFailure> run(const ComparePair& pair,
                                                                 const std::function<void(double)>& progress);
 

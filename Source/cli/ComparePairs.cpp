@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 #include <system_error>
+#include <utility>
 
 namespace pacini::cli
 {
@@ -40,6 +41,15 @@ Result<fs::path> counterpart(const FilesByStem& files, const std::string& stem, 
                          "; remove one of them"};
     return found->second.front();
 }
+
+/// Adds the clips of a folder where no sound has their name: a sound that was rendered from a clip is compared.
+void addClips(InputFiles& sounds, const std::string& folder)
+{
+    const FilesByStem rendered = byStem(sounds);
+    for (InputFile& clip : findInputs({folder}, clipFileExtensions()).files)
+        if (!rendered.contains(stemOf(clip)))
+            sounds.files.push_back(std::move(clip));
+}
 } // namespace
 
 Result<ComparePairs> pairFiles(const std::string& reference, const std::string& candidate, const std::string& events)
@@ -63,9 +73,10 @@ Result<ComparePairs> pairFiles(const std::string& reference, const std::string& 
     }
 
     const InputFiles references = findInputs({reference}, audioExtensions());
-    const InputFiles candidates = findInputs({candidate}, audioExtensions());
+    InputFiles candidates = findInputs({candidate}, audioExtensions());
+    addClips(candidates, candidate);
     const InputFiles clips = events.empty() ? InputFiles{} : findInputs({events}, clipFileExtensions());
-    for (const InputFiles* found : {&references, &candidates, &clips})
+    for (const InputFiles* found : {&references, &std::as_const(candidates), &clips})
         for (const InputFailure& failure : found->failures)
             result.failures.push_back({failure, failure.path.generic_string()});
     const FilesByStem candidatesByStem = byStem(candidates);

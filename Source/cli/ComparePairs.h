@@ -37,7 +37,8 @@ struct ComparePairs
 };
 
 /// Two files are a pair. Of two folders (with all below them) the files whose paths agree but for their extensions are;
-/// `events` is then a folder of clips, matched alike, else one clip, or empty. ErrorCode::invalidArgument for a folder
+/// `events` is then a folder of clips, matched alike, else one clip, or empty. A candidate is a sound, or
+/// else a clip. ErrorCode::invalidArgument for a folder
 /// with a file.
 [[nodiscard]] Result<ComparePairs> pairFiles(const std::string& reference, const std::string& candidate,
                                              const std::string& events);

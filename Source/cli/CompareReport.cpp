@@ -112,6 +112,12 @@ struct JsonSink
     }
 };
 
+/// The key of the figure that the sound itself reaches; empty where that is trivial.
+std::string_view ofSound(std::string_view key)
+{
+    return key == "match" ? "matchOfSound" : key == "hts" ? "ceiling" : "";
+}
+
 /// Sums over all completed pairs.
 struct Totals
 {
@@ -181,7 +187,20 @@ std::string compareTable(const std::vector<CompareTask>& tasks)
     for (const CompareTask& task : tasks)
         if (task.result)
             addRow(task.pair.name.string(), [&](const ComparisonFigure& figure) { return figure.value(*task.result); });
-    addRow("mean", [&](const ComparisonFigure& figure) { return mean(tasks, figure); });
+    const auto meanOf = [&](const ComparisonFigure& figure)
+    {
+        return mean(tasks, figure);
+    };
+    addRow("mean", meanOf);
+    addRow("sound itself",
+           [&](const ComparisonFigure& figure)
+           {
+               const auto* itself = std::find_if(comparisonFigures.begin(), comparisonFigures.end(),
+                                                 [&](const auto& other) { return other.key == ofSound(figure.key); });
+               return itself != comparisonFigures.end() ? meanOf(*itself) : std::nullopt;
+           });
+    addRow("silence", [](const ComparisonFigure& figure)
+           { return figure.key == "match" ? std::optional(matchOfSilence) : std::nullopt; });
     return aligned(rows);
 }
 

@@ -114,7 +114,7 @@ Result<SoundComparison> compareWithSound(const Clip& clip, const StoredAudio& au
     if (scores.match)
     {
         found.match = predictedMatch(*scores.match);
-        found.bestMatch = scores.matchCeiling;
+        found.bestMatch = scores.matchOfSound;
     }
     return found;
 }

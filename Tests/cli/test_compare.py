@@ -39,6 +39,40 @@ class Ceiling(CommandTest):
         self.assertIn("of REF", self.succeeds("compare", "--help"))
 
 
+class Clips(CommandTest):
+    def test_a_clip_is_compared_as_it_is_rendered(self):
+        self.put("a.wav", wav(clicks(80), 8000))
+        self.succeeds("encode", "a.wav", "-o", "a.json")
+        self.succeeds("render", "a.json", "-o", "rendered.wav")
+        rendered, clip = (self.report("compare", "a.wav", name)["files"][0] for name in ("rendered.wav", "a.json"))
+        for scores in (rendered, clip):
+            for differs in ("candidate", "seconds", "timesRealTime"):
+                del scores[differs]
+        self.assertEqual(clip, rendered)
+
+    def test_of_a_folder_a_rendered_sound_comes_before_the_clip_of_its_name(self):
+        for name in ("a", "b"):
+            self.put(f"sounds/{name}.wav", wav(clicks(80), 8000))
+        self.succeeds("encode", "sounds", "-o", "clips")
+        self.put("clips/a.wav", wav(sine(150, 2, 8000), 8000))
+        files = self.report("compare", "sounds", "clips")["files"]
+        self.assertEqual([file["candidate"].rsplit("/", 1)[1] for file in files], ["a.wav", "b.json"])
+
+    def test_a_clip_is_no_reference(self):
+        self.put("a.wav", wav(clicks(80), 8000))
+        self.succeeds("encode", "a.wav", "-o", "a.json")
+        self.fails(1, ["compare", "a.json", "a.wav"], "a.json: is a clip; name its sound first")
+
+    def test_the_table_states_the_sound_itself_and_silence(self):
+        self.put("a.wav", wav(clicks(1200), 8000))
+        self.put("silent.wav", wav([0.0] * 16000, 8000))
+        rows = {line.split("  ")[0]: line.split() for line in self.succeeds("compare", "a.wav", "silent.wav").split("\n")}
+        scores = self.report("compare", "a.wav", "silent.wav")["files"][0]
+        self.assertEqual(rows["sound itself"][2:4], [f"{scores[key]:.1f}" for key in ("matchOfSound", "ceiling")])
+        self.assertEqual(rows["silence"][1], f"{scores['match']:.1f}")
+        self.assertGreater(float(rows["sound itself"][2]), float(rows["silence"][1]))
+
+
 class Match(CommandTest):
     def test_a_vibration_that_comes_with_the_sound_is_predicted_to_match_better_than_a_hum(self):
         self.put("click.wav", wav(clicks(2000), 8000))
@@ -51,7 +85,7 @@ class Match(CommandTest):
             list(moved["matchParts"]), ["attacks", "envelope", "roughness", "brightness", "movement", "silence"]
         )
         itself = self.report("compare", "moved.wav", "moved.wav")["files"][0]
-        self.assertAlmostEqual(itself["match"], itself["matchCeiling"], places=9)
+        self.assertAlmostEqual(itself["match"], itself["matchOfSound"], places=9)
 
     def test_a_recording_of_another_length_is_aligned_and_the_lag_is_told(self):
         hits = [0.0] * 16000

@@ -44,7 +44,7 @@ struct Comparison
     std::optional<MatchParts> match;        ///< empty for a silent reference
     double matchLag = 0.0;                  ///< ms by which the candidate is late, as far as that can be told
     bool aligned = false;                   ///< `match` is that without it: both are of different length
-    double matchCeiling = 0.0;              ///< predicted match of the reference itself, played as it is
+    double matchOfSound = 0.0;              ///< predicted match of the reference itself, played as it is
     std::optional<EventScore> events;       ///< within 25 ms; with known onsets only
     std::optional<EventScore> eventsNarrow; ///< within 10 ms
 };
@@ -79,10 +79,10 @@ inline constexpr std::array<ComparisonFigure, 15> comparisonFigures{{
      {
          return c.match ? std::optional(predictedMatch(*c.match)) : std::nullopt;
      }},
-    {"matchCeiling",
+    {"matchOfSound",
      [](const Comparison& c)
      {
-         return c.match ? std::optional(c.matchCeiling) : std::nullopt;
+         return c.match ? std::optional(c.matchOfSound) : std::nullopt;
      }},
     {"hts",
      [](const Comparison& c)
@@ -192,7 +192,7 @@ public:
             found.aligned = late != 0 && std::abs(found.duration - found.candidateDuration) > 0.005;
             found.matchLag = 1000.0 * late / TouchTrack::rate;
             found.match = matchParts(source.heard, earlier(target.felt, found.aligned ? late : 0));
-            found.matchCeiling = predictedMatch(matchParts(source.heard, source.felt));
+            found.matchOfSound = predictedMatch(matchParts(source.heard, source.felt));
         }
         return found;
     }

@@ -400,7 +400,7 @@ def felt(
 class Comparison:
     """How much of a sound a haptic signal keeps. None is what says nothing, such as of a silent reference.
 
-    `match` is how well people would say that it matches, 0 to 100, `match_ceiling` that of the sound itself; `hts` the
+    `match` is how well people would say that it matches, 0 to 100, `match_of_sound` that of the sound itself; `hts` the
     haptic translation similarity, `ceiling` that of the sound itself, `hts_f` what is felt on both sides; `lsd` the
     log-spectral distance in dB; SNRs of envelopes in dB, 60 is equal; centroid errors in %; `f1` the events within 25
     ms. `values` has all of ``pacini compare --json``.
@@ -417,8 +417,8 @@ class Comparison:
         return self._figure("match")
 
     @property
-    def match_ceiling(self) -> Optional[float]:
-        return self._figure("matchCeiling")
+    def match_of_sound(self) -> Optional[float]:
+        return self._figure("matchOfSound")
 
     @property
     def hts(self) -> float:
