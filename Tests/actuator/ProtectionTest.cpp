@@ -564,6 +564,57 @@ TEST_CASE("A cold coil lets bursts pass", "[actuator][protection]")
     CHECK(test::runInBlocks(protection, x, 512) == y);
 }
 
+TEST_CASE("A coil that cooled while nobody worked is guarded as one that was followed", "[actuator][protection]")
+{
+    const double fs = GENERATE(8000.0, 48000.0, 192000.0);
+    const double silence = GENERATE(0.0, 0.3, 2.0, 60.0); // s, after those at which all else rests
+    Protection followed, passed;
+    for (Protection* protection : {&followed, &passed})
+    {
+        protection->prepare({fs, 512});
+        protection->setParams(protectionParams(withCoil(profileOf(67.0, 3.0, 20.0, 1e-4, 1e-3), 20.0), Seconds(0.0)));
+    }
+    const auto tone = [fs](double seconds)
+    {
+        std::vector<float> samples(static_cast<std::size_t>(seconds * fs));
+        for (std::size_t i = 0; i < samples.size(); ++i)
+            samples[i] =
+                static_cast<float>(0.99 * std::sin(2.0 * std::numbers::pi * 150.0 * static_cast<double>(i) / fs));
+        return samples;
+    };
+    const auto run = [](Protection& protection, std::vector<float> samples)
+    {
+        protection.process(samples, samples);
+        return samples;
+    };
+    const auto hot = tone(20.0); // which the coil bears for some seconds only
+    const std::vector<float> still(static_cast<std::size_t>(3.0 * fs) + 5),
+        skipped(static_cast<std::size_t>(silence * fs));
+    for (Protection* protection : {&followed, &passed})
+    {
+        const auto driven = run(*protection, hot);
+        CHECK(std::abs(driven.back()) < 0.9f);
+        (void)run(*protection, still);
+    }
+    (void)run(followed, skipped);
+    passed.pass(static_cast<double>(skipped.size()));
+    const auto again = tone(5.0);
+    const auto a = run(followed, again), b = run(passed, again);
+    double largest = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i)
+        largest = std::max(largest, std::abs(static_cast<double>(a[i]) - static_cast<double>(b[i])));
+    CHECK(largest <= 1e-7);
+    if (silence > 1.0) // and the time did matter
+    {
+        Protection hotter;
+        hotter.prepare({fs, 512});
+        hotter.setParams(protectionParams(withCoil(profileOf(67.0, 3.0, 20.0, 1e-4, 1e-3), 20.0), Seconds(0.0)));
+        (void)run(hotter, hot);
+        (void)run(hotter, still);
+        CHECK(run(hotter, again) != a);
+    }
+}
+
 TEST_CASE("Limits that no drive can reach are left out", "[actuator][protection]")
 {
     using Limit = ProtectionNeeds::Limit;

@@ -76,6 +76,9 @@ public:
 
     void advance(double drive) noexcept { temperature.follow(full * drive * drive); }
 
+    /// Lets the coil cool for so many frames without drive.
+    void cool(double frames) noexcept { temperature.decay(frames); }
+
     /// Whether it is certain that the next `frames` drives, a multiple of a group from the start of one on, are
     /// admitted whatever they are within +-1, and that advanceFreely() takes them.
     [[nodiscard]] bool bears(std::size_t frames) const noexcept

@@ -152,6 +152,10 @@ public:
         lastCall.gainReduction = -Decibels::fromGain(smallestGain).value;
     }
 
+    /// Takes that `frames` frames of silence have passed since the last call: the coil has cooled. All else must have
+    /// come to rest before.
+    void pass(double frames) noexcept { heat.cool(frames); }
+
     [[nodiscard]] std::size_t latencyFrames() const noexcept { return latency; }
 
     /// What happened in the last call of process(); of the thread that calls it.

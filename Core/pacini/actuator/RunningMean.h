@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cassert>
+#include <cmath>
 #include <cstddef>
 
 namespace pacini
@@ -93,6 +94,14 @@ public:
         first.start = means.back().first();
         second.start = means.back().second();
         return means;
+    }
+
+    /// Follows so many zeros at once. A group goes on where it was; equal to follow() but for rounding.
+    void decay(double frames) noexcept
+    {
+        const double share = std::exp(frames * std::log1p(-leak));
+        start *= share;
+        added *= share;
     }
 
     void flush() noexcept

@@ -115,6 +115,14 @@ public:
         readings->reset();
     }
 
+    /// Takes that `frames` frames of silence went by without process(), after as many as silence needs to come to rest:
+    /// only coils still cooled. [audio]
+    void pass(double frames) noexcept
+    {
+        if (held && held->content.protection)
+            protection.pass(frames);
+    }
+
     /// Any number of frames, 0 too; `in` and `out` of one length may be the same memory. Not finite input counts as 0.
     /// The drive stays within +-1. [audio]
     void process(std::span<const float> in, std::span<float> out) noexcept

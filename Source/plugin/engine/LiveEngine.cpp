@@ -266,7 +266,11 @@ void LiveEngine::wake() noexcept
 {
     if (!watch.resting())
         return watch.reset();
-    for (std::size_t due = watch.wake(); due > 0;)
+    const SilenceWatch::Debt debt = watch.wake();
+    for (Voice& voice : voices)
+        if (voice.translator && voice.plays)
+            voice.translator->pass(debt.passed);
+    for (std::size_t due = debt.owed; due > 0;)
     {
         const std::size_t n = std::min(due, pieceFrames);
         const auto in = std::span(source).first(n);

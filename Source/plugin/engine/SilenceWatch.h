@@ -17,8 +17,8 @@ namespace pacini::plugin
 {
 
 /// Seconds of silence after which nothing of a translation moves by more than 1e-7 of full drive. Filters, envelopes,
-/// gates and glides need less than 2 s; the mass of an actuator rings for longer when it is hardly damped, and its coil
-/// cools for the longest: e^-17 is 4e-8.
+/// gates and glides need less than 2 s; the mass of an actuator rings for longer when it is hardly damped: e^-17 is
+/// 4e-8. Coils cool for minutes, but need no work for that (Translator::pass).
 [[nodiscard]] inline double restSeconds(const TranslatorSetup& setup)
 {
     constexpr double folds = 17.0;
@@ -29,8 +29,6 @@ namespace pacini::plugin
     if (limits.excursion)
         seconds =
             std::max(seconds, folds * limits.excursion->q / (std::numbers::pi * limits.excursion->frequency.value));
-    if (limits.heat)
-        seconds = std::max(seconds, folds * limits.heat->thermalTime.value);
     return seconds;
 }
 
@@ -60,6 +58,7 @@ public:
     void reset() noexcept
     {
         still = owed = 0;
+        skipped = 0.0;
         asleep = false;
     }
 
@@ -72,18 +71,31 @@ public:
         asleep = possible && still > needed;
     }
     /// What was skipped.
-    void rested(std::size_t frames) noexcept { owed = (owed + frames) % turn; }
-    /// Ends the rest, if there is one, and returns the frames of silence to work at first.
-    [[nodiscard]] std::size_t wake() noexcept
+    void rested(std::size_t frames) noexcept
     {
-        const std::size_t due = owed;
+        owed = (owed + frames) % turn;
+        skipped += static_cast<double>(frames);
+    }
+
+    /// Frames of silence: those that passed in whole turns, and those to work at when the rest ends.
+    struct Debt
+    {
+        double passed = 0.0;
+        std::size_t owed = 0;
+    };
+
+    /// Ends the rest, if there is one.
+    [[nodiscard]] Debt wake() noexcept
+    {
+        const Debt debt{skipped - static_cast<double>(owed), owed};
         reset();
-        return due;
+        return debt;
     }
 
 private:
     std::size_t turn = 32;
     std::size_t still = 0, owed = 0;
+    double skipped = 0.0; // all of the rest
     bool possible = true, asleep = false;
 };
 
