@@ -49,6 +49,7 @@ plugins:
             heading_level: 2
             members_order: source
             show_if_no_docstring: true
+            docstring_style: numpy
             docstring_section_style: list
 markdown_extensions: [tables, fenced_code, toc]
 validation:

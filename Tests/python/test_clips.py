@@ -82,6 +82,9 @@ class Clips(FolderTest):
         self.assertAlmostEqual(clip[-0.25:].duration, 0.25)
         self.assertAlmostEqual((part + part).duration, 1.0)
         self.assertAlmostEqual((part * 3).duration, 1.5)
+        self.assertEqual(3 * part, part * 3)
+        with self.assertRaises(TypeError):
+            iter(clip)
         self.assertAlmostEqual(clip.stretched(2).duration, 2.0)
         self.assertAlmostEqual(clip.transposed(12).bands[0].centre, 2 * clip.bands[0].centre)
         self.assertAlmostEqual(clip.without(0.2, 0.5).duration, 0.7)
@@ -182,9 +185,16 @@ class Clips(FolderTest):
         np.testing.assert_array_equal(back.process(knocks()), translator.process(knocks()))
 
     def test_a_file_that_is_not_there_is_one_kind_of_error_everywhere(self):
-        doors = (pacini.read, pacini.Clip.load, pacini.Scene.load, pacini.encode, pacini.read_audio,
-                 lambda path: pacini.encode(np.zeros(8000, np.float32), 8000, settings=path),
-                 lambda path: pacini.compare(path, path), lambda path: pacini.lint(path, "ahap"))
+        doors = (
+            pacini.read,
+            pacini.Clip.load,
+            pacini.Scene.load,
+            pacini.encode,
+            pacini.read_audio,
+            lambda path: pacini.encode(np.zeros(8000, np.float32), 8000, settings=path),
+            lambda path: pacini.compare(path, path),
+            lambda path: pacini.lint(path, "ahap"),
+        )
         for door in doors:
             for path in ("nowhere/clip.json", Path("nowhere/clip.json")):
                 with self.assertRaises(FileNotFoundError) as caught:

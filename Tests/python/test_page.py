@@ -2,6 +2,7 @@
 
 import contextlib
 import importlib.util
+import inspect
 import io
 import os
 import re
@@ -9,6 +10,7 @@ import unittest
 
 import numpy as np
 import pacini
+import pacini.ray
 from sounds import SOURCE, FolderTest, knocks
 
 
@@ -26,6 +28,18 @@ def code():
         elif started:
             blocks[-1][1].append("")
     return [(number, "\n".join(lines)) for number, lines in blocks]
+
+
+def doc(thing):
+    return inspect.getdoc(thing) or ""
+
+
+def documented(thing):
+    """The names that a docstring explains below "Parameters"."""
+    parts = re.split(r"^(\w[\w ]*)\n-+\n", doc(thing), flags=re.MULTILINE)
+    listed = dict(zip(parts[1::2], parts[2::2])).get("Parameters", "")
+    rows = re.findall(r"^([\w*, ]+?)(?: :.*)?$", listed, re.MULTILINE)
+    return {name.strip("* ") for row in rows if not row.startswith(" ") for name in row.split(",")}
 
 
 class Page(FolderTest):
@@ -47,6 +61,27 @@ class Page(FolderTest):
         self.assertEqual(names["left"].shape, names["right"].shape)
         self.assertEqual(names["again"].name, "door")
         self.assertLess(np.abs(names["skin"]).max(), 1000.0)
+
+    def test_docstrings_have_every_parameter_in_the_form_of_numpy(self):
+        functions = [getattr(pacini, name) for name in pacini.__all__ if callable(getattr(pacini, name))]
+        functions += [getattr(pacini.measure, name) for name in ("sweep", "simulate", "analyse", "fit", "verify")]
+        functions += [pacini.ray.encode, pacini.Clip.load, pacini.Clip.save, pacini.Scene.save, pacini.Profile.save]
+        for function in functions:
+            if inspect.isclass(function) and (
+                issubclass(function, (Exception, tuple)) or "Attributes" in doc(function)
+            ):
+                continue  # its attributes are what it is made of
+            own = [
+                name
+                for name, one in inspect.signature(getattr(function, "__wrapped__", function)).parameters.items()
+                if name != "self" and one.kind is not inspect.Parameter.VAR_KEYWORD
+            ]
+            if function is pacini.encode:  # whose options follow as a list
+                own = own[: own.index("progress") + 1]
+            with self.subTest(function.__qualname__):
+                self.assertEqual(set(own) - documented(function), set())
+                if not inspect.isclass(function) and inspect.signature(function).return_annotation != "None":
+                    self.assertRegex(doc(function), r"\n(Returns|Yields)\n-+\n")
 
     def test_everything_public_is_documented_and_named_there(self):
         text = (SOURCE / "Resources/docs/python.md").read_text()

@@ -19,6 +19,7 @@ PathLike = Union[str, bytes, "os.PathLike[str]", "os.PathLike[bytes]"]
 
 AMPLITUDE = np.dtype([("time", np.float64), ("amplitude", np.float64)])
 FREQUENCY = np.dtype([("time", np.float64), ("frequency", np.float64)])
+_MOST_CHANNELS = 64  # of any sound
 TRANSIENT = np.dtype([("time", np.float64), ("amplitude", np.float64), ("sharpness", np.float64)])
 
 
@@ -30,14 +31,22 @@ def as_sound(samples: object, axis: int) -> FloatArray:
     """A view as (frames,) or (channels, frames); `axis` is the one that the frames are on. Never a copy of an array."""
     array = np.asarray(samples)
     if array.dtype not in (np.float32, np.float64) or not array.dtype.isnative:
-        raise Error(f"has samples of {array.dtype}; give float32 or float64, full scale 1", "sound")
+        full = f": sound / {2 ** (8 * array.itemsize - 1)}" if array.dtype.kind == "i" else ""
+        raise Error(f"has samples of {array.dtype}; give float32 or float64 with a full scale of 1{full}", "sound")
     if array.ndim not in (1, 2):
         raise Error(f"has {array.ndim} dimensions; give (frames,) or (channels, frames)", "sound")
     if not -array.ndim <= axis < array.ndim:
         raise Error(f"must be one of the {array.ndim} axes of the sound", "axis")
     if any(stride % array.itemsize for stride in array.strides):
         array = array.copy()  # a field of a record: samples are not whole steps apart
-    return np.moveaxis(array, axis, -1)
+    moved = np.moveaxis(array, axis, -1)
+    if moved.ndim == 2 and moved.shape[0] > _MOST_CHANNELS >= moved.shape[1]:
+        raise Error(
+            f"has {moved.shape[0]} channels of {moved.shape[1]} frames; give axis={0 if axis in (-1, 1) else 1} if it "
+            "is the other way round",
+            "sound",
+        )
+    return moved
 
 
 def as_rate(rate: object, where: str = "sample_rate") -> int:

@@ -27,10 +27,18 @@ def _no_points(dtype: np.dtype[np.void]) -> Any:
 
 @dataclass(frozen=True, eq=False)
 class Band:
-    """A frequency band: its edges and centre in Hz, its amplitude (1 is full drive) and pitch (Hz) over time.
+    """A frequency band of a clip. A changed one is ``dataclasses.replace(band, amplitude=...)``.
 
-    Priority 0 is kept longest when an actuator has too few voices. Points may be given as (time, amplitude) and
-    (time, frequency). A new one with another amplitude is ``dataclasses.replace(band, amplitude=...)``.
+    Parameters
+    ----------
+    low, centre, high : float
+        Its edges and its centre, Hz.
+    priority : int, default 0
+        Bands of priority 0 are kept longest when an actuator has too few voices.
+    amplitude : array_like of (time, amplitude), optional
+        Amplitude over time; s, 1 is full drive.
+    pitch : array_like of (time, frequency), optional
+        Pitch over time; s, Hz.
     """
 
     low: float
@@ -68,7 +76,15 @@ class Band:
 
 @dataclass(frozen=True, eq=False)
 class NoiseBand:
-    """A band of residual noise: its edges in Hz and its RMS amplitude over time."""
+    """A band of residual noise.
+
+    Parameters
+    ----------
+    low, high : float
+        Its edges, Hz.
+    amplitude : array_like of (time, amplitude), optional
+        RMS amplitude over time; s, 1 is full drive.
+    """
 
     low: float
     high: float
@@ -84,7 +100,17 @@ class NoiseBand:
 
 @dataclass(frozen=True)
 class Source:
-    """The sound that a clip was made from; 0 is unknown."""
+    """The sound that a clip was made from.
+
+    Attributes
+    ----------
+    file : str
+        Its name; empty where unknown.
+    sample_rate : float
+        Hz; 0 where unknown.
+    channels : int
+        0 where unknown.
+    """
 
     file: str = ""
     sample_rate: float = 0.0
@@ -93,7 +119,19 @@ class Source:
 
 @dataclass(frozen=True)
 class SimplifiedLane:
-    """What simplification did to one curve; errors in its unit."""
+    """What simplification did to one curve.
+
+    Attributes
+    ----------
+    kind : str
+        Such as ``"amplitude"``.
+    band : int
+        Index of its band.
+    before, after : int
+        Number of points.
+    rms_error, max_error : float
+        In the unit of the curve.
+    """
 
     kind: str
     band: int
@@ -118,6 +156,32 @@ class Clip:
 
     Times are in s, frequencies in Hz, amplitudes linear with 1 as full drive. What is set is checked: a clip is always
     valid.
+
+    Parameters
+    ----------
+    duration : float
+        Length, s.
+    bands : iterable of Band, optional
+        Its bands, at most 32.
+    name : str, optional
+        Its name.
+    envelope : array_like of (time, amplitude), optional
+        Total amplitude, to which the sum of the bands is levelled; empty leaves the bands as they are.
+    centroid : array_like of (time, frequency), optional
+        Spectral centroid, Hz.
+    transients : array_like of (time, amplitude, sharpness), optional
+        Events; sharpness is 0 (dull) to 1 (crisp).
+    noise : iterable of NoiseBand, optional
+        Residual noise.
+    markers : iterable of (time, name), optional
+        Named points of time.
+    source : Source, optional
+        The sound that it was made from.
+
+    Raises
+    ------
+    Error
+        A value is out of its range; the error names it.
     """
 
     __slots__ = ("_handle",)
@@ -260,11 +324,23 @@ class Clip:
         return Clip._of(self._handle)
 
     def trimmed(self, start: float = 0.0, end: Optional[float] = None) -> Clip:
-        """The part from `start` to `end` in s; its time starts at 0."""
+        """Cuts out a part, whose time starts at 0.
+
+        Parameters
+        ----------
+        start : float, default 0
+            s.
+        end : float, optional
+            s [the end of the clip].
+
+        Returns
+        -------
+        Clip
+        """
         return Clip._of(self._handle.trimmed(float(start), self.duration if end is None else float(end)))
 
     def without(self, start: float, end: float) -> Clip:
-        """The rest, moved up."""
+        """The clip without the part from `start` to `end`, in s; what is behind moves up."""
         return Clip._of(self._handle.without(float(start), float(end)))
 
     def __getitem__(self, times: slice) -> Clip:
@@ -277,6 +353,8 @@ class Clip:
         )
         return self.trimmed(start, max(start, end))
 
+    __iter__ = None  # slices are of times: there is nothing to go through
+
     def __add__(self, other: Clip) -> Clip:
         """The other clip behind this one."""
         return Clip._of(self._handle.joined(other._handle)) if isinstance(other, Clip) else NotImplemented
@@ -285,11 +363,14 @@ class Clip:
         """The clip so many times, one after the other."""
         return Clip._of(self._handle.repeated(passes)) if isinstance(passes, int) else NotImplemented
 
+    __rmul__ = __mul__
+
     def inserted(self, time: float, part: Clip) -> Clip:
-        """With `part` at `time`; what was behind moves back."""
+        """The clip with `part` inserted at `time`, in s; what is behind moves back."""
         return Clip._of(self._handle.inserted(float(time), part._handle))
 
     def reversed(self) -> Clip:
+        """The clip backwards."""
         return Clip._of(self._handle.reversed())
 
     def transposed(self, semitones: float) -> Clip:
@@ -308,8 +389,17 @@ class Clip:
         method: str = "lagrangian",
         refit: bool = False,
     ) -> Clip:
-        """Every curve with at most `count` points, or within `error` of what it was (in its unit), or both. The methods
-        are those of :func:`pacini.simplify`."""
+        """Simplifies every curve.
+
+        Parameters
+        ----------
+        count, error, method, refit
+            As of :func:`pacini.simplify`; `error` is in the unit of each curve.
+
+        Returns
+        -------
+        Clip
+        """
         return self.simplified_report(count, error, method=method, refit=refit)[0]
 
     def simplified_report(
@@ -320,7 +410,13 @@ class Clip:
         method: str = "lagrangian",
         refit: bool = False,
     ) -> tuple[Clip, list[SimplifiedLane]]:
-        """The same, and what it cost on each curve."""
+        """:meth:`simplified`, and what that cost on each curve.
+
+        Returns
+        -------
+        clip : Clip
+        lanes : list of SimplifiedLane
+        """
         handle, lanes = self._handle.simplified(method, _count(count), error, refit)
         return Clip._of(handle), [SimplifiedLane(*lane) for lane in lanes]
 
@@ -328,7 +424,24 @@ class Clip:
 
     @classmethod
     def load(cls, path: PathLike, *, strict: bool = False) -> Clip:
-        """Reads a clip of any format. What the reader lets pass is a warning, or an error if it is `strict`."""
+        """Reads a clip of any format.
+
+        Parameters
+        ----------
+        path : path
+            The file; content and extension decide the format.
+        strict : bool, default False
+            Refuse unknown keys instead of warning of them.
+
+        Returns
+        -------
+        Clip
+
+        Raises
+        ------
+        Error
+            The file cannot be read or is not a clip; :class:`FileMissing` where there is none.
+        """
         handle, _, passed = _native.read_clip(os.fsdecode(path), strict)
         for message in passed:
             warnings.warn(f"{os.fsdecode(path)}: {message}", stacklevel=2)
@@ -343,12 +456,32 @@ class Clip:
         overwrite: Optional[bool] = None,
         **options: Any,
     ) -> list[Loss]:
-        """Writes the clip, in the format of the extension unless `format` names one of :func:`pacini.formats`, and
-        returns what that loses. The file is complete or not there. Options are those of the command, such as
-        ``points``, ``profile``, ``split`` and ``events``.
+        """Writes the clip; the file is complete or not there.
 
-        A clip that is there is replaced, and no file of another kind unless `overwrite` is True; with False nothing
-        is. The recording that the clip was made from never is."""
+        Parameters
+        ----------
+        path : path
+            Where.
+        format : str, optional
+            Name of one of :func:`pacini.formats` [by the extension].
+        quantise : int, optional
+            Bits of each value, 4 to 16, for the packed format.
+        overwrite : bool, optional
+            None replaces a clip that is there and no other file. True replaces every file but the recording that the
+            clip was made from, False none.
+        **options
+            Options of ``pacini convert``, such as ``points``, ``profile``, ``split`` and ``events``.
+
+        Returns
+        -------
+        list of Loss
+            What the format loses or changes.
+
+        Raises
+        ------
+        Error
+            The file is not replaced, or cannot be written.
+        """
         name = format_for(path, format)
         _, losses = self._handle.save(
             os.fsdecode(path), name, export_options("save", options), quantise or 0, overwrite
@@ -356,7 +489,15 @@ class Clip:
         return losses_of(losses)
 
     def to_bytes(self, format: str = "packed", *, quantise: Optional[int] = None, **options: Any) -> bytes:
-        """The bytes of a file in a format that is one file."""
+        """The bytes of a file.
+
+        Parameters
+        ----------
+        format : str, default "packed"
+            Name of one of :func:`pacini.formats` that writes one file.
+        quantise, **options
+            As of :meth:`save`.
+        """
         files, _ = self._handle.written(format, export_options("to_bytes", options), quantise or 0)
         if len(files) != 1:
             raise Error("makes several files; save it to a folder", "format")
@@ -364,7 +505,17 @@ class Clip:
 
     @classmethod
     def from_bytes(cls, data: bytes, *, extension: str = "", strict: bool = False) -> Clip:
-        """The clip in the bytes of a file; the extension counts where the content does not tell."""
+        """Reads a clip from the bytes of a file.
+
+        Parameters
+        ----------
+        data : bytes
+            The file.
+        extension : str, optional
+            Its extension, with the dot; counts where the content does not tell the format.
+        strict : bool, default False
+            As of :meth:`load`.
+        """
         handle, _, passed = _native.read_clip_bytes(bytes(data), extension, strict)
         for message in passed:
             warnings.warn(message, stacklevel=2)
@@ -385,7 +536,7 @@ class Clip:
         return cls._of(_native.ClipHandle.from_json(text.encode()))
 
     def lint(self, format: str, **options: Any) -> list[Loss]:
-        """What the format would lose."""
+        """States what the clip would lose in a format; see :func:`pacini.lint`."""
         _, losses = self._handle.written(format, export_options("lint", options), 0)
         return losses_of(losses)
 

@@ -15,7 +15,17 @@ from ._parameters import EXPORT, check_names
 
 @dataclass(frozen=True)
 class Format:
-    """A format of clips."""
+    """A format of clips.
+
+    Attributes
+    ----------
+    name, extension, title : str
+        What it is called here, in file names, and by people.
+    is_read, is_written : bool
+        Whether Pacini reads and writes it.
+    keeps : str
+        What it can hold.
+    """
 
     name: str
     extension: str
@@ -27,7 +37,19 @@ class Format:
 
 @dataclass(frozen=True)
 class Loss:
-    """What a format loses or changes of a clip in one place."""
+    """What a format loses or changes of a clip in one place.
+
+    Attributes
+    ----------
+    kind : str
+        Such as ``"pitch"``.
+    time, duration : float
+        Where, s.
+    error : float
+        How much, in the unit that the message names.
+    message : str
+        A sentence.
+    """
 
     kind: str
     time: float
@@ -37,7 +59,12 @@ class Loss:
 
 
 def formats() -> list[Format]:
-    """All formats, Pacini's own first."""
+    """All formats of clips, Pacini's own first.
+
+    Returns
+    -------
+    list of Format
+    """
     return [Format(*entry) for entry in _native.formats()]
 
 

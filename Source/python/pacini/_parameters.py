@@ -55,7 +55,8 @@ def with_keywords(known: dict[str, dict[str, Any]]) -> Callable[[_Function], _Fu
         ]
         function.__signature__ = own.replace(parameters=[*listed, *keywords])  # type: ignore[attr-defined]
         lines = "\n".join(_line(name, one) for name, one in known.items())
-        function.__doc__ = f"{function.__doc__}\n    Options, with ranges and defaults:\n\n{lines}\n    "
+        notes = "Notes\n    -----\n    Options, with ranges and defaults:"
+        function.__doc__ = f"{function.__doc__}\n    {notes}\n\n{lines}\n    "
         return function
 
     return decorated

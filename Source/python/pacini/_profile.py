@@ -17,9 +17,23 @@ from ._errors import Error
 
 
 class Profile:
-    """What an actuator can do, what it bears, and what flattens it. Never changes.
+    """An actuator: what it can do, what it bears, and the equaliser that flattens it. A profile never changes.
 
-    ``Profile("l5-wristband")`` comes with Pacini, see :meth:`names`; ``Profile("mine.json")`` is read from a file.
+    Parameters
+    ----------
+    name_or_path : str or path
+        A shipped profile, see :meth:`names`, or a file.
+    strict : bool, default False
+        Refuse unknown keys instead of warning of them.
+
+    Raises
+    ------
+    Error
+        There is no such profile, or the file is not valid.
+
+    Examples
+    --------
+    >>> pacini.render(clip, profile=pacini.Profile("l5-wristband"))
     """
 
     __slots__ = ("_handle",)
@@ -59,8 +73,20 @@ class Profile:
         return content
 
     def save(self, path: PathLike, *, overwrite: Optional[bool] = None) -> None:
-        """Writes a profile file; it is complete or not there. A profile that is there is replaced, and no file of
-        another kind unless `overwrite` is True; with False nothing is."""
+        """Writes a profile file; it is complete or not there.
+
+        Parameters
+        ----------
+        path : path
+            Where.
+        overwrite : bool, optional
+            None replaces a profile that is there and no other file. True replaces every file, False none.
+
+        Raises
+        ------
+        Error
+            The file is not replaced, or cannot be written.
+        """
         self._handle.save(os.fsdecode(path), overwrite)
 
     @property
@@ -78,7 +104,20 @@ class Profile:
     def equalizer_response(
         self, frequencies: Sequence[float] | npt.NDArray[np.float64], sample_rate: float = 48000.0
     ) -> npt.NDArray[np.float64]:
-        """The levels in dB of the profile's equaliser at these frequencies in Hz."""
+        """Level of the profile's equaliser.
+
+        Parameters
+        ----------
+        frequencies : array_like
+            Hz, 0 to half the rate.
+        sample_rate : float, default 48000
+            Hz.
+
+        Returns
+        -------
+        array of float64
+            dB.
+        """
         return _native_array(
             self._handle.equalizer_response([float(f) for f in np.asarray(frequencies).ravel()], float(sample_rate))
         )

@@ -15,10 +15,32 @@ from ._errors import Error
 
 
 class Scene:
-    """Clips that play together on one actuator or several, and what happens to them. Never changes.
+    """Clips that play together on one actuator or several. A scene never changes.
 
-    `plays` are mappings as in scene files: ``{"clip": 0, "start": 0.5, "gain": -6, "pan": 1, "transposition": 2,
-    "loop": 0.5, "passes": 3}``; `changes` such as ``{"time": 1, "play": 0, "parameter": "gain", "value": -20}``.
+    Parameters
+    ----------
+    clips : iterable of Clip
+        The clips that plays refer to by their index.
+    plays : iterable of mappings, optional
+        As in scene files, such as ``{"clip": 0, "start": 0.5, "gain": -6, "pan": 1, "transposition": 2, "loop": 0.5,
+        "passes": 3}``: times in s, gain in dB, transposition in semitones [each clip once, from 0 on].
+    changes : iterable of mappings, optional
+        Such as ``{"time": 1, "play": 0, "parameter": "gain", "value": -20}``.
+    name : str, optional
+        Its name.
+    duration : float, default 0
+        Length in s; 0 is until the last play ends.
+    gain : float, default 0
+        Gain of the whole, dB.
+    actuators : int, default 1
+        Number of actuators, 1 to 16.
+    **options
+        Other entries of scene files.
+
+    Raises
+    ------
+    Error
+        The scene is not valid; the error names the entry.
     """
 
     __slots__ = ("_handle",)
@@ -65,15 +87,42 @@ class Scene:
 
     @classmethod
     def load(cls, path: PathLike, *, clips: PathLike = "", strict: bool = False) -> Scene:
-        """Reads a scene; clip files that it names are looked for in the folder `clips`, by default beside it."""
+        """Reads a scene.
+
+        Parameters
+        ----------
+        path : path
+            The file.
+        clips : path, optional
+            Folder of the clip files that it names [beside it].
+        strict : bool, default False
+            Refuse unknown keys instead of warning of them.
+
+        Raises
+        ------
+        Error
+            The scene or one of its clips cannot be read.
+        """
         handle, passed = _native.SceneHandle.read(os.fsdecode(path), os.fsdecode(clips), strict)
         for message in passed:
             warnings.warn(f"{os.fsdecode(path)}: {message}", stacklevel=2)
         return cls._of(handle)
 
     def save(self, path: PathLike, *, overwrite: Optional[bool] = None) -> None:
-        """Writes a scene with its clips in it; the file is complete or not there. A scene that is there is replaced,
-        and no file of another kind unless `overwrite` is True; with False nothing is."""
+        """Writes a scene with its clips in it; the file is complete or not there.
+
+        Parameters
+        ----------
+        path : path
+            Where.
+        overwrite : bool, optional
+            None replaces a scene that is there and no other file. True replaces every file, False none.
+
+        Raises
+        ------
+        Error
+            The file is not replaced, or cannot be written.
+        """
         self._handle.save(os.fsdecode(path), overwrite)
 
     def to_dict(self) -> dict[str, Any]:
@@ -109,7 +158,13 @@ class Scene:
         return changes
 
     def lint(self) -> list[tuple[str, str]]:
-        """What in it does nothing, or less than is written there: places and what is wrong with them."""
+        """Finds entries that do nothing, or less than they state.
+
+        Returns
+        -------
+        list of (str, str)
+            Place and what is wrong there.
+        """
         return self._handle.lint()
 
     def __eq__(self, other: object) -> bool:

@@ -22,11 +22,31 @@ def simplify(
     method: str = "lagrangian",
     refit: bool = False,
 ) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
-    """Times and values of at most `count` points, or within `error` of the curve (vertically), or both.
+    """Simplifies a curve: few breakpoints for many.
 
-    `method` is one of :data:`SIMPLIFIERS`: removal by triangle area, splitting at the largest deviation, the least
-    largest error (slow), one pass, and the least squared error, which is what the encoder uses. With `refit` values are
-    fitted by least squares.
+    Parameters
+    ----------
+    times, values : array_like, (n,)
+        The curve; times must not fall.
+    count : int, optional
+        Largest number of points.
+    error : float, optional
+        Largest vertical distance from the curve, in the unit of the values. Both limits hold where both are given.
+    method : str, default "lagrangian"
+        One of :data:`SIMPLIFIERS`: ``"visvalingam"`` removes by triangle area, ``"douglas-peucker"`` splits at the
+        largest deviation, ``"optimal"`` has the least largest error (slow), ``"streaming"`` needs one pass,
+        ``"lagrangian"``, the encoder's, has the least squared error.
+    refit : bool, default False
+        Fit the values of the points that are kept by least squares.
+
+    Returns
+    -------
+    times, values : array of float64, (m,)
+
+    Raises
+    ------
+    Error
+        The curve is not one, or neither limit is given.
     """
     x = np.asarray(times, np.float64)
     y = np.asarray(values, np.float64)

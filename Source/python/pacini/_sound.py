@@ -35,7 +35,17 @@ AnySettings = Union[PathLike, Mapping[str, Any]]
 
 @dataclass(frozen=True)
 class Method:
-    """A translation method; `output` is clip or signal."""
+    """A translation method.
+
+    Attributes
+    ----------
+    name : str
+        What :func:`encode` and :func:`translate` call it.
+    output : str
+        ``"clip"`` or ``"signal"``.
+    description : str
+        One sentence.
+    """
 
     name: str
     output: str
@@ -43,7 +53,12 @@ class Method:
 
 
 def methods() -> list[Method]:
-    """The translation methods: Pacini's own, a2vt, and those that it can be compared with."""
+    """The translation methods: Pacini's own, ``a2vt``, and those that it can be compared with.
+
+    Returns
+    -------
+    list of Method
+    """
     return [Method(*entry) for entry in _native.methods()]
 
 
@@ -55,7 +70,12 @@ class Preset(NamedTuple):
 
 
 def presets() -> list[Preset]:
-    """The presets of :func:`encode`; the first is the default."""
+    """The presets of :func:`encode`; the first is the default.
+
+    Returns
+    -------
+    list of Preset
+    """
     return [Preset(*entry) for entry in _native.presets()]
 
 
@@ -166,15 +186,51 @@ def encode(
     progress: Progress = None,
     **options: Unpack[EncodeOptions],
 ) -> Clip:
-    """The clip of a sound: a file, or samples as (frames,) or (channels, frames) with their rate in Hz.
+    """Encodes a sound as a haptic clip.
 
-    `axis` is the one that the frames of an array are on. float32 samples that lie in memory frame by frame (one
-    channel, or (frames, channels) in C order with ``axis=0``) are read where they are; others are converted piece by
-    piece. `settings` is a file as of ``pacini encode --print-settings``, or its object; `method` (a2vt), `preset` (one
-    of :func:`presets`) and the other options, those of ``pacini encode``, come before it, and options before the
-    preset. None is the method's own. `name` and `source` (a file name) go
-    into clips of arrays. The interpreter's lock is free meanwhile; `progress` is True for a bar of tqdm, or a function
-    of the share that is done. Raises :class:`pacini.Error`.
+    The interpreter's lock is free meanwhile.
+
+    Parameters
+    ----------
+    sound : path or array of float32 or float64
+        An audio file, or samples, full scale 1, as (frames,) or (channels, frames). float32 samples that lie in memory
+        frame by frame are read in place: one channel, or (frames, channels) in C order with ``axis=0``.
+    sample_rate : float, optional
+        Rate of samples in an array, 8000 to 768000 Hz. Not for files.
+    axis : int, default -1
+        Axis of the frames; 0 for arrays of soundfile, which are (frames, channels).
+    method : str, optional
+        Name of one of :func:`methods` that makes a clip ["a2vt"].
+    preset : str, optional
+        Name of one of :func:`presets`. Overrides `settings`; options override the preset.
+    settings : path or mapping, optional
+        A file that ``pacini encode --print-settings`` wrote, or its content.
+    allow_nan : bool, default False
+        Take samples that are not finite as 0 instead of raising.
+    allow_truncated : bool, default False
+        Encode the part that remains of a truncated file instead of raising.
+    name, source : str, optional
+        Name and file name that a clip of an array states.
+    progress : bool or callable, optional
+        True shows a bar (tqdm); a function is called with the share that is done, 0 to 1.
+    **options
+        Parameters of the method, listed below; None is the method's own value.
+
+    Returns
+    -------
+    Clip
+
+    Raises
+    ------
+    Error
+        The sound cannot be read, or an option is out of its range. :class:`FileMissing` where there is no file.
+    TypeError
+        There is no such option.
+
+    Examples
+    --------
+    >>> clip = pacini.encode("door.wav", preset="music")
+    >>> clip = pacini.encode(samples, 48000, bands=8)
     """
     given = {name: value for name, value in options.items() if value is not None}
     check_names("encode", given, ENCODE)
@@ -192,8 +248,27 @@ def translate(
     allow_truncated: bool = False,
     progress: Progress = None,
 ) -> tuple[npt.NDArray[np.float32], int]:
-    """The drive signal that a method makes of a sound, and its rate: for methods that make no clip, see
-    :func:`methods`. The sound is given as to :func:`encode`."""
+    """Translates a sound by a method that makes a drive signal, not a clip; see :func:`methods`.
+
+    Parameters
+    ----------
+    sound, sample_rate, axis, allow_nan, allow_truncated, progress
+        As of :func:`encode`.
+    method : str
+        Name of one of :func:`methods`.
+
+    Returns
+    -------
+    signal : array of float32, (frames,)
+        The drive, 1 is full drive.
+    sample_rate : int
+        Its rate in Hz.
+
+    Raises
+    ------
+    Error
+        As of :func:`encode`; the method makes a clip.
+    """
     wanted = _Wanted(method, "", {}, "", allow_nan, allow_truncated)
     signal, rate = _translated(sound, sample_rate, axis, "", "", progress, "signal", wanted)
     return signal, rate
@@ -206,9 +281,26 @@ def encode_files(
     progress: Progress = None,
     **options: Any,
 ) -> Iterator[tuple[PathLike, Union[Clip, Error]]]:
-    """Encodes many files, or one, on several threads, and yields each path as it was given with its clip, or with what
-    is wrong with it, as they get ready. Options are those of :func:`encode`; what is wrong with them is raised at
-    once."""
+    """Encodes many files, or one, on several threads.
+
+    Parameters
+    ----------
+    paths : path or iterable of paths
+        The files.
+    threads : int, optional
+        Number of threads [number of processors].
+    progress : bool or callable, optional
+        As of :func:`encode`, over all files.
+    **options
+        As of :func:`encode`. Errors in them are raised at once.
+
+    Yields
+    ------
+    path : path
+        A path as it was given, in the order in which they are ready.
+    result : Clip or Error
+        Its clip, or what is wrong with the file; the others go on.
+    """
     check_options(options)
     todo: list[PathLike] = [paths] if is_path(paths) else list(paths)
     workers = threads if threads is not None else os.cpu_count() or 1
@@ -250,8 +342,19 @@ def encode_files(
 
 @dataclass(frozen=True)
 class RenderReport:
-    """What was done to play a clip or a scene. `reduction` is the most (dB) that was taken to keep within the limits of
-    the actuator, `predicted_error` what leaving things out costs (dB below the whole)."""
+    """What was done to play a clip or a scene.
+
+    Attributes
+    ----------
+    reduction : float
+        Largest gain reduction of the protection, dB.
+    predicted_error : float
+        Error of what was left out, dB re the whole.
+    adaptations : list of (str, str)
+        What was fitted to the actuator, and why.
+    left_out : list of (str, str, float)
+        What is not computed, why, and its level in dB.
+    """
 
     reduction: float
     predicted_error: float
@@ -327,10 +430,70 @@ def render(
     dtype: npt.DTypeLike = np.float32,
     progress: Progress = None,
 ) -> FloatArray:
-    """The drive signal of a clip as (frames,), or of a scene as (actuators, frames); (frames,) for one actuator.
+    """Renders a clip or a scene as the drive signal of an actuator, as ``pacini render`` does.
 
-    `profile` is the actuator that plays it, or its name. The other parameters are the options of ``pacini render``;
-    `gain` is in dB, `transpose` in semitones, times are in s.
+    Parameters
+    ----------
+    content : Clip or Scene
+        What is rendered.
+    sample_rate : float, default 48000
+        Rate of the drive, 2000 to 768000 Hz.
+    profile : Profile, str or path, optional
+        The actuator, by its profile, the name of a shipped one, or a file. Without it the drive is flat.
+    protect : bool, default True
+        Keep the drive within the limits of the actuator.
+    gain : float, default 0
+        Gain in dB, -120 to 60.
+    transpose : float, default 0
+        Shift in pitch in semitones, -96 to 96.
+    stretch : float, default 1
+        Ratio of the durations at the same pitch, 0.01 to 100.
+    delay : float, default 0
+        Silence in front, 0 to 3600 s.
+    start, end : float, optional
+        The part that is rendered, s.
+    variation : float, default 0
+        Random deviation of the bands' amplitudes, 0 to 1, from `seed`.
+    variation_per : str, default "breakpoint"
+        ``"breakpoint"`` or ``"band"``: what has one random factor.
+    seed : int, default 0
+        Seed of the variation, 0 to 2^64 - 1.
+    tolerance : float, default -60
+        Error that leaving out may cost, dB re the whole.
+    leave_out : bool, default True
+        Skip what nobody would feel, within `tolerance`.
+    adapt : bool, default True
+        Fit pitches and levels to the range of the actuator.
+    mapping : str, optional
+        How frequencies beyond its range are moved: ``"clamp"``, ``"rescale"`` or ``"fold"`` [as the profile says].
+    max_boost : float, default 6
+        Largest boost for flattening the resonance, 0 to 40 dB.
+    strength : float, default 0.4
+        From 0, as flat as can be, to 1, as strong as can be: how much of the resonance is kept.
+    carriers : str, optional
+        Frequencies of the sinusoids: ``"fixed"``, ``"pitch"`` or ``"centroid"`` [as the clip was made].
+    follow_envelope : bool, optional
+        Match the sum of the bands to the total envelope [as the clip was made].
+    pulse : str, optional
+        Waveform of events: ``"adaptive"``, ``"square"`` or ``"sine"`` [as the clip was made].
+    pulse_frequency : float, optional
+        Frequency of square and sine pulses, 1 to 2000 Hz [the resonance of the actuator].
+    pulse_cycles : float, default 1
+        Their periods, 0.1 to 100.
+    dtype : numpy dtype, default float32
+        float32 or float64.
+    progress : bool or callable, optional
+        As of :func:`encode`.
+
+    Returns
+    -------
+    array, (frames,) or (actuators, frames)
+        The drive; 1 is full drive. Two dimensions only for a scene of several actuators.
+
+    Raises
+    ------
+    Error
+        A parameter is out of its range, or the profile cannot be read.
     """
     options = _render_options(
         profile,
@@ -369,7 +532,17 @@ def explain(
     strength: float = _native.STANDARD_STRENGTH,
     gain: float = 0.0,
 ) -> RenderReport:
-    """What :func:`render` does to play it: what is fitted to the actuator, and what is left out."""
+    """States what :func:`render` does to play a clip or a scene: what it adapts, reduces and leaves out.
+
+    Parameters
+    ----------
+    content, sample_rate, profile, tolerance, strength, gain
+        As of :func:`render`.
+
+    Returns
+    -------
+    RenderReport
+    """
     options = _render_options(profile, sample_rate, gain=gain, tolerance=tolerance, strength=strength)
     return _rendered(content, options, np.float32, None)[1]
 
@@ -389,8 +562,29 @@ def felt(
     dtype: npt.DTypeLike = np.float32,
     progress: Progress = None,
 ) -> FloatArray:
-    """The acceleration of the skin that the profile's model of the body predicts, as :func:`render` has it: 1 is
-    `full_scale` m/s^2. `wearer` is 0 as in the profile, or 1 to 14, simulated people."""
+    """Predicts the acceleration of the skin, by the profile's model of the body.
+
+    Parameters
+    ----------
+    content, sample_rate, gain, start, end, strength, protect, dtype, progress
+        As of :func:`render`.
+    profile : Profile, str or path
+        An actuator with a model of the body.
+    wearer : int, default 0
+        0 is the person of the profile, 1 to 14 are simulated people.
+    full_scale : float
+        Acceleration that 1 stands for, m/s^2; the default is that of ``pacini render --felt``.
+
+    Returns
+    -------
+    array, (frames,) or (actuators, frames)
+        Acceleration over `full_scale`: multiply by it for m/s^2.
+
+    Raises
+    ------
+    Error
+        As of :func:`render`; the profile has no model of the body.
+    """
     options = _render_options(profile, sample_rate, protect=protect, gain=gain, start=start, end=end, strength=strength)
     options.feel({"wearer": wearer, "full_scale": full_scale})
     return _rendered(content, options, dtype, progress)[0]
@@ -398,12 +592,28 @@ def felt(
 
 @dataclass(frozen=True)
 class Comparison:
-    """How much of a sound a haptic signal keeps. None is what says nothing, such as of a silent reference.
+    """How much of a sound a haptic signal keeps. A figure is None where it says nothing, such as of a silent reference.
 
-    `match` is how well people would say that it matches, 0 to 100, `match_of_sound` that of the sound itself; `hts` the
-    haptic translation similarity, `ceiling` that of the sound itself, `hts_f` what is felt on both sides; `lsd` the
-    log-spectral distance in dB; SNRs of envelopes in dB, 60 is equal; centroid errors in %; `f1` the events within 25
-    ms. `values` has all of ``pacini compare --json``.
+    Attributes
+    ----------
+    match, match_of_sound : float or None
+        Predicted rating by people of how well it matches, 35.4 (nothing is felt) to 71; of the sound itself.
+    hts, ceiling : float
+        Haptic translation similarity, 0 to 100; of the sound itself.
+    hts_f : float
+        The same over what can be felt on both sides.
+    lsd : float or None
+        Log-spectral distance in third octaves, dB; 0 is equal.
+    wide_snr, band_snr, band_snr_per_band : float or None
+        SNR of envelopes, dB; 60 is equal.
+    low_kept, beat_kept : float or None
+        How far low envelopes and the beat follow those of the sound; 1 is equal.
+    centroid_error, centroid_bias : float or None
+        Median error of the spectral centroid and its sign, %.
+    f1, f1_within_10_ms : float or None
+        F-measure of events within 25 and 10 ms; None without known onsets.
+    values : dict
+        All that ``pacini compare --json`` states of a file.
     """
 
     values: dict[str, Any]
@@ -525,13 +735,38 @@ def compare(
     allow_nan: bool = False,
     allow_truncated: bool = False,
 ) -> Comparison:
-    """Measures how much of `reference`, a sound, is in `candidate`, a signal to be felt.
+    """Measures how much of a sound a haptic signal keeps, as ``pacini compare`` does.
 
-    Both are files, or samples as :func:`encode` takes them at `sample_rate` (`candidate_rate` where the other's is not
-    the same); a clip or a scene is rendered as it is. `onsets` are when events of the sound are known to happen in s,
-    `events` those of the candidate (else they are found in it), `ambiguous` ones count neither way. Samples that are
-    no numbers or far beyond full scale are errors, or with `allow_nan` silence, and so are those around them that they
-    reach through filters; :attr:`Comparison.not_finite` tells how many there are.
+    Parameters
+    ----------
+    reference : path or array
+        The sound: a file, or samples as of :func:`encode`.
+    candidate : path, array, Clip or Scene
+        What is felt. A clip or a scene is rendered without an actuator.
+    sample_rate, candidate_rate : float, optional
+        Rates of arrays, 2000 to 768000 Hz; that of the candidate is by default the same, for clips 48000.
+    axis : int, default -1
+        Axis of the frames of arrays.
+    onsets : sequence of float, optional
+        When events of the sound happen, s. Needed for `f1`.
+    events : sequence of float, optional
+        When events of the candidate happen, s [found in it].
+    ambiguous : sequence of float, optional
+        Onsets that count neither as hits nor as misses, s.
+    allow_nan : bool, default False
+        Take samples that are not finite, or far beyond full scale, as silence, with all that filters make of them;
+        :attr:`Comparison.not_finite` counts them.
+    allow_truncated : bool, default False
+        Compare the part that remains of truncated files.
+
+    Returns
+    -------
+    Comparison
+
+    Raises
+    ------
+    Error
+        A file cannot be read, a rate is missing or out of its range, a sample is not finite.
     """
     source, source_rate = _read_for_comparison(reference, sample_rate, axis, "sample_rate", allow_truncated)
     if isinstance(candidate, (Clip, Scene)):
@@ -562,7 +797,27 @@ def compare(
 def read_audio(
     path: PathLike, *, allow_nan: bool = False, allow_truncated: bool = False
 ) -> tuple[npt.NDArray[np.float32], int]:
-    """The samples of an audio file as (frames,) or (channels, frames), full scale 1, and its rate in Hz."""
+    """Reads an audio file.
+
+    Parameters
+    ----------
+    path : path
+        A file of any format that Pacini reads.
+    allow_nan, allow_truncated : bool, default False
+        As of :func:`encode`.
+
+    Returns
+    -------
+    samples : array of float32, (frames,) or (channels, frames)
+        Full scale is 1.
+    sample_rate : int
+        Hz.
+
+    Raises
+    ------
+    Error
+        The file cannot be read. What the reader lets pass is a warning.
+    """
     samples, rate = _read_samples(path, allow_nan, allow_truncated, False)
     return (samples[:, 0] if samples.shape[1] == 1 else samples.T), rate
 
@@ -576,17 +831,57 @@ def write_audio(
     encoding: str = "float32",
     overwrite: Optional[bool] = None,
 ) -> int:
-    """Writes a WAV or FLAC file (float32, pcm24 or pcm16) that is complete or not there. Returns how many samples were
-    beyond full scale and clipped.
+    """Writes a WAV or FLAC file, which is complete or not there.
 
-    A sound that is there may be a recording: it is replaced only if `overwrite` is True, or if ``pacini`` marked it as
-    rendered and nobody changed it since; with False nothing is replaced."""
+    Parameters
+    ----------
+    path : path
+        Where; the extension, .wav or .flac, decides the format.
+    sound : array of float32 or float64, (frames,) or (channels, frames)
+        Full scale is 1.
+    sample_rate : float
+        2000 to 768000 Hz.
+    axis : int, default -1
+        Axis of the frames.
+    encoding : str, default "float32"
+        ``"float32"`` (WAV only), ``"pcm24"`` or ``"pcm16"``.
+    overwrite : bool, optional
+        None replaces only what ``pacini`` rendered and nobody changed since: any other sound may be a recording. True
+        replaces every file, False none.
+
+    Returns
+    -------
+    int
+        Number of samples beyond full scale, which were clipped.
+
+    Raises
+    ------
+    Error
+        The file exists and is not replaced, or cannot be written.
+    """
     return _native.write_audio(os.fsdecode(path), as_sound(sound, axis), as_rate(sample_rate), encoding, overwrite)
 
 
 def convert(path: PathLike, output: PathLike, **options: Any) -> list[Any]:
-    """Reads a clip of any format and writes it to another; returns what that loses. Options as of
-    :meth:`Clip.save`."""
+    """Converts a clip file to another format.
+
+    Parameters
+    ----------
+    path : path
+        A clip of any format that is read.
+    output : path
+        Where; see :meth:`Clip.save`, whose options apply.
+
+    Returns
+    -------
+    list of Loss
+        What the format loses or changes.
+
+    Raises
+    ------
+    Error
+        The clip cannot be read or written.
+    """
     clip = Clip.load(path)
     if os.path.exists(output) and os.path.samefile(path, output):
         raise Error("is both input and output; name another output", os.fsdecode(output), "io")
@@ -594,13 +889,42 @@ def convert(path: PathLike, output: PathLike, **options: Any) -> list[Any]:
 
 
 def lint(content: Union[Clip, PathLike], format: str, **options: Any) -> list[Any]:
-    """What a clip would lose in a format."""
+    """States what a clip would lose in a format, without writing it.
+
+    Parameters
+    ----------
+    content : Clip or path
+        The clip.
+    format : str
+        Name of one of :func:`formats`.
+    **options
+        As of :meth:`Clip.save`.
+
+    Returns
+    -------
+    list of Loss
+    """
     clip = content if isinstance(content, Clip) else Clip.load(content)
     return clip.lint(format, **options)
 
 
 def read(path: PathLike) -> Union[Clip, Scene]:
-    """A clip of any format, or a scene."""
+    """Reads a clip of any format, or a scene.
+
+    Parameters
+    ----------
+    path : path
+        The file.
+
+    Returns
+    -------
+    Clip or Scene
+
+    Raises
+    ------
+    Error
+        The file is neither, or cannot be read.
+    """
     try:
         with open(path, "rb") as file:
             start = file.read(4096)

@@ -13,10 +13,29 @@ from ._profile import AnyProfile, Profile, as_profile
 
 
 class Translator:
-    """Sound in, touch out, as the plugin does it: blocks of any length of mono sound become blocks of drive.
+    """Translates mono sound to touch block by block, as the plugin does.
 
-    ``translator.params["rumble"]`` and the others are read and, by :meth:`set`, changed while it runs. The drive comes
-    :attr:`latency` frames after the sound. Pickling keeps set-up and parameters, not what it has heard.
+    The drive comes :attr:`latency` frames after the sound. Pickling keeps set-up and parameters, not what was heard.
+
+    Parameters
+    ----------
+    sample_rate : float, default 48000
+        8000 to 768000 Hz.
+    profile : Profile, str or path, optional
+        The actuator; without it the drive is flat.
+    bands : int, default 6
+        Number of bands, 1 to 32.
+    max_boost, strength : float
+        As of :func:`render`.
+    preset : str, optional
+        Name of one of :meth:`presets`.
+    **params
+        Parameters of the plugin, by the names in :attr:`params`; they override the preset.
+
+    Raises
+    ------
+    Error
+        A parameter is out of its range.
     """
 
     def __init__(
@@ -49,14 +68,37 @@ class Translator:
 
     @property
     def params(self) -> dict[str, Any]:
+        """The parameters and their values; :meth:`set` changes them."""
         return self._handle.params()
 
     def set(self, **params: Any) -> None:
-        """Changes parameters smoothly; right after :meth:`reset` at once."""
+        """Changes parameters smoothly; right after :meth:`reset` at once.
+
+        Parameters
+        ----------
+        **params
+            By the names in :attr:`params`.
+
+        Raises
+        ------
+        Error
+            A value is out of its range.
+        """
         self._handle.set_params(params)
 
     def process(self, block: FloatArray) -> npt.NDArray[np.float32]:
-        """The next block of drive, as long as this block of sound, of which samples that are no numbers are silence."""
+        """Translates the next block.
+
+        Parameters
+        ----------
+        block : array of float32 or float64, (frames,)
+            Mono sound of any length. Samples that are not finite count as silence.
+
+        Returns
+        -------
+        array of float32, (frames,)
+            The drive, as many frames.
+        """
         return np.asarray(self._handle.process(as_sound(block, -1)), np.float32)
 
     __call__ = process

@@ -32,8 +32,23 @@ GRAVITY = 9.80665
 
 @dataclass(frozen=True)
 class Sweep:
-    """What is played to measure, and its description, which the analysis needs. `levels` are those that are played, dB
-    re full scale; `lowered` by how much an equaliser made it necessary to lower them."""
+    """Test signal of a measurement, with its description, which the analysis needs.
+
+    Attributes
+    ----------
+    signal : array of float32, (frames,)
+        The sound to play.
+    sample_rate : int
+        Hz.
+    description : str
+        JSON, as ``pacini measure sweep`` writes it.
+    levels : list of float
+        Peak levels of the sweeps, dB re full scale.
+    lowered, gain : float
+        Level that was taken away because an equaliser would pass full scale, and gain of the equaliser, dB.
+    equalized_for : str
+        Name of the profile whose equaliser was applied; empty without one.
+    """
 
     signal: npt.NDArray[np.float32]
     sample_rate: int
@@ -69,8 +84,34 @@ def sweep(
     sample_rate: float = 48000,
     profile: Optional[AnyProfile] = None,
 ) -> Sweep:
-    """The sweeps of a measurement: from `low` to `high` Hz, each `duration` s long, at each of the `levels` (dB re full
-    scale; several show where distortion begins). With a `profile` they go through its equaliser, to verify it."""
+    """Makes the test signal of a measurement: exponential sweeps.
+
+    Parameters
+    ----------
+    low, high : float, optional
+        Frequencies at the two ends, Hz [10; through an equaliser a little below the profile's range] and [1500].
+    duration : float, default 20
+        Length of a sweep, s; doubling it improves the signal-to-noise ratio by 3 dB.
+    pause : float, default 1
+        Silence between sweeps, s; longer than the decay of the actuator.
+    repeats : int, default 1
+        Sweeps at each level, 1 to 100.
+    levels : sequence of float
+        Peak levels, dB re full scale. Several show the onset of distortion.
+    sample_rate : float, default 48000
+        2000 to 384000 Hz.
+    profile : Profile, str or path, optional
+        Apply the equaliser of this profile, to verify it.
+
+    Returns
+    -------
+    Sweep
+
+    Raises
+    ------
+    Error
+        A parameter is out of its range.
+    """
     rate = as_rate(sample_rate)
     handle = None if profile is None else as_profile(profile)._handle
     signal, about = _native.make_sweep(
@@ -89,8 +130,15 @@ def sweep(
 
 @dataclass(frozen=True)
 class Recording:
-    """Channels of a recording: up to three axes of an accelerometer, or a microphone, as (frames,) or (channels,
-    frames)."""
+    """Recording of a sweep.
+
+    Attributes
+    ----------
+    samples : array, (frames,) or (channels, frames)
+        Up to three axes of an accelerometer, or a microphone; full scale is 1.
+    sample_rate : int
+        Hz.
+    """
 
     samples: FloatArray
     sample_rate: int
@@ -118,8 +166,44 @@ def simulate(
     bits: int = 12,
     seed: int = 1,
 ) -> Recording:
-    """What an accelerometer on a worn actuator would record, to learn and to test by. `range` is in g; `noise` in
-    millionths of g per root of Hz, `latency` in s, `drift` of the clocks in ppm, `contact` in dB."""
+    """Simulates what an accelerometer on a worn actuator would record.
+
+    Parameters
+    ----------
+    sweep : Sweep
+        What is played.
+    profile : Profile, str or path
+        An actuator with a model of the body; its equaliser is not applied.
+    wearer : int, default 0
+        0 has the skin of the profile, 1 to 14 are simulated people.
+    contact : float, default 0
+        Level of a loose or a tight fit, -60 to 20 dB.
+    latency : float, default 0.012
+        Latency of player and recorder together, 0 to 1 s.
+    drift : float, default 50
+        Deviation of the recorder's clock, -5000 to 5000 ppm.
+    noise : float, default 250
+        Noise of the sensor, millionths of g per root of Hz.
+    distortion : float, default 0
+        Third-order distortion: factor of the cube of the drive, -1 to 1.
+    range : float, default 5
+        Acceleration at which the sensor clips, g.
+    axes : int, default 3
+        3, with a random orientation, or 1, along the movement.
+    bits : int, default 12
+        Resolution of the converter, 4 to 24.
+    seed : int, default 1
+        Seed of noise and orientation.
+
+    Returns
+    -------
+    Recording
+
+    Raises
+    ------
+    Error
+        A parameter is out of its range, or the profile has no model of the body.
+    """
     samples = _native.simulate_recording(
         sweep.signal, float(sweep.sample_rate), as_profile(profile)._handle, wearer, contact, latency, drift, noise,
         distortion, range, axes, bits, seed,
@@ -179,10 +263,37 @@ def analyse(
     name: str = "",
     progress: Progress = None,
 ) -> Measurement:
-    """Finds the response of an actuator from recordings of a sweep, of one actuator attached anew or on other people.
+    """Finds the response of an actuator from recordings of a sweep.
 
-    `full_scale` is the acceleration (m/s^2) of a sample of 1, for all channels or for each; `profile` has what was not
-    measured, such as limits of the drive.
+    Parameters
+    ----------
+    recordings : Recording, path, or sequence of these
+        One, or several of the same actuator attached anew or on other people.
+    sweep : Sweep or path
+        What was played: the sweep, or the file that describes it.
+    full_scale : float or sequence of float, default 1
+        Acceleration of a sample of 1, m/s^2, for all channels or for each.
+    smoothing : float, default 1/12
+        Bandwidth of the power average, octaves.
+    points : int, default 240
+        Points of the response, evenly spaced in octaves, 8 to 4096.
+    distortion_limit : float, default 10
+        Distortion whose drive level is stated, 0.01 to 100 %.
+    profile : Profile, str or path, optional
+        Has what was not measured, such as limits of the drive.
+    name : str, optional
+        Name of the new profile.
+    progress : bool or callable, optional
+        As of :func:`pacini.encode`.
+
+    Returns
+    -------
+    Measurement
+
+    Raises
+    ------
+    Error
+        A recording cannot be read, or does not have the sweep in it.
     """
     listed: list[AnyRecording] = (
         [recordings] if isinstance(recordings, Recording) or is_path(recordings) else list(recordings)
@@ -240,7 +351,21 @@ def _level(entry: dict[str, Any]) -> Level:
 
 @dataclass(frozen=True)
 class Section:
-    """A section of an equaliser: peak, lowShelf, highShelf or highpass."""
+    """A section of an equaliser.
+
+    Attributes
+    ----------
+    type : str
+        ``"peak"``, ``"lowShelf"``, ``"highShelf"`` or ``"highpass"``.
+    frequency : float
+        Hz.
+    gain : float
+        dB.
+    q : float
+        Quality factor.
+    order : int
+        Order of a high-pass.
+    """
 
     type: str
     frequency: float
@@ -251,7 +376,21 @@ class Section:
 
 @dataclass(frozen=True)
 class Fit:
-    """An equaliser: what it leaves of the deviation from the mean (dB), and the profile with it, if one was given."""
+    """An equaliser, and how flat it makes the response.
+
+    Attributes
+    ----------
+    sections : list of Section
+        Its sections.
+    rms, max : float
+        Deviation from the mean that remains, dB.
+    level, boost : float
+        Mean level of the flat response, and largest boost, dB.
+    reached_goal : bool
+        Whether `max` is within the goal.
+    profile : Profile or None
+        The profile with the equaliser.
+    """
 
     sections: list[Section]
     rms: float
@@ -276,8 +415,40 @@ def fit(
     boost_outside: bool = False,
     peaks_only: bool = False,
 ) -> Fit:
-    """The equaliser that makes a response as flat as can be: of a measurement, of a profile with one, or frequencies
-    and levels. `sections` is their number, 1 to 16, or as few as reach the `goal` (dB)."""
+    """Fits the equaliser that flattens a response.
+
+    Parameters
+    ----------
+    response : Measurement, Profile, str, path, or (frequencies, levels)
+        What was measured; Hz and dB.
+    profile : Profile, str or path, optional
+        Receives the equaliser of a response of frequencies and levels.
+    sections : int, optional
+        Number of sections, 1 to 16 [the smallest that reaches the goal].
+    sample_rate : float, default 48000
+        Rate of the equaliser, 1000 to 10000000 Hz.
+    max_boost : float, default 12
+        Largest boost at any frequency, 0 to 40 dB.
+    goal : float, default 2
+        Largest deviation that decides the number of sections, dB; the RMS limit is a quarter of it.
+    low, high : float, optional
+        Range to flatten, Hz [that of the profile, else of the response].
+    highpass : float, optional
+        Frequency of a high-pass of order 5 that protects the actuator, 1 to 20000 Hz.
+    boost_outside : bool, default False
+        Allow boost outside of the range; below it this takes much power and travel.
+    peaks_only : bool, default False
+        Use no shelving filters.
+
+    Returns
+    -------
+    Fit
+
+    Raises
+    ------
+    Error
+        The response is missing or not valid, or a parameter is out of its range.
+    """
     target: Optional[Profile] = None if profile is None else as_profile(profile)
     measured = False
     if isinstance(response, Measurement):
@@ -342,8 +513,28 @@ def verify(
     low: Optional[float] = None,
     high: Optional[float] = None,
 ) -> Verification:
-    """Judges what was measured of a sweep that went through the profile's equaliser: whether it stays within
-    `tolerance` dB of its mean."""
+    """Judges whether an actuator is flat through its equaliser.
+
+    Parameters
+    ----------
+    measurement : Measurement or (frequencies, levels)
+        Response to a sweep that went through the equaliser; Hz and dB.
+    profile : Profile, str or path
+        The profile with the equaliser.
+    tolerance : float, default 4
+        Largest deviation from the mean, dB.
+    low, high : float, optional
+        Range that is judged, Hz [that of the profile].
+
+    Returns
+    -------
+    Verification
+
+    Raises
+    ------
+    Error
+        The response is not valid, or a parameter is out of its range.
+    """
     frequency, level = (
         (measurement.frequency, measurement.level) if isinstance(measurement, Measurement) else measurement
     )

@@ -398,22 +398,48 @@ def encode(
     progress: Progress = None,
     **options: Any,
 ) -> Any:
-    """Encodes sounds on the machines of a Ray cluster, and returns a :class:`pyarrow.Table` with a row for each.
+    """Encodes sounds on the machines of a Ray cluster.
 
-    `sounds` is a folder, a file or a list of files, `output` a folder; both may be URLs. `address` is the cluster's
-    ("auto", "ray://host:10001"); None is one that this program is connected to already, or this machine alone. With
-    `compare` each clip is rendered and compared with its sound. `options` are those of :func:`pacini.encode`; what is
-    wrong with them is raised before anything is done. A file that is no clip of this sound as Pacini made it is
-    replaced only if `overwrite` is True; a sound never is.
+    A run that was stopped is taken up by calling it again: clips that are up to date are left alone, with their
+    measures. A sound that fails keeps the figures of the clip that is still there.
 
-    Rows have the size, SHA-256, duration, breakpoints and events of the clip, `match` and `hts` where they were asked
-    for, the seconds of work, and `error` with `where` for a sound that could not be read; the others go on. The table
-    is ``run.parquet`` in the output's folder, too. A run that was stopped is taken up by calling it again: what is up
-    to date is left alone, with its measures. A sound that fails keeps the figures of the clip that is still there.
+    Parameters
+    ----------
+    sounds : path, URL, or list of these
+        A folder, a file or several files.
+    output : path or URL
+        Folder of the clips.
+    address : str, optional
+        Address of the cluster, such as ``"auto"`` or ``"ray://host:10001"`` [the one that this program is connected to,
+        else this machine alone].
+    format : str
+        Name of one of :func:`pacini.formats`.
+    compare : bool, default False
+        Render each clip and compare it with its sound.
+    overwrite : bool, default False
+        Replace files that are not clips of this sound as Pacini made them. A sound is never replaced.
+    batch : int, default 32
+        Sounds in one task. At most two batches wait for each processor, so that memory does not depend on the number
+        of sounds.
+    retries : int, default 3
+        How often the batch of a worker that died is tried again. Then its sounds are tried one by one, and the one
+        that kills workers has an error.
+    progress : bool or callable, optional
+        As of :func:`pacini.encode`.
+    **options
+        As of :func:`pacini.encode`. Errors in them are raised before anything is done.
 
-    At most two batches of `batch` sounds wait for each processor, so that memory does not depend on the number of
-    sounds. A worker that dies is replaced, and its batch is tried again, `retries` times; then its sounds are tried one
-    by one, and the one that kills workers has an error. Raises :class:`pacini.Error`.
+    Returns
+    -------
+    pyarrow.Table
+        A row for each sound, also written as ``run.parquet`` into the folder: size, SHA-256, duration, breakpoints and
+        events of the clip, `match` and `hts` if compared, seconds of work, and `error` with `where` for a sound that
+        failed; the others go on.
+
+    Raises
+    ------
+    Error
+        An option, a folder or the cluster is not usable.
     """
     ray = _module("ray", "pacini.ray")
     arrow = _module("pyarrow", "the table of pacini.ray")
