@@ -80,12 +80,12 @@ try {
   if (failures()) console.log(problems, await text('error'), await text('status'))
 
   // Export: the bytes of the program.
-  const save = async (format, extension) => {
+  const save = async (format, extension, name = 'knock') => {
     await tab.select('#format', format)
     await wait(300)
     for (const file of readdirSync(downloads)) rmSync(join(downloads, file))
     await tab.click('#save')
-    const path = join(downloads, `knock${extension}`)
+    const path = join(downloads, `${name}${extension}`)
     return await until(() => existsSync(path) && readdirSync(downloads).every((file) => !file.endsWith('.crdownload'))) ? readFileSync(path) : undefined
   }
   // The page's knobs say what the program does by itself.
@@ -201,6 +201,15 @@ try {
   await tab.select('#profile', 'erm-coin')
   await wait(500)
 
+  // The clip's name, which its files have; a step as any other.
+  const named = async (name) => {
+    await tab.$eval('#name', (input, value) => { input.value = value; input.dispatchEvent(new Event('change')) }, name)
+    return until(() => tab.$eval('#undo', ({ title }) => title === 'Rename'))
+  }
+  check('a clip is renamed', await named('my knock') && JSON.parse(await save('json', '.json', 'my knock')).name === 'my knock')
+  await tab.click('#undo')
+  check('and that is undone', await until(() => tab.$eval('#name', ({ value }) => value === 'knock')))
+
   // A link that holds the clip.
   await tab.click('#share')
   await until(() => tab.evaluate(() => globalThis.copied !== ''))
@@ -272,6 +281,8 @@ try {
   check('and runs on the microphone', await until(async () => (await text('feel-status')).includes('microphone')), await text('error'))
   await tab.click('#live')
   await tab.click('#record')
+  check('a recording shows its level and time', await until(async () => /^Recording: [\d.]+ s$/.test(await text('status')) &&
+    await tab.$eval('#record-level', ({ hidden, value }) => !hidden && value > -60)), await text('status'))
   await wait(1500)
   await tab.click('#record')
   check('a recording is analysed', await until(() => tab.$eval('#lanes', (canvas) => canvas.getAttribute('aria-label').startsWith('recording'))) && await analysed(), await text('figures'))
@@ -390,6 +401,11 @@ try {
       }
   }
   await tab.setViewport({ width: 390, height: 844 })
+  await tab.evaluate(() => document.getElementById('lanes').scrollIntoView())
+  check('on a phone what plays stays in view', await tab.$$eval('.player button', (all) => all.length === 6 && all.every((one) => {
+    const { top, bottom } = one.getBoundingClientRect()
+    return top >= 0 && bottom <= innerHeight
+  })))
   check('nothing is wider than a phone', await tab.evaluate(() => document.documentElement.scrollWidth <= innerWidth))
   check('no request leaves the page\'s place', elsewhere.length === 0, elsewhere.join(' '))
   check('and nothing went wrong unseen', problems.length === 0, problems.join('\n'))

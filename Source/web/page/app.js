@@ -53,6 +53,11 @@ const guarded = (work) => async (...parameters) => {
     complain(error)
   }
 }
+/** Values of sliders with their units, by their data-shown. */
+const shownAs = { percent: (value) => `${Math.round(100 * value)} %`, perSecond: (value) => `${value} / s`, times: (value) => `\u00d7 ${value}` }
+const showValue = (slider) => {
+  slider.parentElement.querySelector('output').value = (shownAs[slider.dataset.shown] ?? String)(slider.value)
+}
 const on = (id, event, work) => element(id).addEventListener(event, guarded(work))
 const later = (work, milliseconds) => {
   let timer
@@ -216,7 +221,7 @@ const knobs = {
   },
   put(id, value) {
     element(id).value = value
-    element(id).parentElement.querySelector('output').value = element(id).value
+    showValue(element(id))
   },
   showPreset() {
     const own = knobs.all()
@@ -264,6 +269,7 @@ const show = async () => {
   element('welcome').hidden = true
   for (const id of ['clip', 'export']) element(id).hidden = false
   element('link').parentElement.hidden = true // of what was before
+  element('name').value = document.name
   element('lanes').setAttribute('aria-label',
     `${document.name}: ${view.clip.duration.toFixed(2)} s, ${counted(view.clip.bands.length, 'band')}, ${counted(view.clip.transients.length, 'event')}`)
   for (const id of ['play-sound', 'play-both', 'preset', 'bands', 'breakpoints', 'sensitivity', 'spectrogram']) element(id).disabled = !mono
@@ -363,7 +369,7 @@ const resumed = async (id, wait) => {
   if (felt) {
     element('profile').value = felt.profile
     element('strength').value = felt.strength
-    element('strength').parentElement.querySelector('output').value = element('strength').value
+    showValue(element('strength'))
   }
   return await claim(id, wait) ? document : copied = { ...document, id: newId() }
 }
@@ -371,8 +377,9 @@ const resumed = async (id, wait) => {
 // What the measures of a comparison say, best first.
 const measures = [
   ['hts', 'HTS: likeness of envelope, bands, spectrum and events', (x) => `${x.toFixed(1)} of 100`],
-  ['ceiling', 'HTS of the sound below 1 kHz with itself: what can be reached', (x) => `${x.toFixed(1)} of 100`],
-  ['match', 'Match: what people would say of it, predicted', (x) => `${x.toFixed(1)} of 100`],
+  ['ceiling', 'HTS of the sound itself', (x) => `${x.toFixed(1)} of 100`],
+  ['match', 'Match: what people would say of it, predicted (35: nothing is felt)', (x) => `${x.toFixed(1)} of 100`],
+  ['matchOfSound', 'Match of the sound itself', (x) => `${x.toFixed(1)} of 100`],
   ['lsd', 'Distance of the spectra', (x) => `${x.toFixed(2)} dB`],
   ['centroidError', 'Error of the centre of the spectrum', (x) => `${x.toFixed(2)} semitones`],
   ['outOfBand', 'Energy outside of what is felt', (x) => `${x.toFixed(1)} dB`]
@@ -473,17 +480,23 @@ const stop = () => {
   playing = undefined
   look()
 }
+const isLooped = () => element('loop').getAttribute('aria-pressed') === 'true'
+/** Plays from the playhead until `work` ends; again and again while Loop is on. */
 const playThat = async (work) => {
   stop()
   const own = playing = { time: cursor, control: new AbortController() }
+  const { signal } = own.control
   try {
-    return await work({
-      from: cursor, signal: own.control.signal,
-      moved: (time) => {
-        own.time = time
-        look()
-      }
-    })
+    do {
+      const played = await work({
+        from: cursor, signal,
+        moved: (time) => {
+          own.time = time
+          look()
+        }
+      })
+      if (played === false) return
+    } while (isLooped() && !signal.aborted)
   } finally {
     if (playing === own) stop()
   }
@@ -496,7 +509,7 @@ const drivePart = async () => {
 const feelIt = () => playThat(async (how) => {
   if (!feelsNow()) {
     element('feel-status').textContent = describeFeel()
-    return
+    return false
   }
   const started = performance.now()
   const tick = () => {
@@ -518,6 +531,27 @@ const switchLive = () => live.isOn ? live.stop() : live.start(profileOption().pr
 
 // ---- record
 
+/** Shows level and time of a recording until `signal` ends it. */
+const watchLevel = (stream, signal) => {
+  const context = new AudioContext(), meter = element('record-level')
+  const analyser = new AnalyserNode(context, { fftSize: 2048 })
+  const samples = new Float32Array(analyser.fftSize), started = performance.now()
+  context.createMediaStreamSource(stream).connect(analyser)
+  meter.hidden = false
+  const tick = () => {
+    if (signal.aborted) {
+      meter.hidden = true
+      context.close()
+      return
+    }
+    analyser.getFloatTimeDomainData(samples)
+    meter.value = 20 * Math.log10(Math.max(1e-3, samples.reduce((most, x) => Math.max(most, Math.abs(x)), 0)))
+    say(`Recording: ${((performance.now() - started) / 1000).toFixed(1)} s`)
+    requestAnimationFrame(tick)
+  }
+  tick()
+}
+
 let recording // AbortController
 const record = async () => {
   if (recording) return recording.abort()
@@ -529,7 +563,9 @@ const record = async () => {
   showWhether(true)
   const recorded = []
   try {
-    const recorder = new MediaRecorder(await microphone(true, signal))
+    const stream = await microphone(true, signal)
+    watchLevel(stream, signal)
+    const recorder = new MediaRecorder(stream)
     recorder.ondataavailable = ({ data }) => recorded.push(data)
     recorder.start()
     await new Promise((resolve) => { recorder.onstop = resolve }) // with its microphone
@@ -574,11 +610,9 @@ const travel = async (way) => {
 }
 
 for (const input of document.querySelectorAll('input[type=range]')) {
-  const output = input.parentElement.querySelector('output')
-  const showValue = () => { output.value = input.value }
   guardSlider(input)
-  input.addEventListener('input', showValue)
-  showValue()
+  input.addEventListener('input', () => showValue(input))
+  showValue(input)
 }
 for (const input of document.querySelectorAll('input[type=number]')) guardNumber(input)
 for (const [key, profile] of Object.entries(profiles)) element('profile').add(new Option(profile.name ?? key, key))
@@ -629,6 +663,12 @@ on('play-drive', 'click', () => playThat(async (how) => {
 }))
 on('play-both', 'click', () => playThat(async (how) =>
   playPair(soundPart(), await drivePart(), { ...how, channel: Number(element('channel').value) })))
+on('loop', 'click', () => element('loop').setAttribute('aria-pressed', String(!isLooped())))
+on('name', 'change', async ({ target }) => {
+  const name = target.value.trim() || history.now.name, { now } = history
+  target.value = name
+  if (name !== now.name) await take('Rename', { ...now, name, analysis: { ...now.analysis, name }, clip: { ...now.clip, name } })
+})
 on('comparison', 'toggle', () => element('comparison').open ? compare() : undefined)
 on('spectrogram', 'click', () => {
   pictureWanted = !pictureWanted
@@ -642,10 +682,19 @@ on('controller', 'click', async () => {
   element('feel-status').textContent = describeFeel()
 })
 on('file', 'change', async ({ target }) => {
-  const [file] = target.files
+  const files = [...target.files]
   target.value = ''
-  if (file) await open(file.name, file.arrayBuffer())
+  await openAll(files)
 })
+/** Opens one file after the other: the last one stays, and the others wait below "continue with". */
+const openAll = async (files) => {
+  for (const [i, file] of files.entries()) {
+    const own = opened + 1
+    await open(file.name, file.arrayBuffer()).catch(complain)
+    if (own !== opened) return // something else was opened meanwhile
+    if (files.length > 1) say(`${i + 1} of ${files.length} opened. The others are below "continue with".`)
+  }
+}
 const openExample = (file) => open(file, fetch(`gallery/${file}`).then((answer) => {
   if (!answer.ok) throw new Error(`${file} cannot be loaded. Is the network there?`)
   return answer.arrayBuffer()
@@ -669,12 +718,11 @@ document.addEventListener('dragleave', ({ relatedTarget }) => { if (!relatedTarg
 document.addEventListener('drop', guarded(async (dropped) => {
   dropped.preventDefault()
   document.body.classList.remove('dropping')
-  const [file] = dropped.dataTransfer.files
-  if (file) await open(file.name, file.arrayBuffer())
+  await openAll([...dropped.dataTransfer.files])
 }))
 document.addEventListener('keydown', (event) => {
   if (event.key === 'Escape') stopAll()
-  const typing = event.target instanceof HTMLInputElement && event.target.type === 'number'
+  const typing = event.target instanceof HTMLInputElement && ['number', 'text'].includes(event.target.type)
   if ((event.ctrlKey || event.metaKey) && !typing && view.clip) {
     const way = event.key.toLowerCase() === 'y' || (event.key.toLowerCase() === 'z' && event.shiftKey) ? 'redo'
       : event.key.toLowerCase() === 'z' ? 'undo' : undefined

@@ -99,9 +99,8 @@ export class Lanes {
     this.#handles(context, pointsOf(clip, lane), selected, edited, this.#colours[lane === 'events' ? 'event' : 'accent'])
     const loudest = clip.bands.reduce((most, { amplitude }) => amplitude.reduce((m, point) => Math.max(m, point.amplitude), most), 1e-3)
     const each = bandBox.height / Math.max(1, clip.bands.length)
-    clip.bands.forEach((band, i) => this.#curve(context, band.amplitude,
-      { x: left, y: bandBox.y + bandBox.height - (i + 1) * each, width: this.#width, height: each * 0.92 },
-      this.#colours[i === lane ? 'text' : 'accent'], loudest))
+    clip.bands.forEach((band, i) => this.#heat(context, band.amplitude,
+      { x: left, y: bandBox.y + bandBox.height - (i + 1) * each, width: this.#width, height: each }, loudest, i === lane))
     if (drive) this.#wave(context, drive, driveRate, driveBox, this.#colours.drive)
     if (time !== undefined) {
       context.fillStyle = this.#colours.text
@@ -110,7 +109,7 @@ export class Lanes {
     context.restore()
     this.#label(context, picture ? 'sound, 20 Hz to 2 kHz' : sound ? 'sound' : 'no sound with this clip', soundBox)
     if (this.top < 1) this.#label(context, `to ${this.top}`, edited)
-    this.#label(context, clip.bands.length === 1 ? '1 band' : `${clip.bands.length} bands, high ones on top`, bandBox)
+    this.#label(context, clip.bands.length === 1 ? '1 band' : `${clip.bands.length} bands${this.#span(clip.bands)}`, bandBox)
     this.#label(context, 'what the actuator plays', driveBox)
     this.#times(context, clip.duration)
   }
@@ -184,6 +183,31 @@ export class Lanes {
     context.globalAlpha = 1
     context.strokeStyle = fill
     context.stroke()
+  }
+
+  /** A band as a row, the brighter the stronger: 48 dB below the loudest is dark. */
+  #heat(context, points, box, loudest, isEdited) {
+    context.fillStyle = this.#colours.accent
+    const end = points.at(-1)?.time ?? 0
+    for (let x = Math.max(0, this.xAt(0) - box.x); x < box.width; x += 2) {
+      const time = this.timeAt(box.x + x + 1)
+      if (time > end) break
+      const amplitude = points.length > 0 && time >= points[0].time ? valueAt(points, time) : 0
+      const level = 1 + 20 * Math.log10(Math.max(amplitude, 1e-9) / loudest) / 48
+      if (level <= 0) continue
+      context.globalAlpha = Math.min(1, level) ** 1.5
+      context.fillRect(box.x + x, box.y, 2, box.height - 1)
+    }
+    context.globalAlpha = 1
+    if (!isEdited) return
+    context.strokeStyle = this.#colours.text
+    context.strokeRect(box.x, box.y - 0.5, box.width, box.height)
+  }
+
+  /** Where bands lie, such as ", 30 to 1000 Hz from below". */
+  #span(bands) {
+    const edges = bands.flatMap(({ lowFrequency, highFrequency }) => [lowFrequency, highFrequency]).filter(Number.isFinite)
+    return edges.length === 0 ? '' : `, ${Math.round(Math.min(...edges))} to ${Math.round(Math.max(...edges))} Hz from below`
   }
 
   #events(context, clip, box, opacity) {
