@@ -5,6 +5,7 @@
 #include "document/ClipSnapshot.h"
 #include "document/Project.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -15,6 +16,13 @@
 
 namespace pacini
 {
+
+/// Ids for what is new in a project.
+struct NewIds
+{
+    int clip = 1;
+    int source = 1;
+};
 
 /// All states of a project, each with the name of the step that led to it. A step takes memory only for its changes:
 /// states share clips in chunks.
@@ -38,18 +46,17 @@ public:
         states.back().id = nextId++;
     }
 
-    /// What is no step: `change` is made to every state (without its clips), and `added` put behind the clips of each.
-    /// `now` is the current project with both; its clips, but for `added`, are those of the current state.
-    void amend(const Project& now, const std::shared_ptr<const ClipItem>& added,
-               const std::function<void(Project&)>& change)
+    /// What is no step: `change` is made to every state (without its clips), and the last `added` clips of `now` put
+    /// behind the clips of each. `now` is the current project with both; its other clips are those of the current
+    /// state.
+    void amend(const Project& now, std::size_t added, const std::function<void(Project&)>& change)
     {
         ProjectSnapshot current = freeze(now);
-        const auto frozen = added ? current.clips.back() : nullptr;
+        const auto last = static_cast<std::ptrdiff_t>(added);
         for (State& state : states)
         {
             change(state.project.bare);
-            if (frozen)
-                state.project.clips.push_back(frozen);
+            state.project.clips.insert(state.project.clips.end(), current.clips.end() - last, current.clips.end());
             state.id = nextId++;
         }
         states[position].project = std::move(current);
@@ -64,6 +71,13 @@ public:
 
     /// The name of the step that led to a state; empty for the first.
     [[nodiscard]] const std::string& name(std::size_t state) const { return states[state].name; }
+
+    /// The names of the steps that undo and redo would take; empty: there is none.
+    [[nodiscard]] std::string undoName() const { return canUndo() ? name(position) : ""; }
+    [[nodiscard]] std::string redoName() const { return canRedo() ? name(position + 1) : ""; }
+
+    /// Ids above those of all states that there are or have been.
+    [[nodiscard]] const NewIds& newIds() const noexcept { return ids; }
 
     /// A number that no other state of this history has or has had.
     [[nodiscard]] std::uint64_t id() const noexcept { return states[position].id; }
@@ -118,8 +132,11 @@ private:
         ProjectSnapshot frozen{project, {}};
         frozen.bare.clips.clear();
         decltype(live) now;
+        for (const AudioReference& source : project.sources)
+            ids.source = std::max(ids.source, source.id + 1);
         for (const auto& item : project.clips)
         {
+            ids.clip = std::max(ids.clip, item->id + 1);
             std::shared_ptr<const ItemSnapshot> kept;
             const ItemSnapshot* before = nullptr;
             for (const auto& [known, itsFrozen] : live)
@@ -170,6 +187,7 @@ private:
     std::vector<State> states;
     std::size_t position = 0;
     std::uint64_t nextId = 1;
+    NewIds ids;
     std::vector<std::pair<std::shared_ptr<const ClipItem>, std::shared_ptr<const ItemSnapshot>>>
         live; ///< of the current state
 };

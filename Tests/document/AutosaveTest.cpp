@@ -1,6 +1,8 @@
 #include "document/Autosave.h"
 
+#include "document/Amendments.h"
 #include "document/ProcessId.h"
+#include "document/ProjectEdits.h"
 #include "document/ProjectJson.h"
 #include "support/Catch.h"
 #include "support/RandomClip.h"
@@ -28,7 +30,7 @@ Document smallDocument()
     clip.name = "clip";
     clip.duration = 1.0;
     clip.envelope = {{0.0, 0.5}, {1.0, 0.25}};
-    (void)document.addClip(clip);
+    (void)addClip(document, clip);
     return document;
 }
 } // namespace
@@ -42,7 +44,7 @@ TEST_CASE("What was autosaved comes back as the unsaved project that it was")
     sound.path = folder / "s.wav";
     sound.hash = "0123456789abcdef";
     sound.embedded = std::make_shared<const std::string>(std::string("RIFF\0\xFF bytes", 12));
-    REQUIRE(document.addSound(sound, {}, *document.clip(1)->clip));
+    REQUIRE(addSound(document, sound, {}, *document.clip(1)->clip));
     {
         Autosave autosave(folder / "recovery");
         autosave.update(document.snapshot());
@@ -88,7 +90,7 @@ TEST_CASE("A change is on disk within a second, also right after another")
     Autosave autosave(folder / "recovery");
     autosave.update(document.snapshot());
     autosave.flush();
-    document.setProjectNotes("second", "Notes");
+    REQUIRE(document.commit("Notes", withProjectNotes(document.project(), "second")));
     autosave.update(document.snapshot());
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(1);
     std::string notes;
@@ -122,7 +124,7 @@ TEST_CASE("Discarding what one program has left keeps the sounds that another on
     AudioReference sound;
     sound.hash = "0123456789abcdef";
     sound.embedded = std::make_shared<const std::string>("RIFF");
-    REQUIRE(document.addSound(sound, {}, *document.clip(1)->clip));
+    REQUIRE(addSound(document, sound, {}, *document.clip(1)->clip));
     Autosave running(recovery);
     running.update(document.snapshot());
     running.flush();
@@ -184,12 +186,12 @@ TEST_CASE("A program killed at any time leaves a project that opens, with all bu
             // Edits as fast as it can; tells how many it had made when each state was handed over.
             Document document;
             Clip clip = test::randomFullClip(1, 400);
-            const int id = document.addClip(clip).value();
+            const int id = addClip(document, clip).value();
             Autosave autosave(recovery, std::chrono::milliseconds(1));
             for (int i = 1;; ++i)
             {
                 clip.name = std::to_string(i);
-                (void)document.setClip(id, "Edit", clip);
+                (void)document.commit("Edit", withClip(document.project(), id, clip));
                 autosave.update(document.snapshot());
                 if (i % 10 == 0)
                 {

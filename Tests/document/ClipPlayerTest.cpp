@@ -1,5 +1,6 @@
 #include "document/ClipPlayer.h"
 
+#include "document/Amendments.h"
 #include "document/Document.h"
 #include "document/HostedProject.h"
 #include "document/ProjectJson.h"
@@ -212,7 +213,7 @@ TEST_CASE("A session that has too much sound to be kept keeps the clips")
     sound.path = "capture 1.wav";
     sound.embedded = std::make_shared<const std::string>(HostedProject::largestText, 'x');
     sound.hash = "0123456789abcdef";
-    REQUIRE(document.addSound(sound, {}, *tone(1.0)));
+    REQUIRE(addSound(document, sound, {}, *tone(1.0)));
     HostedProject hosted;
     hosted.keep(document.project());
     const auto read = readProjectJson(hosted.text());

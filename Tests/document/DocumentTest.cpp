@@ -1,5 +1,7 @@
 #include "document/Document.h"
 
+#include "document/Amendments.h"
+#include "document/ProjectEdits.h"
 #include "io/ClipFile.h"
 #include "io/formats/json/ClipJson.h"
 #include "support/Catch.h"
@@ -62,13 +64,13 @@ void anyStep(Random& random, Document& document, int id)
     if (random.next() % 2 == 0)
     {
         if (auto edited = test::anyEdit(random, *item->clip); edited && breakpointCount(*edited) < 5000)
-            REQUIRE(document.setClip(id, "Edit", std::move(edited).value()));
+            REQUIRE(document.commit("Edit", withClip(document.project(), id, std::move(edited).value())));
         return;
     }
     const auto before = document.snapshot().state;
     if (breakpointCount(*item->clip) > 3000)
-        REQUIRE(document.edit(id, "Trim", TrimEdit{{0.0, 0.3 * item->clip->duration}}));
-    else if (!document.edit(id, "Operation", anyOperation(random, *item->clip)))
+        REQUIRE(document.commit("Trim", withEdit(document.project(), id, TrimEdit{{0.0, 0.3 * item->clip->duration}})));
+    else if (!document.commit("Operation", withEdit(document.project(), id, anyOperation(random, *item->clip))))
         CHECK(document.snapshot().state == before); // what is refused changes nothing
 }
 
@@ -85,7 +87,7 @@ TEST_CASE("Undoing everything gives the first project bit for bit, redoing every
     {
         Random random(seed);
         Document document;
-        const int id = document.addClip(fileClip(seed)).value();
+        const int id = addClip(document, fileClip(seed)).value();
         std::vector<std::string> texts = {writeClipJson(*document.clip(id)->clip)};
         std::vector<std::size_t> states = {document.steps().current()};
         for (int step = 0; step < 40; ++step)
@@ -119,12 +121,13 @@ TEST_CASE("The edits over an analysis make the clip again, bit for bit")
     {
         Random random(seed);
         Document document;
-        const int id = document.addClip(fileClip(seed)).value();
+        const int id = addClip(document, fileClip(seed)).value();
         for (int step = 0; step < 25; ++step)
             anyStep(random, document, id);
         const auto item = document.clip(id);
         const Clip analysis = *item->analysis;
-        REQUIRE(document.reanalyse(id, "Again", item->encoder, analysis));
+        REQUIRE(document.commit("Again", withAnalysis(document.project(), item->encoder, {id, analysis},
+                                                      document.steps().newIds().source)));
         INFO("seed " << seed);
         CHECK(document.clip(id)->unfitting.size() == 0);
         for (const auto& waiting : document.clip(id)->unfitting)
@@ -140,12 +143,13 @@ TEST_CASE("An edit of one of two bands with the same centre comes back on that o
     for (std::size_t band : {0u, 1u})
     {
         Document document;
-        const int id = document.addClip(clip).value();
+        const int id = addClip(document, clip).value();
         Clip edited = clip;
         edited.bands[band].amplitude = {{0.0, 0.25}, {clip.duration, 0.5}};
-        REQUIRE(document.setClip(id, "Edit", edited));
+        REQUIRE(document.commit("Edit", withClip(document.project(), id, edited)));
         const auto item = document.clip(id);
-        REQUIRE(document.reanalyse(id, "Again", item->encoder, Clip(*item->analysis)));
+        REQUIRE(document.commit("Again", withAnalysis(document.project(), item->encoder, {id, Clip(*item->analysis)},
+                                                      document.steps().newIds().source)));
         CHECK(document.clip(id)->unfitting.empty());
         CHECK(*document.clip(id)->clip == *item->clip);
     }
@@ -158,14 +162,14 @@ TEST_CASE("Edit, save, close, open, export: identical clips and edits")
     {
         Random random(seed);
         Document document;
-        const int id = document.addClip(fileClip(seed)).value();
-        const int other = document.addClip(fileClip(seed + 100)).value();
+        const int id = addClip(document, fileClip(seed)).value();
+        const int other = addClip(document, fileClip(seed + 100)).value();
         for (int step = 0; step < 20; ++step)
             anyStep(random, document, step % 3 == 0 ? other : id);
-        REQUIRE(document.setGroup(id, "group \"ä\"", "Group"));
-        REQUIRE(document.setNotes(other, "two\nlines", "Notes"));
-        document.setGroups({"group \"ä\"", "empty"}, "Groups");
-        document.setProjectNotes("all", "Notes");
+        REQUIRE(document.commit("Group", withGroup(document.project(), {id}, "group \"ä\"")));
+        REQUIRE(document.commit("Notes", withNotes(document.project(), other, "two\nlines")));
+        REQUIRE(document.commit("Groups", withGroups(document.project(), {"group \"ä\"", "empty"})));
+        REQUIRE(document.commit("Notes", withProjectNotes(document.project(), "all")));
         const auto path = folder / "sub folder.pacini";
         REQUIRE(document.saveAs(path));
         CHECK_FALSE(document.isDirty());
@@ -189,20 +193,20 @@ TEST_CASE("A project is dirty exactly when it differs from its file")
     Document document;
     CHECK_FALSE(document.isDirty());
     CHECK(document.save().error().code == ErrorCode::invalidArgument);
-    const int id = document.addClip(fileClip(1)).value();
+    const int id = addClip(document, fileClip(1)).value();
     CHECK(document.isDirty());
     REQUIRE(document.saveAs(folder / "p.pacini"));
-    REQUIRE(document.edit(id, "Reverse", ReverseEdit{}));
+    REQUIRE(document.commit("Reverse", withEdit(document.project(), id, ReverseEdit{})));
     CHECK(document.isDirty());
-    CHECK(document.undoName() == "Reverse");
+    CHECK(document.steps().undoName() == "Reverse");
     document.undo();
     CHECK_FALSE(document.isDirty());
-    CHECK(document.redoName() == "Reverse");
+    CHECK(document.steps().redoName() == "Reverse");
     document.redo();
     CHECK(document.isDirty());
     document.undo();
-    REQUIRE(document.setNotes(id, "other way", "Notes"));
-    CHECK_FALSE(document.canRedo());
+    REQUIRE(document.commit("Notes", withNotes(document.project(), id, "other way")));
+    CHECK_FALSE(document.steps().canRedo());
     CHECK(document.isDirty());
 }
 
@@ -210,10 +214,10 @@ TEST_CASE("A file that cannot be written leaves the old one and the project as t
 {
     const test::TempFolder folder;
     Document document;
-    (void)document.addClip(fileClip(1));
+    (void)addClip(document, fileClip(1));
     REQUIRE(document.saveAs(folder / "p.pacini"));
     const std::string before = test::bytesOf(folder / "p.pacini");
-    document.setProjectNotes("new", "Notes");
+    REQUIRE(document.commit("Notes", withProjectNotes(document.project(), "new")));
     CHECK(document.saveAs(folder / "missing/p.pacini").error().code == ErrorCode::io);
     CHECK(document.path() == folder / "p.pacini");
     CHECK(document.isDirty());
@@ -228,22 +232,22 @@ TEST_CASE("All edits of a gesture are one step, each in place of the one before"
     Clip clip;
     clip.duration = 1.0;
     clip.envelope = {{0.0, 0.5}, {0.5, 0.8}, {1.0, 0.5}};
-    const int id = document.addClip(clip).value();
+    const int id = addClip(document, clip).value();
     const auto steps = document.steps().size();
     const Gesture drag = document.beginGesture();
     for (int i = 1; i <= 30; ++i)
     {
-        Clip moved = *document.gestureStart(id, drag);
+        Clip moved = *document.gestureStart(drag).find(id)->clip;
         moved.envelope =
             movePoints(moved.envelope, {1}, {0.01 * i, 0.0, 1.0}, limitsOf(moved, {LaneKind::envelope, 0})).curve;
-        REQUIRE(document.setClip(id, "Move point", moved, drag));
+        REQUIRE(document.commit("Move point", withClip(document.gestureStart(drag), id, moved), drag));
     }
     CHECK(document.steps().size() == steps + 1);
     CHECK(document.clip(id)->clip->envelope[1].time == Approx(0.8));
     CHECK(document.clip(id)->edits.size() == 1);
     const Gesture turn = document.beginGesture();
     for (int i = 1; i <= 6; ++i)
-        REQUIRE(document.edit(id, "Gain", GainEdit{{}, -1.0 * i}, turn));
+        REQUIRE(document.commit("Gain", withEdit(document.gestureStart(turn), id, GainEdit{{}, -1.0 * i}), turn));
     CHECK(document.clip(id)->clip->envelope[0].value == Approx(0.5 * std::pow(10.0, -0.3)));
     document.undo();
     CHECK(document.clip(id)->clip->envelope[0].value == 0.5);
@@ -255,17 +259,19 @@ TEST_CASE("Clips are added, copied, moved, split and removed, and each of these 
 {
     Document document;
     const Clip clip = fileClip(4);
-    const int id = document.addClip(clip).value();
-    const int copy = document.duplicateClip(id, "Copy").value();
+    const int id = addClip(document, clip).value();
+    const int copy = document.steps().newIds().clip;
+    REQUIRE(document.commit("Copy", withDuplicate(document.project(), id, copy)));
     CHECK(*document.clip(copy)->clip == clip);
-    const int right = document.splitClipAt(id, 0.4 * clip.duration, "Split").value();
+    const int right = document.steps().newIds().clip;
+    REQUIRE(document.commit("Split", withSplit(document.project(), id, 0.4 * clip.duration, right)));
     CHECK(document.clip(id)->clip->duration + document.clip(right)->clip->duration == Approx(clip.duration));
     CHECK(document.project().clips[1]->id == right);
-    REQUIRE(document.placeClip(right, 9, "", "Move"));
+    REQUIRE(document.commit("Move", withPlaced(document.project(), right, 9, "")));
     CHECK(document.project().clips.back()->id == right);
-    REQUIRE(document.removeClip(copy, "Remove"));
+    REQUIRE(document.commit("Remove", withoutClips(document.project(), {copy})));
     CHECK_FALSE(document.clip(copy));
-    CHECK_FALSE(document.removeClip(copy, "Remove"));
+    CHECK_FALSE(document.commit("Remove", withoutClips(document.project(), {copy})));
     for (int i = 0; i < 3; ++i)
         document.undo();
     CHECK(*document.clip(id)->clip == clip);
@@ -281,10 +287,10 @@ TEST_CASE("Removing one edit keeps those after it")
     Clip clip;
     clip.duration = 1.0;
     clip.envelope = {{0.0, 0.1}, {0.3, 0.8}, {0.6, 0.2}, {1.0, 0.5}};
-    const int id = document.addClip(clip).value();
-    REQUIRE(document.edit(id, "Gain", GainEdit{{}, 6.0}));
-    REQUIRE(document.edit(id, "Trim", TrimEdit{{0.3, 1.0}}));
-    REQUIRE(document.removeEdits(id, "Remove gain", {0}));
+    const int id = addClip(document, clip).value();
+    REQUIRE(document.commit("Gain", withEdit(document.project(), id, GainEdit{{}, 6.0})));
+    REQUIRE(document.commit("Trim", withEdit(document.project(), id, TrimEdit{{0.3, 1.0}})));
+    REQUIRE(document.commit("Remove gain", withoutEdits(document.project(), id, {0})));
     CHECK(document.clip(id)->edits.size() == 1);
     CHECK(*document.clip(id)->clip == trimClip(clip, {0.3, 1.0}));
 }
@@ -297,14 +303,14 @@ TEST_CASE("Undo steps of a clip of 50 000 breakpoints cost kilobytes, not the cl
     for (int i = 0; i < 50000; ++i)
         clip.envelope.push_back({0.002 * i, random.uniform()});
     Document document;
-    const int id = document.addClip(clip).value();
+    const int id = addClip(document, clip).value();
     for (int i = 0; i < 200; ++i)
     {
         Clip edited = *document.clip(id)->clip;
         const auto limits = limitsOf(edited, {LaneKind::envelope, 0});
         edited.envelope = movePoints(edited.envelope, {random.next() % 50000}, {0.0, 0.1, 1.0}, limits).curve;
         edited.envelope = addPoint(edited.envelope, {random.uniform(0.0, 100.0), 0.5}, limits).curve;
-        REQUIRE(document.setClip(id, "Edit", edited));
+        REQUIRE(document.commit("Edit", withClip(document.project(), id, edited)));
     }
     // Two places far apart: all between them is new once, at the most.
     std::size_t sum = 0;
@@ -314,7 +320,7 @@ TEST_CASE("Undo steps of a clip of 50 000 breakpoints cost kilobytes, not the cl
         edited.envelope = movePoints(edited.envelope, {random.next() % 50000}, {0.0, 0.01, 1.0},
                                      limitsOf(edited, {LaneKind::envelope, 0}))
                               .curve;
-        REQUIRE(document.setClip(id, "Edit", edited));
+        REQUIRE(document.commit("Edit", withClip(document.project(), id, edited)));
         sum += document.steps().bytes(document.steps().current());
     }
     CHECK(sum / 200 < 20'000); // the clip has 800 000 bytes
@@ -329,7 +335,7 @@ TEST_CASE("A full disk is told with its reason, and the project stays unsaved an
 {
     const test::TempFolder folder;
     Document document;
-    (void)document.addClip(fileClip(1));
+    (void)addClip(document, fileClip(1));
     const Project before = document.project();
     const auto full = document.saveAs("/dev/full");
     REQUIRE_FALSE(full);
@@ -347,28 +353,28 @@ TEST_CASE("What a project is felt with is kept through undo and redo, and is no 
 {
     const test::TempFolder folder;
     Document document;
-    const int id = document.addClip(fileClip(1)).value();
-    REQUIRE(document.edit(id, "Reverse", ReverseEdit{}));
+    const int id = addClip(document, fileClip(1)).value();
+    REQUIRE(document.commit("Reverse", withEdit(document.project(), id, ReverseEdit{})));
     REQUIRE(document.saveAs(folder / "p.pacini"));
     ProjectProfile profile;
     profile.name = "lra-175";
     profile.strength = 0.7;
-    REQUIRE(document.setProfile(profile));
-    CHECK(document.undoName() == "Reverse");
+    REQUIRE(setProfile(document, profile));
+    CHECK(document.steps().undoName() == "Reverse");
     CHECK(document.isDirty());
     REQUIRE(document.undo());
     CHECK(document.project().profile == profile);
     CHECK(document.isDirty());
-    CHECK_FALSE(document.canUndo());
+    CHECK_FALSE(document.steps().canUndo());
     REQUIRE(document.redo());
     CHECK(document.project().profile == profile);
     REQUIRE(document.save());
-    REQUIRE(document.setProfile(profile));
+    REQUIRE(setProfile(document, profile));
     CHECK_FALSE(document.isDirty());
     for (const double strength : {-0.1, 1.1, std::numeric_limits<double>::quiet_NaN()})
     {
         profile.strength = strength;
-        CHECK_FALSE(document.setProfile(profile));
+        CHECK_FALSE(setProfile(document, profile));
     }
     CHECK(document.project().profile.strength == 0.7);
 }
@@ -377,19 +383,19 @@ TEST_CASE("Opening is no step: undo takes back the edits only, and no state has 
 {
     const test::TempFolder folder;
     Document document;
-    const int first = document.addClip(fileClip(1)).value();
+    const int first = addClip(document, fileClip(1)).value();
     REQUIRE(document.saveAs(folder / "p.pacini"));
-    REQUIRE(document.edit(first, "Reverse", ReverseEdit{}));
-    REQUIRE(document.setNotes(first, "reversed", "Notes"));
+    REQUIRE(document.commit("Reverse", withEdit(document.project(), first, ReverseEdit{})));
+    REQUIRE(document.commit("Notes", withNotes(document.project(), first, "reversed")));
     REQUIRE(document.undo());
     AudioReference sound;
     sound.path = folder / "s.wav";
     sound.hash = "0123456789abcdef";
-    const int second = document.addSound(sound, {}, fileClip(2)).value();
-    CHECK(document.undoName() == "Reverse");
-    CHECK(document.redoName() == "Notes");
-    REQUIRE(document.edit(second, "Reverse", ReverseEdit{}));
-    const int third = document.addClip(fileClip(3)).value();
+    const int second = addSound(document, sound, {}, fileClip(2)).value();
+    CHECK(document.steps().undoName() == "Reverse");
+    CHECK(document.steps().redoName() == "Notes");
+    REQUIRE(document.commit("Reverse", withEdit(document.project(), second, ReverseEdit{})));
+    const int third = addClip(document, fileClip(3)).value();
     const Project last = document.project();
     while (document.undo())
     {
@@ -407,10 +413,11 @@ TEST_CASE("Opening is no step: undo takes back the edits only, and no state has 
 TEST_CASE("A clip that is opened after an undo has an id that no clip to be redone has")
 {
     Document document;
-    const int first = document.addClip(fileClip(1)).value();
-    const int copy = document.duplicateClip(first, "Duplicate").value();
+    const int first = addClip(document, fileClip(1)).value();
+    const int copy = document.steps().newIds().clip;
+    REQUIRE(document.commit("Duplicate", withDuplicate(document.project(), first, copy)));
     REQUIRE(document.undo());
-    const int opened = document.addClip(fileClip(2)).value();
+    const int opened = addClip(document, fileClip(2)).value();
     CHECK(opened != copy);
     REQUIRE(document.redo());
     REQUIRE(document.project().clips.size() == 3);
@@ -421,11 +428,11 @@ TEST_CASE("A clip that is opened after an undo has an id that no clip to be redo
 TEST_CASE("What is opened during a gesture does not end it, and is not lost by it")
 {
     Document document;
-    const int id = document.addClip(fileClip(1)).value();
+    const int id = addClip(document, fileClip(1)).value();
     const Gesture turn = document.beginGesture();
-    REQUIRE(document.edit(id, "Gain", GainEdit{{}, -1.0}, turn));
-    const int opened = document.addClip(fileClip(2)).value();
-    REQUIRE(document.edit(id, "Gain", GainEdit{{}, -2.0}, turn));
+    REQUIRE(document.commit("Gain", withEdit(document.gestureStart(turn), id, GainEdit{{}, -1.0}), turn));
+    const int opened = addClip(document, fileClip(2)).value();
+    REQUIRE(document.commit("Gain", withEdit(document.gestureStart(turn), id, GainEdit{{}, -2.0}), turn));
     CHECK(document.clip(opened));
     CHECK(document.clip(id)->edits.size() == 1);
     REQUIRE(document.undo());

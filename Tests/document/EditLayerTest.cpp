@@ -1,8 +1,10 @@
 #include "document/EditLayer.h"
 
+#include "document/Amendments.h"
 #include "document/Analysis.h"
 #include "document/Document.h"
 #include "document/EditsBetween.h"
+#include "document/ProjectEdits.h"
 #include "support/Catch.h"
 
 #include <pacini/clip/edits/PointEdits.h>
@@ -68,17 +70,18 @@ Edited editedClicks()
     Edited e;
     const Clip clip = analyse(clicks(times, 4.0), {}, reference()).value();
     REQUIRE(clip.transients.size() == times.size());
-    e.id = e.document.addSound(reference(), {}, clip).value();
+    e.id = addSound(e.document, reference(), {}, clip).value();
     Clip drawn = clip;
     e.drawnAt = clip.transients[2].time;
     const Curve stroke = {{e.drawnAt, 0.123}, {e.drawnAt + 0.2, 0.123}};
     drawn.envelope = replaceSection(drawn.envelope, {e.drawnAt, e.drawnAt + 0.2}, stroke);
-    REQUIRE(e.document.setClip(e.id, "Draw", drawn));
+    REQUIRE(e.document.commit("Draw", withClip(e.document.project(), e.id, drawn)));
     Clip moved = drawn;
     moved.transients[4].time += 0.05;
     moved.transients[4].amplitude *= 0.5;
-    REQUIRE(e.document.setClip(e.id, "Move event", moved));
-    REQUIRE(e.document.setClip(e.id, "Remove event", deleteTransients(*e.document.clip(e.id)->clip, {1})));
+    REQUIRE(e.document.commit("Move event", withClip(e.document.project(), e.id, moved)));
+    REQUIRE(e.document.commit(
+        "Remove event", withClip(e.document.project(), e.id, deleteTransients(*e.document.clip(e.id)->clip, {1}))));
     return e;
 }
 } // namespace
@@ -90,7 +93,8 @@ TEST_CASE("Another knob of the analysis keeps the hand edits")
     finer.breakpoints = 60.0;
     finer.bands = 20;
     const Clip other = analyse(clicks(times, 4.0), finer, reference()).value();
-    REQUIRE(e.document.reanalyse(e.id, "Finer", finer, other));
+    REQUIRE(e.document.commit(
+        "Finer", withAnalysis(e.document.project(), finer, {e.id, other}, e.document.steps().newIds().source)));
     const auto item = e.document.clip(e.id);
     CHECK(item->unfitting.empty());
     CHECK(item->clip->bands.size() == 20);
@@ -110,7 +114,8 @@ TEST_CASE("Edits move with the events when the sound is replaced by a later take
         Edited e = editedClicks();
         const Clip other = analyse(clicks(later(shift), 6.0), {}, reference()).value();
         REQUIRE(other.transients.size() == times.size());
-        REQUIRE(e.document.reanalyse(e.id, "Replace", {}, other));
+        REQUIRE(e.document.commit(
+            "Replace", withAnalysis(e.document.project(), {}, {e.id, other}, e.document.steps().newIds().source)));
         const auto item = e.document.clip(e.id);
         CHECK(item->unfitting.empty());
         const double begin = other.transients[2].time;
@@ -129,13 +134,16 @@ TEST_CASE("What no longer fits is listed, is not lost, and fits again later")
     const Clip analysis = *e.document.clip(e.id)->analysis;
     auto fewer = times;
     fewer.erase(fewer.begin() + 4); // the event that was moved by hand
-    REQUIRE(e.document.reanalyse(e.id, "Replace", {}, analyse(clicks(fewer, 4.0), {}, reference()).value()));
+    REQUIRE(e.document.commit("Replace", withAnalysis(e.document.project(), {},
+                                                      {e.id, analyse(clicks(fewer, 4.0), {}, reference()).value()},
+                                                      e.document.steps().newIds().source)));
     const auto item = e.document.clip(e.id);
     REQUIRE(item->unfitting.size() == 1);
     CHECK(item->unfitting[0].edit == 1);
     CHECK(item->unfitting[0].reason.find("no longer exists") != std::string::npos);
     CHECK(item->edits.size() == 3);
-    REQUIRE(e.document.reanalyse(e.id, "Back", {}, analysis));
+    REQUIRE(e.document.commit(
+        "Back", withAnalysis(e.document.project(), {}, {e.id, analysis}, e.document.steps().newIds().source)));
     CHECK(e.document.clip(e.id)->unfitting.empty());
     CHECK(e.document.clip(e.id)->clip->transients == before.transients);
 }
@@ -151,22 +159,24 @@ TEST_CASE("Edits of bands find them by frequency, and wait when there is none")
     for (double f = 50.0; f < 200.0; f *= 1.44)
         six.bands.push_back({f, f * 1.2, f * 1.44, 0, {{0.0, 0.4}, {1.0, 0.4}}, {}});
     Document document;
-    const int id = document.addClip(twelve).value();
+    const int id = addClip(document, twelve).value();
     const auto lower = [&](std::size_t band)
     {
         Clip clip = *document.clip(id)->clip;
         clip.bands[band].amplitude = {{0.0, 0.5}, {0.5, 0.1 + 0.01 * static_cast<double>(band)}, {1.0, 0.5}};
-        REQUIRE(document.setClip(id, "Edit", clip));
+        REQUIRE(document.commit("Edit", withClip(document.project(), id, clip)));
     };
     lower(2);
     lower(11);
     const Clip edited = *document.clip(id)->clip;
-    REQUIRE(document.reanalyse(id, "Fewer", {}, six));
+    REQUIRE(
+        document.commit("Fewer", withAnalysis(document.project(), {}, {id, six}, document.steps().newIds().source)));
     const auto item = document.clip(id);
     CHECK(valueAt(item->clip->bands[1].amplitude, 0.5) == Approx(0.12));
     REQUIRE(item->unfitting.size() == 1);
     CHECK(item->unfitting[0].edit == 1);
-    REQUIRE(document.reanalyse(id, "More", {}, twelve));
+    REQUIRE(
+        document.commit("More", withAnalysis(document.project(), {}, {id, twelve}, document.steps().newIds().source)));
     CHECK(document.clip(id)->unfitting.empty());
     CHECK(*document.clip(id)->clip == edited);
 }
@@ -182,18 +192,19 @@ TEST_CASE("Edits behind a trim, a reversal and a repetition still follow their e
     for (Transient& event : moved.transients)
         event.time += 0.02;
     Document document;
-    const int id = document.addClip(analysis).value();
-    REQUIRE(document.edit(id, "Trim", TrimEdit{{0.8, 3.5}}));
-    REQUIRE(document.edit(id, "Reverse", ReverseEdit{}));
-    REQUIRE(document.edit(id, "Repeat", RepeatEdit{2}));
+    const int id = addClip(document, analysis).value();
+    REQUIRE(document.commit("Trim", withEdit(document.project(), id, TrimEdit{{0.8, 3.5}})));
+    REQUIRE(document.commit("Reverse", withEdit(document.project(), id, ReverseEdit{})));
+    REQUIRE(document.commit("Repeat", withEdit(document.project(), id, RepeatEdit{2})));
     // The event at 2.1 s is at 3.5 - 2.1 = 1.4 s now, and at 2.7 + 1.4 s again.
     Clip clip = *document.clip(id)->clip;
     const auto found = std::find_if(clip.transients.begin(), clip.transients.end(),
                                     [](const Transient& t) { return std::abs(t.time - 4.1) < 1e-6; });
     REQUIRE(found != clip.transients.end());
     found->amplitude = 0.9;
-    REQUIRE(document.setClip(id, "Louder", clip));
-    REQUIRE(document.reanalyse(id, "Again", {}, moved));
+    REQUIRE(document.commit("Louder", withClip(document.project(), id, clip)));
+    REQUIRE(
+        document.commit("Again", withAnalysis(document.project(), {}, {id, moved}, document.steps().newIds().source)));
     CHECK(document.clip(id)->unfitting.empty());
     const auto& events = document.clip(id)->clip->transients;
     const auto loud = std::find_if(events.begin(), events.end(), [](const Transient& t) { return t.amplitude == 0.9; });

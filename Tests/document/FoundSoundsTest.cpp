@@ -1,6 +1,8 @@
+#include "document/Amendments.h"
 #include "document/AudioReference.h"
 #include "document/Document.h"
 #include "document/FolderFiles.h"
+#include "document/ProjectEdits.h"
 #include "io/AudioWriter.h"
 #include "support/Catch.h"
 #include "support/TempFolder.h"
@@ -54,18 +56,18 @@ TEST_CASE("Several sounds get their new places in one step, or none of them")
         AudioReference sound;
         sound.path = folder / name;
         sound.hash = name;
-        REQUIRE(document.addSound(sound, {}, clip));
+        REQUIRE(addSound(document, sound, {}, clip));
     }
     auto moved = document.project().sources;
     for (AudioReference& sound : moved)
         sound.path = folder / "new" / sound.path.filename();
     const Project before = document.project();
-    REQUIRE(document.setSounds(moved, "Find sounds"));
+    REQUIRE(document.commit("Find sounds", withSounds(document.project(), moved)));
     CHECK(document.project().sources == moved);
     CHECK(document.undo());
     CHECK(document.project() == before);
     moved[1].id = 77;
-    CHECK_FALSE(document.setSounds(moved, "Find sounds"));
+    CHECK_FALSE(document.commit("Find sounds", withSounds(document.project(), moved)));
     CHECK(document.project() == before);
 }
 

@@ -1,4 +1,6 @@
+#include "document/Amendments.h"
 #include "document/Document.h"
+#include "document/ProjectEdits.h"
 #include "support/Catch.h"
 #include "support/RandomEdits.h"
 
@@ -11,15 +13,15 @@ TEST_CASE("Clips are joined in one step that can be undone, and the joint is an 
     Document document;
     const Clip one = test::randomFullClip(3, 10);
     const Clip two = test::randomFullClip(4, 10);
-    const int first = *document.addClip(one);
-    const int second = *document.addClip(two);
+    const int first = *addClip(document, one);
+    const int second = *addClip(document, two);
     const auto before = document.project();
-    REQUIRE(document.joinClip(first, second, "Join").ok());
+    REQUIRE(document.commit("Join", withJoined(document.project(), first, second)).ok());
     CHECK(document.project().clips.size() == 1);
     CHECK(*document.clip(first)->clip == *insertClip(one, one.duration, two));
     CHECK(*document.clip(first)->analysis == one);
     CHECK(document.clip(first)->edits.size() == 1);
-    CHECK(document.undoName() == "Join");
+    CHECK(document.steps().undoName() == "Join");
     CHECK(document.undo());
     CHECK(document.project() == before);
 }
@@ -27,11 +29,11 @@ TEST_CASE("Clips are joined in one step that can be undone, and the joint is an 
 TEST_CASE("A clip is not joined with itself or with one that is not there")
 {
     Document document;
-    const int id = *document.addClip(test::randomFullClip(3, 10));
+    const int id = *addClip(document, test::randomFullClip(3, 10));
     const auto state = document.snapshot().state;
-    CHECK_FALSE(document.joinClip(id, id, "Join").ok());
-    CHECK_FALSE(document.joinClip(id, id + 1, "Join").ok());
-    CHECK_FALSE(document.joinClip(id + 1, id, "Join").ok());
+    CHECK_FALSE(document.commit("Join", withJoined(document.project(), id, id)).ok());
+    CHECK_FALSE(document.commit("Join", withJoined(document.project(), id, id + 1)).ok());
+    CHECK_FALSE(document.commit("Join", withJoined(document.project(), id + 1, id)).ok());
     CHECK(document.snapshot().state == state);
 }
 
@@ -39,9 +41,10 @@ TEST_CASE("A clip that was split and joined again plays as before")
 {
     Document document;
     const Clip clip = test::randomFullClip(5, 10);
-    const int left = *document.addClip(clip);
-    const int right = *document.splitClipAt(left, 0.4 * clip.duration, "Split");
-    REQUIRE(document.joinClip(left, right, "Join").ok());
+    const int left = *addClip(document, clip);
+    const int right = document.steps().newIds().clip;
+    REQUIRE(document.commit("Split", withSplit(document.project(), left, 0.4 * clip.duration, right)));
+    REQUIRE(document.commit("Join", withJoined(document.project(), left, right)).ok());
     const Clip joined = *document.clip(left)->clip;
     CHECK(joined.duration == Approx(clip.duration));
     CHECK(joined.transients.size() == clip.transients.size());

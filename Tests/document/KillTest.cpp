@@ -1,6 +1,8 @@
 // A scripted session is killed at random moments: what had been done a second before is there again.
 
+#include "document/Amendments.h"
 #include "document/Autosave.h"
+#include "document/ProjectEdits.h"
 #include "io/formats/json/ClipJson.h"
 #include "support/Catch.h"
 #include "support/RandomClip.h"
@@ -41,13 +43,14 @@ public:
         const int id = clips.empty() ? 0 : clips[random.next() % clips.size()]->id;
         const auto choice = clips.empty() ? 0 : random.next() % 16;
         if (choice == 0 && clips.size() < 6)
-            (void)document.addClip(fileClip(random.next() % 1000));
+            (void)addClip(document, fileClip(random.next() % 1000));
         else if (choice == 1 && clips.size() < 6)
             open();
         else if (choice == 2)
-            (void)document.duplicateClip(id, "Duplicate clip");
+            (void)document.commit("Duplicate clip",
+                                  withDuplicate(document.project(), id, document.steps().newIds().clip));
         else if (choice == 3 && clips.size() > 2)
-            (void)document.removeClip(id, "Remove clip");
+            (void)document.commit("Remove clip", withoutClips(document.project(), {id}));
         else if (choice == 4)
             document.undo();
         else if (choice == 5)
@@ -60,14 +63,15 @@ public:
         {
             ProjectProfile profile;
             profile.strength = random.uniform();
-            (void)document.setProfile(profile);
+            (void)setProfile(document, profile);
         }
         else if (choice == 9)
-            document.setProjectNotes("note " + std::to_string(random.next() % 1000), "Notes");
+            (void)document.commit("Notes",
+                                  withProjectNotes(document.project(), "note " + std::to_string(random.next() % 1000)));
         else if (choice == 10)
-            (void)document.edit(id, "Reverse", ReverseEdit{});
+            (void)document.commit("Reverse", withEdit(document.project(), id, ReverseEdit{}));
         else
-            (void)document.edit(id, "Gain", GainEdit{{}, random.uniform(-3.0, 1.0)});
+            (void)document.commit("Gain", withEdit(document.project(), id, GainEdit{{}, random.uniform(-3.0, 1.0)}));
     }
 
 private:
@@ -84,7 +88,7 @@ private:
         sound.path = "/sounds/" + std::to_string(number) + ".wav";   // is nowhere
         sound.hash = std::to_string(1'000'000'000'000'000 + number); // 16 digits
         sound.embedded = std::make_shared<const std::string>("RIFF" + std::to_string(number));
-        (void)document.addSound(sound, {}, fileClip(number));
+        (void)addSound(document, sound, {}, fileClip(number));
     }
 
     Random random;

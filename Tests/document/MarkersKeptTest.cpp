@@ -1,5 +1,7 @@
+#include "document/Amendments.h"
 #include "document/Analysis.h"
 #include "document/Document.h"
+#include "document/ProjectEdits.h"
 #include "io/AudioWriter.h"
 #include "support/Catch.h"
 #include "support/TempFolder.h"
@@ -49,12 +51,13 @@ TEST_CASE("An analysis has the markers of its sound, and the clip keeps them whe
     EncoderParams finer;
     finer.bands = 10;
     Document document;
-    const auto id = document.addSound(markedReference(), {}, markedAnalysis(sound));
+    const auto id = addSound(document, markedReference(), {}, markedAnalysis(sound));
     REQUIRE(id);
     REQUIRE(document.clip(*id)->clip->markers.size() == 2);
     CHECK(document.clip(*id)->clip->markers[0].name == "hit");
     CHECK(document.clip(*id)->clip->markers[0].time == Approx(0.25).margin(0.001));
-    REQUIRE(document.reanalyse(*id, "Finer", finer, markedAnalysis(sound, finer)));
+    REQUIRE(document.commit("Finer", withAnalysis(document.project(), finer, {*id, markedAnalysis(sound, finer)},
+                                                  document.steps().newIds().source)));
     CHECK(document.clip(*id)->clip->markers.size() == 2);
 }
 
@@ -64,16 +67,19 @@ TEST_CASE("Markers that a clip has besides its sound's are kept when it is analy
     Clip labelled = markedAnalysis(bare);
     labelled.markers = {{0.25, "label"}, {0.75, "late"}};
     Document document;
-    const auto id = document.addSound(markedReference(), {}, labelled);
+    const auto id = addSound(document, markedReference(), {}, labelled);
     REQUIRE(id);
     const auto changed = markedSound({{0.5, "new"}});
-    REQUIRE(document.reanalyse(*id, "Again", {}, markedAnalysis(changed)));
+    REQUIRE(document.commit("Again", withAnalysis(document.project(), {}, {*id, markedAnalysis(changed)},
+                                                  document.steps().newIds().source)));
     const auto markers = document.clip(*id)->clip->markers;
     REQUIRE(markers.size() == 3);
     CHECK(markers[0].name == "label");
     CHECK(markers[1].name == "new");
     CHECK(markers[2].name == "late");
     // Another sound brings its own.
-    REQUIRE(document.reanalyse(*id, "Other", {}, markedAnalysis(changed), markedReference()));
+    REQUIRE(
+        document.commit("Other", withAnalysis(document.project(), {}, {*id, markedAnalysis(changed), markedReference()},
+                                              document.steps().newIds().source)));
     CHECK(document.clip(*id)->clip->markers.size() == 1);
 }

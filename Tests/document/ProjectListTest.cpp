@@ -1,4 +1,6 @@
+#include "document/Amendments.h"
 #include "document/Document.h"
+#include "document/ProjectEdits.h"
 #include "document/ProjectJson.h"
 #include "document/view/ClipRows.h"
 #include "support/Catch.h"
@@ -27,8 +29,8 @@ struct Shelf
     Shelf()
     {
         for (const char* name : {"a", "c", "b", "d", "e"})
-            ids[name] = document.addClip(named(name)).value();
-        document.setGroups({"empty", "hits"}, "Groups");
+            ids[name] = addClip(document, named(name)).value();
+        REQUIRE(document.commit("Groups", withGroups(document.project(), {"empty", "hits"})));
         group("c", "hits");
         group("e", "hits");
         group("d", "rain");
@@ -36,7 +38,7 @@ struct Shelf
 
     void group(const std::string& name, const std::string& wanted)
     {
-        REQUIRE(document.setGroup(ids[name], wanted, "Group"));
+        REQUIRE(document.commit("Group", withGroup(document.project(), {ids[name]}, wanted)));
     }
 
     /// "a b [empty] [hits] c e [rain] d"
@@ -53,7 +55,7 @@ struct Shelf
     {
         const auto rows = clipRows(document.project());
         const ClipPlace place = placeAbove(document.project(), rows, gap, ids[name]);
-        REQUIRE(document.placeClip(ids[name], place.index, place.group, "Move clip"));
+        REQUIRE(document.commit("Move clip", withPlaced(document.project(), ids[name], place.index, place.group)));
     }
 };
 } // namespace
@@ -94,7 +96,7 @@ TEST_CASE("A clip dropped between two rows stands there, in the group above it, 
         Shelf shelf;
         INFO(drop.clip << " above row " << drop.gap);
         // "rain" becomes a group of the project so that it does not go with its last clip.
-        shelf.document.setGroups({"empty", "hits", "rain"}, "Groups");
+        REQUIRE(shelf.document.commit("Groups", withGroups(shelf.document.project(), {"empty", "hits", "rain"})));
         const Project before = shelf.document.project();
         shelf.drop(drop.clip, drop.gap);
         CHECK(shelf.text() == drop.result);
@@ -106,23 +108,23 @@ TEST_CASE("A clip dropped between two rows stands there, in the group above it, 
 TEST_CASE("A clip may be placed in a group that is new")
 {
     Shelf shelf;
-    REQUIRE(shelf.document.placeClip(shelf.ids["b"], 0, "new", "Move"));
+    REQUIRE(shelf.document.commit("Move", withPlaced(shelf.document.project(), shelf.ids["b"], 0, "new")));
     CHECK(shelf.text() == "a [empty] [hits] c e [rain] d [new] b");
-    CHECK_FALSE(shelf.document.placeClip(99, 0, "new", "Move"));
+    CHECK_FALSE(shelf.document.commit("Move", withPlaced(shelf.document.project(), 99, 0, "new")));
 }
 
 TEST_CASE("Groups are renamed, joined and removed with all their clips, each in one step")
 {
     Shelf shelf;
     const Project before = shelf.document.project();
-    shelf.document.renameGroup("hits", "knocks", "Rename");
+    REQUIRE(shelf.document.commit("Rename", withGroupRenamed(shelf.document.project(), "hits", "knocks")));
     CHECK(shelf.text() == "a b [empty] [knocks] c e [rain] d");
-    shelf.document.renameGroup("knocks", "empty", "Rename");
+    REQUIRE(shelf.document.commit("Rename", withGroupRenamed(shelf.document.project(), "knocks", "empty")));
     CHECK(shelf.text() == "a b [empty] c e [rain] d");
-    shelf.document.renameGroup("empty", "", "Remove");
+    REQUIRE(shelf.document.commit("Remove", withGroupRenamed(shelf.document.project(), "empty", "")));
     CHECK(shelf.text() == "a c b e [rain] d");
     // A group that only its clips know.
-    shelf.document.renameGroup("rain", "snow", "Rename");
+    REQUIRE(shelf.document.commit("Rename", withGroupRenamed(shelf.document.project(), "rain", "snow")));
     CHECK(shelf.text() == "a c b e [snow] d");
     for (int i = 0; i < 4; ++i)
         REQUIRE(shelf.document.undo());
@@ -139,7 +141,7 @@ TEST_CASE("A new group has a name that no other has")
         CHECK(names.insert(name).second);
         auto groups = document.project().groups;
         groups.push_back(name);
-        document.setGroups(groups, "New group");
+        REQUIRE(document.commit("New group", withGroups(document.project(), groups)));
     }
     CHECK(names.contains("Group"));
     CHECK(names.contains("Group 5"));
@@ -150,9 +152,9 @@ TEST_CASE("Tags of several clips are one step, and files keep them")
     Document document;
     Clip clip;
     clip.duration = 1.0;
-    const int first = document.addClip(clip).value(), second = document.addClip(clip).value();
+    const int first = addClip(document, clip).value(), second = addClip(document, clip).value();
     const std::size_t steps = document.steps().size();
-    REQUIRE(document.setTags({first, second}, {"ui", "soft"}, "Clip tags"));
+    REQUIRE(document.commit("Clip tags", withTags(document.project(), {first, second}, {"ui", "soft"})));
     CHECK(document.steps().size() == steps + 1);
     const auto read = readProjectJson(projectJson(document.project()), {});
     REQUIRE(read);
@@ -160,5 +162,5 @@ TEST_CASE("Tags of several clips are one step, and files keep them")
     CHECK(read->project.find(second)->tags == std::vector<std::string>{"ui", "soft"});
     document.undo();
     CHECK(document.clip(first)->tags.empty());
-    CHECK_FALSE(document.setTags({99}, {"ui"}, "Clip tags"));
+    CHECK_FALSE(document.commit("Clip tags", withTags(document.project(), {99}, {"ui"})));
 }

@@ -2,7 +2,9 @@
 
 #include "document/ProjectScene.h"
 
+#include "document/Amendments.h"
 #include "document/Document.h"
+#include "document/ProjectEdits.h"
 #include "document/ProjectJson.h"
 #include "io/SceneJson.h"
 #include "support/Catch.h"
@@ -33,8 +35,8 @@ Clip hum(const std::string& name, double duration)
 Document sceneDocument()
 {
     Document document;
-    const int first = document.addClip(hum("first", 2.0)).value();
-    const int second = document.addClip(hum("second", 1.0)).value();
+    const int first = addClip(document, hum("first", 2.0)).value();
+    const int second = addClip(document, hum("second", 1.0)).value();
     ProjectScene scene;
     scene.actuators = 3;
     scene.panLaw = PanLaw::both;
@@ -49,7 +51,7 @@ Document sceneDocument()
     scene.parts[2].play.start = 3.0;
     scene.parts[2].curves = {{SceneParameter::pan, {{0.0, 0.0}, {1.0, 1.0}, {2.0, 1.0}}},
                              {SceneParameter::transposition, {{0.0, 0.0}, {0.5, 12.0}}}};
-    REQUIRE(document.setScene(scene, "Scene"));
+    REQUIRE(document.commit("Scene", withScene(document.project(), scene)));
     return document;
 }
 } // namespace
@@ -75,7 +77,7 @@ TEST_CASE("Parts of a scene become plays of their clips, and curves become chang
     ProjectScene later = document.project().scene;
     later.parts[2].play.delay = 0.25;
     Document moved = sceneDocument();
-    REQUIRE(moved.setScene(later, "Delay"));
+    REQUIRE(moved.commit("Delay", withScene(moved.project(), later)));
     CHECK(sceneOf(moved.project()).scene.changes[0].time == 3.25);
     // As `pacini render` reads it.
     const auto read = readSceneJson(writeSceneJson(scene),
@@ -90,7 +92,7 @@ TEST_CASE("A part whose clip is removed stays, is not played, and plays again wh
 {
     Document document = sceneDocument();
     const int first = document.project().clips.front()->id;
-    REQUIRE(document.removeClip(first, "Remove"));
+    REQUIRE(document.commit("Remove", withoutClips(document.project(), {first})));
     CHECK(document.project().scene.parts.size() == 3);
     const auto [scene, parts] = sceneOf(document.project());
     CHECK(scene.plays.size() == 1);
@@ -120,7 +122,7 @@ TEST_CASE("Project files keep the scene, and old files have none")
     REQUIRE(old);
     CHECK(old->project.scene == document.project().scene);
     Document plain;
-    REQUIRE(plain.addClip(hum("one", 1.0)));
+    REQUIRE(addClip(plain, hum("one", 1.0)));
     CHECK(projectJson(plain.project()).find("\"scene\"") == std::string::npos);
     for (const auto& [from, to, where] : {std::tuple("\"actuators\": 3", "\"actuators\": 99", "scene.actuators"),
                                           {"\"clipId\": 1", "\"clipId\": -1", "scene.parts[0].clipId"},
@@ -146,14 +148,14 @@ TEST_CASE("A gesture over the scene is one step, and a scene that is not valid c
     {
         ProjectScene moved = document.project().scene;
         moved.parts[0].play.start = start;
-        REQUIRE(document.setScene(moved, "Move", gesture));
+        REQUIRE(document.commit("Move", withScene(document.gestureStart(gesture), moved), gesture));
     }
     CHECK(document.steps().size() == steps + 1);
     document.undo();
     CHECK(document.project().scene.parts[0].play.start == 0.5);
     ProjectScene bad = document.project().scene;
     bad.parts[1].play.pan = 2.0;
-    const auto refused = document.setScene(bad, "Pan");
+    const auto refused = document.commit("Pan", withScene(document.project(), bad));
     REQUIRE_FALSE(refused);
     CHECK(refused.error().where == "parts[1].pan");
     CHECK(document.project().scene.parts[1].play.pan == 0.5);
@@ -172,7 +174,7 @@ TEST_CASE("Scenes of any shape become parts that play as they did")
                 play.passes = std::max<std::size_t>(1, play.passes);
         }
         Document document;
-        REQUIRE(document.openScene(scene, "scene", "Open scene"));
+        REQUIRE(openScene(document, scene, "scene", "Open scene"));
         const Project& project = document.project();
         CHECK(project.clips.size() == scene.clips.size());
         CHECK(project.clips.front()->group == "scene");
@@ -219,7 +221,7 @@ TEST_CASE("A scene that is opened into another one takes its place until that is
 {
     Document document = sceneDocument();
     const ProjectScene before = document.project().scene;
-    REQUIRE(document.openScene(test::randomScene(5), "other", "Open scene"));
+    REQUIRE(openScene(document, test::randomScene(5), "other", "Open scene"));
     CHECK(document.project().clips.size() > 2);
     CHECK(document.project().scene != before);
     document.undo();
@@ -227,11 +229,11 @@ TEST_CASE("A scene that is opened into another one takes its place until that is
     CHECK(document.project().clips.size() == 2);
     // Into a project without one it has been there from the start, as sounds that are opened.
     Document begun;
-    REQUIRE(begun.openScene(test::randomScene(5), "other", "Open scene"));
-    CHECK_FALSE(begun.canUndo());
+    REQUIRE(openScene(begun, test::randomScene(5), "other", "Open scene"));
+    CHECK_FALSE(begun.steps().canUndo());
     Scene bad = test::randomScene(5);
     bad.plays.front().pan = 2.0;
-    CHECK_FALSE(begun.openScene(bad, "bad", "Open scene"));
+    CHECK_FALSE(openScene(begun, bad, "bad", "Open scene"));
 }
 
 TEST_CASE("Parts that are repeated last as long as their passes, and without end until the others end")
@@ -243,7 +245,7 @@ TEST_CASE("Parts that are repeated last as long as their passes, and without end
     scene.parts[1].play.loop = 0.5;
     scene.parts[1].play.stretch = 2.0;
     scene.parts.resize(2);
-    REQUIRE(document.setScene(scene, "Loops"));
+    REQUIRE(document.commit("Loops", withScene(document.project(), scene)));
     const Project& project = document.project();
     CHECK(lengthOf(project, project.scene.parts[0]) == 6.0);
     CHECK(sceneEnd(project) == 6.5);

@@ -1,8 +1,10 @@
 // The project that the editor opens when it runs for the first time.
 
+#include "document/Amendments.h"
 #include "document/Analysis.h"
 #include "document/AudioReference.h"
 #include "document/Document.h"
+#include "document/ProjectEdits.h"
 #include "support/Catch.h"
 #include "support/Paths.h"
 
@@ -25,7 +27,7 @@ int addDemo(Document& document, const std::string& file)
 {
     auto sound = describeAudio(demoFolder() / file).value();
     Clip clip = analyse(sound.audio, {}, sound.reference).value();
-    return document.addSound(sound.reference, {}, std::move(clip)).value();
+    return addSound(document, sound.reference, {}, std::move(clip)).value();
 }
 
 EditScope wholeClip(const Document& document, int id)
@@ -43,26 +45,32 @@ TEST_CASE("Make the sample project", "[.make-sample]")
     const int knock = addDemo(document, "knock_wood_bridge.flac");
     const int boom = addDemo(document, "impact_boom.flac");
     const int guitar = addDemo(document, "pluck_guitar_harmonics.flac");
-    REQUIRE(document.edit(knock, "Markers", MarkersEdit{{{0.0, "First knock"}, {0.25, "Second knock"}}}));
-    REQUIRE(document.edit(boom, "Gain", GainEdit{wholeClip(document, boom), -3.0}));
+    REQUIRE(document.commit(
+        "Markers", withEdit(document.project(), knock, MarkersEdit{{{0.0, "First knock"}, {0.25, "Second knock"}}})));
+    REQUIRE(document.commit("Gain", withEdit(document.project(), boom, GainEdit{wholeClip(document, boom), -3.0})));
+    REQUIRE(document.commit("Fade out",
+                            withEdit(document.project(), boom,
+                                     FadeEdit{wholeClip(document, boom), FadeDirection::out, FadeShape::linear})));
+    REQUIRE(document.commit("Groups", withGroups(document.project(), {"Impacts", "Music"})));
+    REQUIRE(document.commit("Group", withGroup(document.project(), {knock}, "Impacts")));
+    REQUIRE(document.commit("Group", withGroup(document.project(), {boom}, "Impacts")));
+    REQUIRE(document.commit("Group", withGroup(document.project(), {guitar}, "Music")));
     REQUIRE(
-        document.edit(boom, "Fade out", FadeEdit{wholeClip(document, boom), FadeDirection::out, FadeShape::linear}));
-    document.setGroups({"Impacts", "Music"}, "Groups");
-    REQUIRE(document.setGroup(knock, "Impacts", "Group"));
-    REQUIRE(document.setGroup(boom, "Impacts", "Group"));
-    REQUIRE(document.setGroup(guitar, "Music", "Group"));
+        document.commit("Notes", withNotes(document.project(), knock,
+                                           "Two knocks on wood. Drag an event up or down, then press the space bar.")));
+    REQUIRE(document.commit(
+        "Notes", withNotes(document.project(), boom,
+                           "Softer by 3 dB and faded out by hand. Change something on the Analysis page: both "
+                           "edits stay.")));
     REQUIRE(
-        document.setNotes(knock, "Two knocks on wood. Drag an event up or down, then press the space bar.", "Notes"));
-    REQUIRE(document.setNotes(boom,
-                              "Softer by 3 dB and faded out by hand. Change something on the Analysis page: both "
-                              "edits stay.",
-                              "Notes"));
-    REQUIRE(
-        document.setNotes(guitar, "Mostly bands. Try Simplify on the Edit page, and S and M beside a band.", "Notes"));
-    document.setProjectNotes("A project to try things on. It is not saved anywhere until you save it.", "Notes");
+        document.commit("Notes", withNotes(document.project(), guitar,
+                                           "Mostly bands. Try Simplify on the Edit page, and S and M beside a band.")));
+    REQUIRE(document.commit(
+        "Notes", withProjectNotes(document.project(),
+                                  "A project to try things on. It is not saved anywhere until you save it.")));
     ProjectProfile profile;
     profile.name = "l5-wristband";
-    REQUIRE(document.setProfile(std::move(profile)));
+    REQUIRE(setProfile(document, std::move(profile)));
     REQUIRE(document.saveAs(demoFolder() / "sample.pacini"));
 }
 

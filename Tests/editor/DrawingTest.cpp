@@ -1,5 +1,6 @@
 // How the editor draws, and how fast.
 
+#include "document/Amendments.h"
 #include "editor/Bench.h"
 #include "editor/clip/lanes/ColumnFill.h"
 #include "editor/clip/scene/SceneSelection.h"
@@ -328,7 +329,7 @@ TEST_CASE("The whole window with ten minutes, 500 clips and a scene of 40 parts 
     const Clip knock = editor::importFile(demoSound("knock_wood_bridge"), {}).value().clip;
     std::vector<int> ids;
     for (int i = 1; i < 500; ++i)
-        ids.push_back(bench.session.model.insert([&](Document& document) { return document.addClip(knock); }).value());
+        ids.push_back(bench.session.model.insert([&](Document& document) { return addClip(document, knock); }).value());
     editor::SceneSelection scene(bench.session.model);
     for (std::size_t i = 0; i < 40; ++i)
         scene.add(ids[i], 0.25 * static_cast<double>(i));

@@ -2,7 +2,9 @@
 
 #include "document/ClipExport.h"
 #include "document/KeepShare.h"
+#include "document/ProjectEdits.h"
 #include "editor/Bench.h"
+#include "editor/clip/session/ClipSteps.h"
 #include "io/ClipFile.h"
 #include "support/TempFolder.h"
 
@@ -50,7 +52,7 @@ TEST_CASE("A demo sound becomes a clip, a dragged breakpoint goes where the poin
     CHECK(after.envelope[i].value == Approx(expected.envelope[i].value).epsilon(1e-5));
     expected.envelope[i] = after.envelope[i];
     CHECK(after == expected);
-    CHECK(bench.session.model.document().undoName() == "Move point");
+    CHECK(bench.session.model.document().steps().undoName() == "Move point");
 
     TempFolder folder;
     ExportChoice choice;
@@ -64,7 +66,7 @@ TEST_CASE("A demo sound becomes a clip, a dragged breakpoint goes where the poin
     // The whole drag is one step.
     bench.session.model.undo();
     CHECK(bench.clip() == before);
-    CHECK(bench.session.model.document().undoName() != "Move point");
+    CHECK(bench.session.model.document().steps().undoName() != "Move point");
     bench.session.model.redo();
     CHECK(bench.clip() == expected);
 }
@@ -153,7 +155,7 @@ TEST_CASE("Gain, fades, reverse, cut and paste go through the document with thei
     bench.openDemo("drums_tabla_pattern");
     const Clip before = bench.clip();
     REQUIRE(bench.view.doCommand(editor::fadeIn));
-    CHECK(bench.session.model.document().undoName() == "Fade in");
+    CHECK(bench.session.model.document().steps().undoName() == "Fade in");
     CHECK(valueAt(bench.clip().envelope, 0.0) == 0.0);
     bench.view.doCommand(editor::undo);
     REQUIRE(bench.view.doCommand(editor::reverse));
@@ -197,15 +199,19 @@ TEST_CASE("What is pasted beyond the end extends the clip, in one step, and says
                              [&](const Transient& event) { return event.time >= from && event.time <= to; });
     };
     CHECK(hits(longer, before.duration - 0.1, longer.duration) == hits(before, 0.5, 1.0));
-    CHECK(bench.session.model.document().undoName() == "Paste");
+    CHECK(bench.session.model.document().steps().undoName() == "Paste");
     bench.view.doCommand(editor::undo);
     CHECK(bench.clip() == before);
     bench.view.doCommand(editor::redo);
     CHECK(bench.clip() == longer);
     // Both are edits over the analysis, and not another clip in its place.
     const auto item = bench.session.model.item();
-    bench.session.model.change([&](Document& document)
-                               { return document.reanalyse(item->id, "Again", item->encoder, *item->analysis); });
+    bench.session.model.change(
+        [&](Document& document)
+        {
+            return document.commit("Again", withAnalysis(document.project(), item->encoder, {item->id, *item->analysis},
+                                                         document.steps().newIds().source));
+        });
     CHECK(bench.clip() == longer);
     CHECK(bench.session.model.item()->unfitting.empty());
     for (const auto& edit : bench.session.model.item()->edits.whole())
@@ -297,7 +303,7 @@ TEST_CASE("What an autosave wrote is offered and restored with all edits")
         auto imported = editor::importFile(demoSound("knock_wood_bridge"), EncoderParams{});
         REQUIRE(imported.ok());
         session.sounds.add(std::move(imported).value());
-        session.model.edit("Gain", GainEdit{{}, -6.0});
+        editor::editClip(session.model, "Gain", GainEdit{{}, -6.0});
         edited = *session.model.clip();
     }
     // Nobody holds it any more, though the process that wrote it still runs.

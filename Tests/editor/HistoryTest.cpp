@@ -2,6 +2,7 @@
 
 #include "editor/Bench.h"
 #include "editor/Translation.h"
+#include "editor/clip/session/ClipSteps.h"
 #include "editor/clip/session/StepText.h"
 #include "editor/clip/sheets/HistorySheet.h"
 
@@ -61,8 +62,8 @@ TEST_CASE("Undo and redo show the clip that they change, with the playhead insid
     HistoryBench bench;
     auto& model = bench.session.model;
     bench.show(0);
-    REQUIRE(model.edit("Reverse", ReverseEdit{}));
-    REQUIRE(model.edit("Repeat", RepeatEdit{3}));
+    REQUIRE(editor::editClip(model, "Reverse", ReverseEdit{}));
+    REQUIRE(editor::editClip(model, "Repeat", RepeatEdit{3}));
     bench.session.transport.setPlayhead(2.5);
     model.undo();
     CHECK(bench.shown() == "1");
@@ -83,13 +84,13 @@ TEST_CASE("Undo of a copy shows what stands in its place, redo the copy; a remov
     HistoryBench bench;
     auto& model = bench.session.model;
     bench.show(1);
-    model.duplicate();
+    editor::duplicateShown(model);
     const int copy = model.activeId();
     model.undo();
     CHECK(bench.shown() == "3");
     model.redo();
     CHECK(model.activeId() == copy);
-    model.removeClip();
+    editor::removeClips(model, {model.activeId()});
     CHECK(model.activeId() != copy);
     model.undo();
     CHECK(model.activeId() == copy);
@@ -101,7 +102,7 @@ TEST_CASE("Steps say what they change and how much of it, in the menu and in Ger
     auto& selection = bench.session.clipSelection;
     selection.select(withPoints({}, envelope, {2, 3, 4}));
     selection.deleteSelection();
-    CHECK(bench.document().undoName() == "Delete 3 points");
+    CHECK(bench.document().steps().undoName() == "Delete 3 points");
     CHECK(bench.menuText("Edit", editor::undo) == "Undo delete 3 points");
     bench.view.doCommand(editor::undo);
     CHECK(bench.menuText("Edit", editor::redo) == "Redo delete 3 points");
@@ -123,7 +124,7 @@ TEST_CASE("The list of steps goes to any of them, and stays open")
     auto& model = bench.session.model;
     CHECK_FALSE(bench.view.doCommand(editor::showHistory));
     for (int i = 0; i < 5; ++i)
-        REQUIRE(model.edit("Gain", GainEdit{{}, -1.0}));
+        REQUIRE(editor::editClip(model, "Gain", GainEdit{{}, -1.0}));
     const Clip last = bench.clip();
     REQUIRE(bench.view.doCommand(editor::showHistory));
     REQUIRE(bench.view.sheet() != nullptr);

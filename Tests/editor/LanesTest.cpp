@@ -3,6 +3,7 @@
 #include "editor/Bench.h"
 #include "editor/clip/lanes/CurveLane.h"
 #include "editor/clip/lanes/SelectionBar.h"
+#include "editor/clip/session/ClipSteps.h"
 #include "editor/clip/session/Snapping.h"
 
 #include <cmath>
@@ -56,7 +57,7 @@ TEST_CASE("With the pencil a drag draws the curve under the pointer with few poi
         drawn += p.time >= from && p.time <= to ? 1 : 0;
     CHECK(drawn < 40);
     CHECK(valueAt(after.envelope, from - 0.05) == Approx(valueAt(before.envelope, from - 0.05)));
-    CHECK(bench.session.model.document().undoName() == "Draw");
+    CHECK(bench.session.model.document().steps().undoName() == "Draw");
     bench.session.model.undo();
     CHECK(bench.clip() == before);
     bench.view.doCommand(editor::draw);
@@ -69,7 +70,7 @@ TEST_CASE("A line dragged with Ctrl bends to the pointer, its ends and all else 
     bench.openDemo("drums_tabla_pattern");
     Clip plain = bench.clip();
     plain.envelope = {{0.0, 0.2}, {0.5, 0.1}, {1.5, 0.3}, {plain.duration, 0.2}};
-    bench.session.model.setClip("Plain", plain);
+    editor::setClip(bench.session.model, "Plain", plain);
     auto& row = bench.row(envelope);
     const auto from = placeOf(row, bench.session, {1.0, valueAt(plain.envelope, 1.0)});
     const auto to = from + juce::Point<float>(0.0f, -15.0f);
@@ -79,7 +80,7 @@ TEST_CASE("A line dragged with Ctrl bends to the pointer, its ends and all else 
     CHECK(placeOf(row, bench.session, {1.0, valueAt(bent.envelope, 1.0)}).y == Approx(to.y).margin(0.7));
     for (const Breakpoint& p : plain.envelope)
         CHECK(std::find(bent.envelope.begin(), bent.envelope.end(), p) != bent.envelope.end());
-    CHECK(bench.session.model.document().undoName() == "Bend line");
+    CHECK(bench.session.model.document().steps().undoName() == "Bend line");
     bench.session.model.undo();
     CHECK(bench.clip() == plain);
     // Away from the line it is a marquee.
@@ -94,7 +95,7 @@ TEST_CASE("A dragged point sticks to a transient within 8 pixels, unless Alt is 
     Clip clip = bench.clip();
     clip.envelope = {{0.0, 0.2}, {0.5, 0.1}, {clip.duration, 0.2}};
     clip.transients = {{1.0, 0.5, 0.5}};
-    bench.session.model.setClip("Plain", clip);
+    editor::setClip(bench.session.model, "Plain", clip);
     auto& row = bench.row(envelope);
     const double perPixel = bench.session.viewState.axis().secondsPerPixel;
     const auto from = placeOf(row, bench.session, clip.envelope[1]);
@@ -122,7 +123,7 @@ TEST_CASE("Each target of snapping counts when it is switched on, and what moves
     clip.transients = {{0.43, 0.5, 0.5}, {1.5, 0.5, 0.5}};
     clip.markers = {{0.7, "a"}};
     auto& session = bench.session;
-    session.model.setClip("Plain", clip);
+    editor::setClip(session.model, "Plain", clip);
     session.transport.setPlayhead(1.1);
     const double perPixel = session.viewState.axis().secondsPerPixel;
     const double near = 7.0 * perPixel;
@@ -156,7 +157,7 @@ TEST_CASE("An end of the time range can be dragged in the ruler and sticks to tr
     Clip clip = bench.clip();
     clip.transients = {{1.2, 0.5, 0.5}};
     auto& session = bench.session;
-    session.model.setClip("Plain", clip);
+    editor::setClip(session.model, "Plain", clip);
     session.clipSelection.setTimeRange(TimeRange{0.5, 1.0});
     auto& ruler = childOf<editor::TimeRuler>(bench.view.clipView());
     const auto at = [&](double time)
@@ -179,7 +180,7 @@ TEST_CASE("The ends of the selection's bar stretch it in time, Alt and arrow key
     clip.envelope = {{0.0, 0.2}, {0.4, 0.1}, {0.6, 0.4}, {0.8, 0.2}, {clip.duration, 0.2}};
     clip.transients.clear();
     auto& session = bench.session;
-    session.model.setClip("Plain", clip);
+    editor::setClip(session.model, "Plain", clip);
     session.clipSelection.select(withPoints({}, envelope, {1, 2, 3}));
     auto& bar = childOf<editor::SelectionBar>(bench.view.clipView());
     const auto x = static_cast<float>(session.viewState.axis().xOf(0.8));
@@ -190,7 +191,7 @@ TEST_CASE("The ends of the selection's bar stretch it in time, Alt and arrow key
     CHECK(bench.clip().envelope[1].time == 0.4);
     CHECK(bench.clip().envelope[2].time == Approx(0.6 + 0.5 * longer));
     CHECK(bench.clip().envelope[3].time == Approx(0.8 + longer));
-    CHECK(session.model.document().undoName() == "Stretch selection");
+    CHECK(session.model.document().steps().undoName() == "Stretch selection");
     session.model.undo();
     CHECK(bench.clip() == clip);
 
@@ -217,22 +218,22 @@ TEST_CASE("Version A is shown and played in place of the clip, cannot be edited,
     auto& session = bench.session;
     CHECK_FALSE(bench.view.doCommand(editor::compareWithA));
     REQUIRE(bench.view.doCommand(editor::keepVersionA));
-    session.model.edit("Gain", GainEdit{{}, -6.0});
+    editor::editClip(session.model, "Gain", GainEdit{{}, -6.0});
     const Clip second = bench.clip();
     const auto state = session.model.document().snapshot().state;
     REQUIRE(bench.view.doCommand(editor::compareWithA));
     CHECK(bench.clip() == first);
-    CHECK_FALSE(session.model.edit("Gain", GainEdit{{}, -6.0}));
+    CHECK_FALSE(editor::editClip(session.model, "Gain", GainEdit{{}, -6.0}));
     CHECK(bench.view.sheet() != nullptr); // it says why
     bench.view.showSheet(nullptr);
-    CHECK_FALSE(session.model.setClip("Change", second, session.model.beginGesture()));
+    CHECK_FALSE(editor::setClip(session.model, "Change", second, session.model.beginGesture()));
     CHECK(bench.view.sheet() == nullptr);
     CHECK(session.model.document().snapshot().state == state);
     REQUIRE(bench.view.doCommand(editor::compareWithA));
     CHECK(bench.clip() == second);
     REQUIRE(bench.view.doCommand(editor::takeVersionA));
     CHECK(bench.clip() == first);
-    CHECK(session.model.document().undoName() == "Revert to version A");
+    CHECK(session.model.document().steps().undoName() == "Revert to version A");
     session.model.undo();
     CHECK(bench.clip() == second);
 }
@@ -243,12 +244,12 @@ TEST_CASE("Undo, another clip and another project end a comparison")
     bench.openDemo("knock_wood_bridge");
     auto& session = bench.session;
     session.model.keepVersion();
-    session.model.edit("Gain", GainEdit{{}, -6.0});
+    editor::editClip(session.model, "Gain", GainEdit{{}, -6.0});
     session.model.setComparing(true);
     session.model.undo();
     CHECK_FALSE(session.model.isComparing());
     session.model.setComparing(true);
-    session.model.duplicate();
+    editor::duplicateShown(session.model);
     CHECK_FALSE(session.model.isComparing());
     CHECK(session.model.keptVersion() == nullptr); // it was kept of the other clip
     session.model.newProject();
@@ -266,7 +267,7 @@ TEST_CASE("Switching between clip and version A while playing makes no gap")
     bench.session.sounds.add(std::move(imported));
     auto& session = bench.session;
     session.model.keepVersion();
-    session.model.edit("Gain", GainEdit{{}, -6.0206});
+    editor::editClip(session.model, "Gain", GainEdit{{}, -6.0206});
     session.player.prepare(48000.0);
     session.transport.play();
     std::vector<float> block(480);

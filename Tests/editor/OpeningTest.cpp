@@ -2,6 +2,7 @@
 
 #include "editor/Bench.h"
 #include "editor/Pump.h"
+#include "editor/clip/session/ClipSteps.h"
 #include "io/AudioWriter.h"
 #include "io/ClipFile.h"
 #include "support/TempFolder.h"
@@ -84,7 +85,7 @@ TEST_CASE("A sound is shown as a waveform before it is analysed, and then become
     CHECK(bench.view.clipView().isVisible());
     REQUIRE(session.sounds.workNow());
     CHECK(session.sounds.workNow()->text.contains("long.wav"));
-    CHECK_FALSE(session.model.document().canUndo());
+    CHECK_FALSE(session.model.document().steps().canUndo());
     session.viewState.zoom(0.5, 100.0);
     const TimeAxis axis = session.viewState.axis();
     REQUIRE(pumpUntil([&] { return session.model.clip() != nullptr; }));
@@ -92,7 +93,7 @@ TEST_CASE("A sound is shown as a waveform before it is analysed, and then become
     CHECK(session.viewState.axis() == axis);
     CHECK_FALSE(session.model.isShowingUnanalysed());
     CHECK(idle(session));
-    CHECK_FALSE(session.model.document().canUndo());
+    CHECK_FALSE(session.model.document().steps().canUndo());
     CHECK(*session.model.clip() == editor::importFile(folder / "long.wav", {})->clip);
 }
 
@@ -190,7 +191,7 @@ TEST_CASE("A project without its sound says so once, can be edited, and finds th
     CHECK(messages.titles.empty());
     const int source = session.model.item()->source;
     CHECK(session.sounds.isMissing(source));
-    CHECK(session.model.edit("Reverse", ReverseEdit{}));
+    CHECK(editor::editClip(session.model, "Reverse", ReverseEdit{}));
     session.model.undo();
 
     writeSound(folder / "other.wav", 1.0, 99);
@@ -202,7 +203,7 @@ TEST_CASE("A project without its sound says so once, can be edited, and finds th
     session.sounds.findSounds(folder / "elsewhere/renamed.wav");
     REQUIRE(pumpUntil([&] { return session.sounds.soundOfClip() != nullptr; }));
     CHECK_FALSE(session.sounds.isMissing(source));
-    CHECK(session.model.document().undoName() == "Find sound");
+    CHECK(session.model.document().steps().undoName() == "Find sound");
     CHECK(session.model.document().project().sources[0].path == folder / "elsewhere/renamed.wav");
 }
 
@@ -215,7 +216,7 @@ TEST_CASE("A copy inside the project makes it independent of the file, and the o
         bench.session.sounds.add(editor::importFile(folder / "hit.wav", {}).value());
         bench.session.sounds.keepSound(bench.session.model.item()->source, true);
         REQUIRE(pumpUntil([&] { return bench.session.model.document().project().sources[0].embedded != nullptr; }));
-        CHECK(bench.session.model.document().undoName() == "Embed sound");
+        CHECK(bench.session.model.document().steps().undoName() == "Embed sound");
         REQUIRE(bench.session.model.saveAs(folder / "p.pacini"));
     }
     const std::string bytes = bytesOf(folder / "hit.wav");
@@ -241,7 +242,7 @@ TEST_CASE("A project that cannot be written says why, stays open with its change
     editor::Session& session = bench.session;
     bench.openDemo("knock_wood_bridge");
     REQUIRE(session.model.saveAs(folder / "p.pacini"));
-    REQUIRE(session.model.edit("Reverse", ReverseEdit{}));
+    REQUIRE(editor::editClip(session.model, "Reverse", ReverseEdit{}));
     const Clip edited = bench.clip();
     std::filesystem::remove(folder / "p.pacini");
     std::filesystem::create_symlink("/dev/full", folder / "p.pacini");

@@ -5,6 +5,7 @@
 #include "document/MarkerEdits.h"
 #include "editor/Bench.h"
 #include "editor/clip/commands/HeldSwitch.h"
+#include "editor/clip/session/ClipSteps.h"
 #include "editor/clip/sheets/NameSheet.h"
 
 #include <pacini/clip/edits/TimeEdits.h>
@@ -52,7 +53,7 @@ TEST_CASE("While a sheet is open the clip shows what it would do, and Cancel lea
     EditorBench bench;
     bench.openDemo("drums_tabla_pattern");
     const Clip before = bench.clip();
-    bench.session.model.edit("Fade in", FadeEdit{});
+    editor::editClip(bench.session.model, "Fade in", FadeEdit{});
     bench.session.model.undo();
     const auto state = bench.session.model.document().snapshot().state;
     REQUIRE(bench.view.doCommand(editor::changeGain));
@@ -64,7 +65,7 @@ TEST_CASE("While a sheet is open the clip shows what it would do, and Cancel lea
     close(bench);
     CHECK(bench.clip() == before);
     CHECK(bench.session.model.document().snapshot().state == state);
-    CHECK(bench.session.model.document().canRedo()); // what could be redone still can
+    CHECK(bench.session.model.document().steps().canRedo()); // what could be redone still can
 }
 
 TEST_CASE("Applying makes the previewed clip one step with the operation's name")
@@ -105,7 +106,7 @@ TEST_CASE("Applying makes the previewed clip one step with the operation's name"
     sheetOf(bench).apply();
     close(bench);
     CHECK(bench.clip().duration == Approx(2.5));
-    CHECK(bench.session.model.document().undoName() == "Stretch");
+    CHECK(bench.session.model.document().steps().undoName() == "Stretch");
 }
 
 TEST_CASE("An operation is for the selection, else for the time range, as the inspector says")
@@ -188,7 +189,7 @@ TEST_CASE("Fades have their shapes, and both ends")
     bench.session.model.undo();
     bench.view.doCommand(editor::fadeOutSmoothly);
     CHECK(valueAt(bench.clip().envelope, quarter) == Approx(0.8536 * was).margin(0.002));
-    CHECK(bench.session.model.document().undoName() == "Smooth fade out");
+    CHECK(bench.session.model.document().steps().undoName() == "Smooth fade out");
 }
 
 TEST_CASE("A clip is split at the playhead and joined with the next again")
@@ -245,7 +246,7 @@ TEST_CASE("Markers are added at the playhead, found, renamed, dragged and remove
     bench.view.showSheet(nullptr);
     REQUIRE(bench.view.doCommand(editor::deleteMarker));
     CHECK(bench.clip().markers == std::vector<Marker>{{0.8, "Marker 1"}});
-    CHECK(session.model.document().undoName() == "Delete marker");
+    CHECK(session.model.document().steps().undoName() == "Delete marker");
 
     // A drag in the strip below the ruler.
     juce::Component* strip = nullptr;
@@ -260,7 +261,7 @@ TEST_CASE("Markers are added at the playhead, found, renamed, dragged and remove
     Mouse(*strip, juce::ModifierKeys::altModifier).dragFromTo(from, from + juce::Point<float>(50.0f, 0.0f));
     REQUIRE(bench.clip().markers.size() == 1);
     CHECK(bench.clip().markers[0].time == Approx(0.8 + 50.0 * perPixel));
-    CHECK(session.model.document().undoName() == "Move marker");
+    CHECK(session.model.document().steps().undoName() == "Move marker");
     for (int i = 0; i < 4; ++i)
         session.model.undo();
     CHECK(bench.clip() == before);

@@ -4,6 +4,7 @@
 #include "editor/Pump.h"
 #include "editor/clip/panels/AnalysisPanel.h"
 #include "editor/clip/panels/ProjectPanel.h"
+#include "editor/clip/session/ClipSteps.h"
 #include "io/AudioWriter.h"
 #include "io/EncoderPresets.h"
 #include "io/FinishedClip.h"
@@ -52,7 +53,7 @@ TEST_CASE("Knobs of the analysis run it again after a pause as one step, the han
     auto& session = pages.session;
     Clip edited = pages.clip();
     edited.transients.front().amplitude = 0.25;
-    REQUIRE(session.model.setClip("Softer", edited));
+    REQUIRE(editor::setClip(session.model, "Softer", edited));
     auto& bands = get<juce::Slider>(pages.analysis, "Bands");
     REQUIRE(bands.isEnabled());
     CHECK(bands.getValue() == 12.0);
@@ -63,12 +64,12 @@ TEST_CASE("Knobs of the analysis run it again after a pause as one step, the han
     REQUIRE(pumpUntil([&] { return pages.clip().bands.size() == 20; }));
     CHECK(pages.clip().transients.front().amplitude == Approx(0.25));
     CHECK(session.model.item()->encoder.bands == 20);
-    CHECK(session.model.document().undoName() == "Analysis");
+    CHECK(session.model.document().steps().undoName() == "Analysis");
     CHECK(session.model.item()->clip->name == "knock_wood_bridge");
     session.model.undo();
     CHECK(pages.clip() == edited);
     CHECK(bands.getValue() == 12.0);
-    CHECK(session.model.document().undoName() == "Softer");
+    CHECK(session.model.document().steps().undoName() == "Softer");
 }
 
 TEST_CASE("Version A is shown with the settings of its analysis, and is taken back with them")
@@ -87,7 +88,7 @@ TEST_CASE("Version A is shown with the settings of its analysis, and is taken ba
     session.model.setComparing(false);
     CHECK(bands.getValue() == 20.0);
     CHECK(bands.isEnabled());
-    session.model.takeVersion();
+    editor::takeVersion(session.model);
     CHECK(*session.model.item() == first);
     CHECK(bands.getValue() == 12.0);
     session.model.undo();
@@ -140,7 +141,7 @@ TEST_CASE("Edits that found no place are listed with their reasons, shown where 
     // An edit of the highest band, which the lower range does not have.
     Clip edited = pages.clip();
     edited.bands.back().amplitude = {{0.0, 0.2}, {0.1, 0.9}, {edited.duration, 0.1}};
-    REQUIRE(session.model.setClip("Draw", edited));
+    REQUIRE(editor::setClip(session.model, "Draw", edited));
     EncoderParams low;
     low.highFrequency = 200.0;
     low.bands = 4;
@@ -173,12 +174,12 @@ TEST_CASE("Another sound comes under the edits of a clip, which keeps its name; 
     Pages pages;
     auto& session = pages.session;
     const Clip before = pages.clip();
-    REQUIRE(session.model.edit("Gain", GainEdit{{}, -6.0}));
+    REQUIRE(editor::editClip(session.model, "Gain", GainEdit{{}, -6.0}));
     session.sounds.replaceSound(folder / "tone.wav");
     REQUIRE(pumpUntil([&] { return analysed(session); }));
     CHECK(pages.clip().duration == Approx(1.0));
     CHECK(pages.clip().name == before.name);
-    CHECK(session.model.document().undoName() == "Replace sound");
+    CHECK(session.model.document().steps().undoName() == "Replace sound");
     REQUIRE(session.sounds.soundOfClip() != nullptr);
     CHECK(session.sounds.soundOfClip()->audio.duration() == Approx(1.0));
     const Clip& analysis = *session.model.item()->analysis;
@@ -244,7 +245,7 @@ TEST_CASE("Clips are chosen, renamed, duplicated, moved, grouped and removed in 
     CHECK(pages.names() == Names{"drums_tabla_pattern", "Second"});
     while (session.model.document().project().clips.size() != 2 || !(session.model.document().project() == before))
     {
-        REQUIRE(session.model.document().canUndo());
+        REQUIRE(session.model.document().steps().canUndo());
         session.model.undo();
     }
 }
@@ -291,7 +292,7 @@ TEST_CASE("Several selected clips are grouped, exported and removed in one step 
     editor::Subscriptions heard;
     heard.on({&session.model.projectChanged}, [&] { ++told; });
     const int other = session.model.document().project().clips.back()->id;
-    session.model.removeClips({other});
+    editor::removeClips(session.model, {other});
     CHECK(told > 0);
     CHECK(list.rows().size() == 4); // three clips and a group
     session.model.undo();

@@ -1,5 +1,6 @@
 // The scene page without a screen.
 
+#include "document/Amendments.h"
 #include "editor/Bench.h"
 #include "editor/Pump.h"
 #include "editor/clip/scene/SceneSheet.h"
@@ -187,7 +188,7 @@ TEST_CASE("A scene of forty parts beside five hundred clips is drawn within 16 m
 {
     ScenePage page;
     for (int i = 2; i < 500; ++i)
-        REQUIRE(page.session.model.insert([&](Document& document) { return document.addClip(page.clip()); }).ok());
+        REQUIRE(page.session.model.insert([&](Document& document) { return addClip(document, page.clip()); }).ok());
     for (int i = 0; i < 40; ++i)
         page.sheet->parts().add(i % 2 == 0 ? page.first : page.second, 0.3 * i);
     auto& line = page.sheet->timeline();
@@ -254,7 +255,7 @@ TEST_CASE("Pages and sheets that change the project undo and save; questions and
     bench.view.doCommand(editor::fadeOut);
     REQUIRE(bench.view.doCommand(editor::showHistory));
     press('z');
-    CHECK_FALSE(model.document().canUndo());
+    CHECK_FALSE(model.document().steps().canUndo());
     press('y');
     CHECK(model.document().isDirty());
     press('s');
@@ -267,6 +268,6 @@ TEST_CASE("Pages and sheets that change the project undo and save; questions and
     bench.view.showSheet(nullptr);
     REQUIRE(bench.view.doCommand(editor::exportClips));
     press('z');
-    CHECK(model.document().canUndo());
+    CHECK(model.document().steps().canUndo());
     bench.view.showSheet(nullptr);
 }

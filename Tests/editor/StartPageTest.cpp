@@ -2,6 +2,7 @@
 
 #include "editor/Bench.h"
 #include "editor/Pump.h"
+#include "editor/clip/session/ClipSteps.h"
 #include "support/TempFolder.h"
 
 #include <algorithm>
@@ -87,7 +88,7 @@ TEST_CASE("A sound of the library opens with the actuator that was chosen, and a
     CHECK(bench.view.statusBar().playsOn().contains(juce::String(bench.session.actuators.profile()->name)));
     // Nor does a project lose it that is empty for a while.
     bench.session.actuators.setProfile("l5-wristband");
-    bench.session.model.removeClip();
+    editor::removeClips(bench.session.model, {bench.session.model.activeId()});
     CHECK(bench.session.actuators.profileName() == "l5-wristband");
     bench.session.model.undo();
     CHECK(bench.session.actuators.profileName() == "l5-wristband");

@@ -2,6 +2,7 @@
 
 #include "editor/Bench.h"
 #include "editor/Pump.h"
+#include "editor/clip/session/ClipSteps.h"
 #include "editor/clip/sheets/ExportSheet.h"
 #include "io/AudioReader.h"
 #include "support/TempFolder.h"
@@ -189,15 +190,15 @@ TEST_CASE("Actuator and strength are choices of listening: kept with the project
 {
     StrengthBench bench;
     auto& document = bench.session.model.document();
-    REQUIRE(bench.session.model.edit("Reverse", ReverseEdit{}));
+    REQUIRE(editor::editClip(bench.session.model, "Reverse", ReverseEdit{}));
     for (const double percent : {50.0, 60.0, 80.0})
         bench.turn(percent);
     bench.session.actuators.setProfile("lra-235-narrow");
-    CHECK(document.undoName() == "Reverse");
+    CHECK(document.steps().undoName() == "Reverse");
     bench.session.model.undo();
     CHECK(bench.slider.getValue() == 80.0);
     CHECK(bench.session.actuators.profileName() == "lra-235-narrow");
-    CHECK_FALSE(document.canUndo());
+    CHECK_FALSE(document.steps().canUndo());
     CHECK(document.project().profile.strength == Approx(0.8));
     const TempFolder folder;
     REQUIRE(bench.session.model.saveAs(folder / "strong.pacini"));

@@ -1,6 +1,7 @@
 // What the rows of the sound and of the actuator show, and how the view follows.
 
 #include "editor/Bench.h"
+#include "editor/clip/session/ClipSteps.h"
 
 #include <array>
 
@@ -170,7 +171,7 @@ TEST_CASE("An edit is rendered anew once the clip rests, and meanwhile the old i
                 Clip edited = bench.clip();
                 edited.envelope = {{0.0, 0.1}, {4.0, 0.1}};
                 edited.bands[0].amplitude = {{0.0, 0.1}, {4.0, 0.1}};
-                bench.session.model.setClip("Edit", edited);
+                editor::setClip(bench.session.model, "Edit", edited);
                 CHECK(row.trace() == first);
             }
             return first && row.trace() != first && row.trace();
@@ -229,7 +230,7 @@ TEST_CASE("Moving one point redraws what lies about it and nothing else")
     juce::RectangleList<int> dirty;
     view.setCachedComponentImage(new Repaints(dirty));
     dirty.clear(); // of having been set
-    bench.session.model.setClip("Edit", edited);
+    editor::setClip(bench.session.model, "Edit", edited);
     view.setCachedComponentImage(nullptr);
     const auto& row = bench.row({LaneKind::envelope, 0});
     const auto place = view.getLocalPoint(&row, placeOf(row, bench.session, before.envelope[k])).roundToInt();
@@ -254,7 +255,7 @@ TEST_CASE("A point more is told in the head, and bands that stay as they are are
     juce::RectangleList<int> dirty;
     view.setCachedComponentImage(new Repaints(dirty));
     dirty.clear(); // of having been set
-    bench.session.model.setClip("Edit", edited);
+    editor::setClip(bench.session.model, "Edit", edited);
     view.setCachedComponentImage(nullptr);
     const auto headOf = [&](Lane lane)
     {
@@ -284,6 +285,6 @@ TEST_CASE("Lanes of noise are named by their frequencies")
     CHECK(title(1) == juce::String::fromUTF8("Noise 0.50–2.0 kHz"));
     Clip edited = bench.clip();
     edited.noise[0].highFrequency = 130.0;
-    bench.session.model.setClip("Edit", edited);
+    editor::setClip(bench.session.model, "Edit", edited);
     CHECK(title(0) == juce::String::fromUTF8("Noise 40–130 Hz"));
 }

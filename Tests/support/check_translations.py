@@ -33,7 +33,7 @@ FILES = {
         "Source/document/FolderFiles.cpp", "Source/document/RecentFiles.cpp", "Source/plugin/engine/PluginState.h"],
     "errors of project files, which name places in JSON; English, as the command prints errors of files": [
         "Source/document/EditFields.h", "Source/document/ProjectFields.h", "Source/document/ProjectJson.cpp", "Source/document/ProjectJson.h",
-        "Source/document/OperationCheck.h", "Source/document/ProjectScene.cpp", "Source/document/EditLayer.cpp", "Source/document/ItemEdits.cpp",
+        "Source/document/OperationCheck.h", "Source/document/ProjectScene.cpp", "Source/document/EditLayer.cpp", "Source/document/ProjectEdits.cpp",
         "Source/plugin/engine/PluginState.cpp"],
     "the command line, which is English": ["Source/app/Settings.cpp", "Source/app/CommandLine.h",
                                               "Source/app/Display.h"],

@@ -47,7 +47,7 @@ void StatusBar::setExported()
 void StatusBar::follow()
 {
     done.chosen = done.chosen || session.model.clip() != nullptr;
-    done.shaped = done.shaped || session.model.document().canUndo();
+    done.shaped = done.shaped || session.model.document().steps().canUndo();
     setDescription(playsOn());
     reconnectButton.setVisible(!session.outputs.hasDevice() && onReconnect);
     resized();

@@ -1,5 +1,6 @@
 // Clips that are edited in the plugin's window.
 
+#include "editor/clip/session/ClipSteps.h"
 #include "plugin/engine/Rig.h"
 #include "plugin/window/PluginWindow.h"
 #include "support/HeapGuard.h"
@@ -120,7 +121,7 @@ TEST_CASE("The clips of the window are kept with the session")
         CHECK(state.toString().contains("\"clips\"") == false);
         addClip(rig, toneClip(2.0));
         auto& session = rig.plugin.clips().session();
-        REQUIRE(session.model.edit("Gain", GainEdit{session.clipSelection.scope(), -6.0}));
+        REQUIRE(editor::editClip(session.model, "Gain", GainEdit{session.clipSelection.scope(), -6.0}));
         edited = *session.model.clip();
         state.reset();
         rig.plugin.getStateInformation(state);
@@ -156,7 +157,8 @@ TEST_CASE("Playing a clip makes no heap traffic on the audio thread, nor does an
     {
         buffer.clear();
         if (block % 50 == 0)
-            session.model.edit("Gain", GainEdit{session.clipSelection.scope(), block % 100 == 0 ? -3.0 : 3.0});
+            editor::editClip(session.model, "Gain",
+                             GainEdit{session.clipSelection.scope(), block % 100 == 0 ? -3.0 : 3.0});
         const HeapGuard guard;
         rig.plugin.processBlock(buffer, midi);
         traffic += guard.traffic();

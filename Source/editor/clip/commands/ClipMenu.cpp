@@ -3,6 +3,7 @@
 #include "editor/clip/EditorView.h"
 #include "editor/clip/commands/Action.h"
 #include "editor/clip/commands/Operations.h"
+#include "editor/clip/session/ClipSteps.h"
 #include "editor/clip/sheets/ComparisonSheet.h"
 
 namespace pacini::editor
@@ -41,12 +42,12 @@ Menu clipMenu(EditorView& view)
         {
             const auto range = *session.clipSelection.timeRange();
             session.clipSelection.setTimeRange(std::nullopt);
-            session.model.edit("Trim", TrimEdit{range});
+            editClip(session.model, "Trim", TrimEdit{range});
         },
         [&session] { return session.model.clip() && session.clipSelection.timeRange(); }, {ctrl('t')});
     menu.add(
-        reverse, "Reverse", "Reverses the clip in time", [&session] { session.model.edit("Reverse", ReverseEdit{}); },
-        anyClip);
+        reverse, "Reverse", "Reverses the clip in time",
+        [&session] { editClip(session.model, "Reverse", ReverseEdit{}); }, anyClip);
     menu.add(transposePitch, "Transpose...", "Shifts all frequencies by semitones",
              [&view] { ask(view, transposeOperation()); }, anyClip, {ctrlShift('t')});
     menu.add(
@@ -59,15 +60,15 @@ Menu clipMenu(EditorView& view)
         "Adapts levels and frequencies to the range of the chosen actuator, as one step",
         [&session]
         {
-            session.model.setClip("Fit to actuator", fittedClip(*session.model.clip(), *session.actuators.profile(),
-                                                                session.actuators.strength()));
+            setClip(session.model, "Fit to actuator",
+                    fittedClip(*session.model.clip(), *session.actuators.profile(), session.actuators.strength()));
         },
         [&session] { return session.model.clip() && session.actuators.profile(); });
     menu.add(
         splitClipHere, "Split at playhead", "Moves everything after the playhead to a new clip",
         [&session]
         {
-            if (!session.model.splitAt(session.transport.playhead()))
+            if (!splitShown(session.model, session.transport.playhead()))
                 return;
             session.transport.stop();
             session.viewState.fit();
@@ -75,7 +76,7 @@ Menu clipMenu(EditorView& view)
         [&session] { return session.transport.canSplit(); }, {juce::KeyPress('s')});
     menu.add(
         joinWithNext, "Join with next clip", "Appends the next clip of the project to this one",
-        [&session] { session.model.joinNext(); }, [&session] { return session.model.nextClipId() != 0; },
+        [&session] { joinNext(session.model); }, [&session] { return nextClipId(session.model) != 0; },
         {juce::KeyPress('j')});
     menu.addLine();
     menu.add(keepVersionA, "Store as version A", "Stores the current clip, to compare with later edits",
@@ -87,7 +88,7 @@ Menu clipMenu(EditorView& view)
         [&session] { return session.model.keptVersion() != nullptr; });
     menu.add(
         takeVersionA, "Revert to version A", "Replaces the clip with version A, and the settings of its analysis",
-        [&session] { session.model.takeVersion(); }, [&session] { return session.model.keptVersion() != nullptr; });
+        [&session] { takeVersion(session.model); }, [&session] { return session.model.keptVersion() != nullptr; });
     menu.add(
         analyseAlike, "Analyse selected clips alike",
         "Analyses all clips that are selected in the list with the settings of this one, as one step",
@@ -103,9 +104,10 @@ Menu clipMenu(EditorView& view)
         [&session] { return session.model.clip() && session.sounds.soundOfClip(); }, {ctrlShift('d')});
     menu.addLine();
     menu.add(duplicateClip, "Duplicate", "Adds a copy of the clip to the project",
-             [&session] { session.model.duplicate(); }, anyClip, {ctrl('d')});
+             [&session] { duplicateShown(session.model); }, anyClip, {ctrl('d')});
     menu.add(
-        removeClip, "Remove", "Removes the clip from the project", [&session] { session.model.removeClip(); }, anyClip);
+        removeClip, "Remove", "Removes the clip from the project",
+        [&session] { removeClips(session.model, {session.model.activeId()}); }, anyClip);
     menu.add(nextClip, "Next clip", "Shows the next clip of the project", [&session] { showOther(session, 1); },
              several, {ctrl(juce::KeyPress::pageDownKey)});
     menu.add(previousClip, "Previous clip", "Shows the previous clip of the project",

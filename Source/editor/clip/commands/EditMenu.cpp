@@ -42,17 +42,17 @@ Menu editMenu(EditorView& view)
     Menu menu("Edit");
     menu.add(
             undo, "Undo", "Undoes the last step", [&session] { session.model.undo(); },
-            [&session] { return session.model.document().canUndo(); }, {ctrl('z')})
+            [&session] { return session.model.document().steps().canUndo(); }, {ctrl('z')})
         .fullName = [&session]
     {
-        return commandWithStep("Undo", "Undo {0}", session.model.document().undoName());
+        return commandWithStep("Undo", "Undo {0}", session.model.document().steps().undoName());
     };
     menu.add(
             redo, "Redo", "Redoes the last undone step", [&session] { session.model.redo(); },
-            [&session] { return session.model.document().canRedo(); }, {ctrlShift('z'), ctrl('y')})
+            [&session] { return session.model.document().steps().canRedo(); }, {ctrlShift('z'), ctrl('y')})
         .fullName = [&session]
     {
-        return commandWithStep("Redo", "Redo {0}", session.model.document().redoName());
+        return commandWithStep("Redo", "Redo {0}", session.model.document().steps().redoName());
     };
     menu.add(
         showHistory, "History...", "Lists all steps and jumps to any of them",

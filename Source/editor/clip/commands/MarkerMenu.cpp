@@ -3,6 +3,7 @@
 #include "editor/Text.h"
 #include "editor/clip/EditorView.h"
 #include "editor/clip/commands/Action.h"
+#include "editor/clip/session/ClipSteps.h"
 #include "editor/clip/session/Snapping.h"
 #include "editor/clip/sheets/NameSheet.h"
 
@@ -24,7 +25,7 @@ std::optional<std::size_t> markerHere(const Session& session)
 
 void setMarkers(Session& session, const char* name, std::vector<Marker> markers)
 {
-    session.model.edit(name, MarkersEdit{std::move(markers)});
+    editClip(session.model, name, MarkersEdit{std::move(markers)});
 }
 
 void addHere(Session& session)

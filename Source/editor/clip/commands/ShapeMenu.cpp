@@ -2,6 +2,7 @@
 #include "editor/clip/EditorView.h"
 #include "editor/clip/commands/Action.h"
 #include "editor/clip/commands/Operations.h"
+#include "editor/clip/session/ClipSteps.h"
 
 namespace pacini::editor
 {
@@ -31,7 +32,7 @@ Menu shapeMenu(EditorView& view)
         menu.add(
             id, name, help,
             [&session, name, direction, shape] {
-                session.model.edit(name, FadeEdit{session.clipSelection.scope(), direction, shape});
+                editClip(session.model, name, FadeEdit{session.clipSelection.scope(), direction, shape});
             },
             anyClip);
     };
@@ -46,7 +47,7 @@ Menu shapeMenu(EditorView& view)
     fade(fadeOutSmoothly, "Smooth fade out", "Fades out with an S-shaped curve", FadeDirection::out, FadeShape::smooth);
     menu.addLine();
     menu.add(invertCurves, "Invert", "Flips levels, frequencies and sharpness upside down",
-             [&session] { session.model.edit("Invert", InvertEdit{session.clipSelection.scope()}); }, anyClip,
+             [&session] { editClip(session.model, "Invert", InvertEdit{session.clipSelection.scope()}); }, anyClip,
              {ctrl('i')});
     menu.add(quantise, "Quantise...", "Moves points towards a grid in seconds or beats",
              asking(view, quantiseOperation, true), anyClip, {Key('q')});

@@ -8,6 +8,7 @@
 #include "editor/Translation.h"
 #include "editor/clip/lanes/ColumnFill.h"
 #include "editor/clip/lanes/LaneText.h"
+#include "editor/clip/session/ClipSteps.h"
 
 #include <algorithm>
 
@@ -384,7 +385,7 @@ juce::String CurveLane::valueText(double value) const
 template <typename Edit>
 void CurveLane::change(const char* name, Edit edit)
 {
-    const auto start = model.gestureStart(toolGesture);
+    const auto start = gestureStart(model, toolGesture);
     const Curve* before = start ? curveOf(*start, shown) : nullptr;
     if (before == nullptr)
         return;

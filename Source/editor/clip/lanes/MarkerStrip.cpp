@@ -7,6 +7,7 @@
 #include "editor/Theme.h"
 #include "editor/Translation.h"
 #include "editor/clip/lanes/PlotLane.h"
+#include "editor/clip/session/ClipSteps.h"
 #include "editor/clip/session/Snapping.h"
 
 #include <algorithm>
@@ -127,7 +128,7 @@ void MarkerStrip::mouseDown(const juce::MouseEvent& event)
 
 void MarkerStrip::mouseDrag(const juce::MouseEvent& event)
 {
-    const auto start = model.gestureStart(gesture);
+    const auto start = gestureStart(model, gesture);
     if (!dragged || !start || *dragged >= start->markers.size() || !event.mouseWasDraggedSinceMouseDown())
         return;
     double time = grabbed + event.getDistanceFromDragStartX() * viewState.axis().secondsPerPixel;
@@ -139,7 +140,7 @@ void MarkerStrip::mouseDrag(const juce::MouseEvent& event)
         snapping.playhead = transport.isPlaying(); // else it moves along
         time = snapTime(model, viewState, transport, time, snapping);
     }
-    model.edit("Move marker", MarkersEdit{movedMarker(start->markers, *dragged, time, start->duration)}, gesture);
+    editClip(model, "Move marker", MarkersEdit{movedMarker(start->markers, *dragged, time, start->duration)}, gesture);
     if (!transport.isPlaying())
         transport.setPlayhead(time);
 }

@@ -5,6 +5,7 @@
 #include "editor/Theme.h"
 #include "editor/Translation.h"
 #include "editor/clip/lanes/LaneText.h"
+#include "editor/clip/session/ClipSteps.h"
 #include "editor/clip/session/Snapping.h"
 #include "editor/clip/session/StepText.h"
 
@@ -319,7 +320,7 @@ void PlotLane::mouseDrag(const juce::MouseEvent& event)
         dragTool(event);
     if (drag != Drag::things || !event.mouseWasDraggedSinceMouseDown() || pacini::isEmpty(dragged))
         return;
-    const auto start = model.gestureStart(gesture);
+    const auto start = gestureStart(model, gesture);
     if (!start)
         return;
     // What was grabbed keeps its distance to the pointer.
@@ -387,7 +388,7 @@ void PlotLane::scaleByKeys(double pixels, double steps)
         return;
     nudgedPixels += pixels;
     nudgedSteps += steps;
-    const auto start = model.gestureStart(nudging);
+    const auto start = gestureStart(model, nudging);
     const auto range = timeOf(dragged, *start);
     if (!range)
         return;
@@ -409,7 +410,7 @@ void PlotLane::nudge(double pixels, double steps)
         return;
     nudgedPixels += pixels;
     nudgedSteps += steps;
-    const auto start = model.gestureStart(nudging);
+    const auto start = gestureStart(model, nudging);
     const ValueAxis axis = scale();
     Breakpoint to = grabbed;
     // A step of decibels is 1 dB, of a frequency a semitone, of a linear scale a fiftieth.

@@ -3,6 +3,7 @@
 
 #include "document/SelectionScale.h"
 #include "editor/Theme.h"
+#include "editor/clip/session/ClipSteps.h"
 #include "editor/clip/session/Snapping.h"
 
 #include <algorithm>
@@ -78,7 +79,7 @@ void SelectionBar::mouseDown(const juce::MouseEvent& event)
 
 void SelectionBar::mouseDrag(const juce::MouseEvent& event)
 {
-    const auto start = model.gestureStart(gesture);
+    const auto start = gestureStart(model, gesture);
     if (!start || gesture == 0 || !event.mouseWasDraggedSinceMouseDown())
         return;
     const double perPixel = viewState.axis().secondsPerPixel;

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/clip/panels/ClipList.h"
 
+#include "document/ProjectEdits.h"
 #include "editor/Text.h"
 #include "editor/Theme.h"
 #include "editor/Translation.h"
 #include "editor/clip/scene/SceneSelection.h"
+#include "editor/clip/session/ClipSteps.h"
 
 #include <algorithm>
 
@@ -416,14 +418,11 @@ void ClipList::rename(int row, const juce::String& name)
     if (shown == nullptr || wanted.empty() || nameOf(*shown) == toText(wanted))
         return;
     const ClipRow was = *shown;
-    model.change(
-        [&was, &wanted](Document& document) -> Result<void>
-        {
-            if (was.clip != 0)
-                return document.edit(was.clip, "Rename clip", RenameEdit{wanted});
-            document.renameGroup(was.group, wanted, "Rename group");
-            return {};
-        });
+    const Project& project = model.document().project();
+    if (was.clip != 0)
+        model.commit("Rename clip", withEdit(project, was.clip, RenameEdit{wanted}));
+    else
+        model.commit("Rename group", withGroupRenamed(project, was.group, wanted));
     for (std::size_t i = 0; was.clip == 0 && i < rowsNow.size(); ++i)
         if (rowsNow[i] == ClipRow{0, wanted})
             list.selectRow(static_cast<int>(i));
@@ -436,13 +435,8 @@ void ClipList::remove(int row)
         return;
     const ClipRow was = *shown;
     if (was.clip != 0)
-        return model.removeClips(clipsFor(row));
-    model.change(
-        [&was](Document& document) -> Result<void>
-        {
-            document.renameGroup(was.group, {}, "Remove group");
-            return {};
-        });
+        return removeClips(model, clipsFor(row));
+    model.commit("Remove group", withGroupRenamed(model.document().project(), was.group, {}));
 }
 
 void ClipList::duplicate(int row)
@@ -452,7 +446,7 @@ void ClipList::duplicate(int row)
         return;
     if (shown->clip != model.activeId())
         model.show(shown->clip);
-    model.duplicate();
+    duplicateShown(model);
 }
 
 void ClipList::move(int row, std::size_t above)
@@ -467,7 +461,7 @@ void ClipList::move(int row, std::size_t above)
     if (item && item->group == place.group && place.index < project.clips.size() &&
         project.clips[place.index]->id == id)
         return;
-    model.change([&](Document& document) { return document.placeClip(id, place.index, place.group, "Move clip"); });
+    model.commit("Move clip", withPlaced(project, id, place.index, place.group));
 }
 
 void ClipList::setGroup(int row, const std::string& group)
@@ -475,7 +469,7 @@ void ClipList::setGroup(int row, const std::string& group)
     const auto clips = clipsFor(row);
     if (clips.empty() || (clips.size() == 1 && at(row)->group == group))
         return;
-    model.change([&](Document& document) { return document.setGroup(clips, group, "Move to group"); });
+    model.commit("Move to group", withGroup(model.document().project(), clips, group));
 }
 
 void ClipList::addGroup(int row)
@@ -484,14 +478,12 @@ void ClipList::addGroup(int row)
     if (const ClipRow* shown = at(row); shown != nullptr && shown->clip != 0)
         setGroup(row, name);
     else
-        model.change(
-            [&](Document& document) -> Result<void>
-            {
-                auto groups = groupsOf(document.project());
-                groups.push_back(name);
-                document.setGroups(std::move(groups), "New group");
-                return {};
-            });
+    {
+        const Project& project = model.document().project();
+        auto groups = groupsOf(project);
+        groups.push_back(name);
+        model.commit("New group", withGroups(project, std::move(groups)));
+    }
     for (std::size_t i = 0; i < rowsNow.size(); ++i)
         if (rowsNow[i].clip == 0 && rowsNow[i].group == name)
             beginRename(static_cast<int>(i));

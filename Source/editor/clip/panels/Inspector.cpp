@@ -8,6 +8,7 @@
 #include "editor/Translation.h"
 #include "editor/clip/EditorView.h"
 #include "editor/clip/lanes/LaneText.h"
+#include "editor/clip/session/ClipSteps.h"
 #include "editor/clip/session/StepText.h"
 
 #include <pacini/foundation/Units.h>
@@ -267,7 +268,8 @@ void Inspector::gainMoved()
 {
     const bool single = gesture == 0; // typed, or by keys
     if (model.clip() && gain.getValue() != 0.0)
-        model.edit("Gain", GainEdit{clipSelection.scope(), gain.getValue()}, single ? model.beginGesture() : gesture);
+        editClip(model, "Gain", GainEdit{clipSelection.scope(), gain.getValue()},
+                 single ? model.beginGesture() : gesture);
     if (single)
         gain.setValue(0.0, juce::dontSendNotification);
 }
@@ -278,7 +280,7 @@ void Inspector::simplifyMoved()
         return;
     const bool single = gesture == 0;
     const Gesture own = single ? model.beginGesture() : gesture;
-    const auto start = model.gestureStart(own);
+    const auto start = gestureStart(model, own);
     const auto lanes = scopeLanes();
     auto simplified = keepShare(*start, lanes, keep.getValue() / 100.0);
     if (!simplified)

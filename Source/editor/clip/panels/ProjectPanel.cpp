@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/clip/panels/ProjectPanel.h"
 
+#include "document/ProjectEdits.h"
 #include "editor/Controls.h"
 #include "editor/Text.h"
 #include "editor/Theme.h"
@@ -128,17 +129,12 @@ void ProjectPanel::keepNotes()
     const std::string ofProject = projectNotes.getText().toStdString();
     const int id = notesOf;
     if (const auto item = model.document().clip(id); item && item->notes != ofClip)
-        model.change([&](Document& document) { return document.setNotes(id, ofClip, "Clip notes"); });
+        model.commit("Clip notes", withNotes(model.document().project(), id, ofClip));
     const auto wanted = tagsIn(tags.getText());
     if (const auto item = model.document().clip(id); item && item->tags != wanted)
-        model.change([&](Document& document) { return document.setTags(tagsOf, wanted, "Clip tags"); });
+        model.commit("Clip tags", withTags(model.document().project(), tagsOf, wanted));
     if (model.document().project().notes != ofProject)
-        model.change(
-            [&](Document& document) -> Result<void>
-            {
-                document.setProjectNotes(ofProject, "Project notes");
-                return {};
-            });
+        model.commit("Project notes", withProjectNotes(model.document().project(), ofProject));
 }
 
 void ProjectPanel::show()

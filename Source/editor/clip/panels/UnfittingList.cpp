@@ -2,6 +2,7 @@
 #include "editor/clip/panels/UnfittingList.h"
 
 #include "document/EditText.h"
+#include "document/ProjectEdits.h"
 #include "editor/Controls.h"
 #include "editor/Text.h"
 #include "editor/Theme.h"
@@ -168,8 +169,7 @@ void UnfittingList::removeEdit(int row)
         [self = juce::Component::SafePointer<UnfittingList>(this), id = item->id, index]
         {
             if (self)
-                self->model.change([&](Document& document)
-                                   { return document.removeEdits(id, "Remove edit", {index}); });
+                self->model.commit("Remove edit", withoutEdits(self->model.document().project(), id, {index}));
         });
 }
 

@@ -3,6 +3,7 @@
 
 // Selected part of the project's scene, and edits of the scene.
 
+#include "document/ProjectEdits.h"
 #include "document/ProjectScene.h"
 #include "editor/clip/session/EditorModel.h"
 
@@ -47,7 +48,7 @@ public:
         change(wanted);
         if (wanted == scene())
             return true;
-        return model.change([&](Document& document) { return document.setScene(std::move(wanted), name, gesture); });
+        return model.commit(name, withScene(model.document().gestureStart(gesture), std::move(wanted)), gesture);
     }
     /// Of the selected part, if there is one.
     template <typename Change>

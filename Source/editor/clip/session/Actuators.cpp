@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/clip/session/Actuators.h"
 
+#include "document/Amendments.h"
+
 #include <pacini/actuator/ActuatorFit.h>
 #include <pacini/foundation/Clamp.h>
 
@@ -69,7 +71,7 @@ void Actuators::choose(const std::string& name)
     for (const NamedProfile& entry : list)
         if (entry.name == name && entry.own)
             wanted.embedded = *entry.profile;
-    model.change([&](Document& document) { return document.setProfile(std::move(wanted)); });
+    model.change([&](Document& document) { return pacini::setProfile(document, wanted); });
 }
 
 void Actuators::setStrength(double wanted)
@@ -78,7 +80,7 @@ void Actuators::setStrength(double wanted)
     wanted = clampTo(wanted, 0.0, 1.0);
     if (std::exchange(chosen.strength, wanted) == wanted)
         return;
-    model.change([&](Document& document) { return document.setProfile(std::move(chosen)); });
+    model.change([&](Document& document) { return pacini::setProfile(document, chosen); });
 }
 
 bool Actuators::strengthMatters() const

@@ -2,6 +2,7 @@
 #include "editor/clip/session/ClipSelection.h"
 
 #include "editor/Translation.h"
+#include "editor/clip/session/ClipSteps.h"
 #include "editor/clip/session/StepText.h"
 
 #include <utility>
@@ -74,7 +75,7 @@ EditScope ClipSelection::scope() const
 bool ClipSelection::setEdited(std::string name, EditedClip wanted, Gesture gesture)
 {
     edited = std::move(wanted.selection);
-    const bool done = model.setClip(std::move(name), std::move(wanted.clip), gesture);
+    const bool done = setClip(model, std::move(name), std::move(wanted.clip), gesture);
     edited.reset();
     return done;
 }
@@ -82,7 +83,7 @@ bool ClipSelection::setEdited(std::string name, EditedClip wanted, Gesture gestu
 bool ClipSelection::setEdited(std::string name, EditOperation first, EditedClip wanted)
 {
     edited = std::move(wanted.selection);
-    const bool done = model.setClip(std::move(name), std::move(first), std::move(wanted.clip));
+    const bool done = setClip(model, std::move(name), std::move(first), std::move(wanted.clip));
     edited.reset();
     return done;
 }
@@ -109,7 +110,7 @@ void ClipSelection::cut()
     {
         const auto cutRange = *rangeNow;
         setTimeRange(std::nullopt);
-        model.edit("Cut", CutEdit{cutRange});
+        editClip(model, "Cut", CutEdit{cutRange});
     }
 }
 

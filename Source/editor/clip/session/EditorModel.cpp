@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/clip/session/EditorModel.h"
 
+#include "document/Amendments.h"
 #include "editor/Text.h"
 #include "editor/Translation.h"
 
@@ -27,13 +28,6 @@ void EditorModel::report(const std::string& title, const Error& error) const
 {
     if (onError)
         onError(translateMessage(toText(title)), translateMessage(toText(error.text())));
-}
-
-bool EditorModel::take(Result<void> result)
-{
-    if (!result)
-        report("Not possible", result.error());
-    return result.ok();
 }
 
 // The project.
@@ -132,9 +126,7 @@ std::shared_ptr<const Clip> EditorModel::clip() const
 {
     if (preview)
         return preview;
-    if (comparing)
-        return keptVersion();
-    const auto shown = item();
+    const auto shown = shownItem();
     return shown ? shown->clip : nullptr;
 }
 
@@ -223,23 +215,15 @@ void EditorModel::keepVersion()
     versionChanged.emit();
 }
 
-std::shared_ptr<const Clip> EditorModel::keptVersion() const
+std::shared_ptr<const ClipItem> EditorModel::keptVersion() const
 {
     const auto found = versions.find(active);
-    return found != versions.end() ? found->second->clip : nullptr;
+    return found != versions.end() ? found->second : nullptr;
 }
 
 std::shared_ptr<const ClipItem> EditorModel::shownItem() const
 {
-    return comparing && keptVersion() ? versions.at(active) : item();
-}
-
-void EditorModel::takeVersion()
-{
-    if (!keptVersion())
-        return;
-    setComparing(false);
-    change([this](Document& document) { return document.restoreClip(*versions.at(active), "Revert to version A"); });
+    return comparing && keptVersion() ? keptVersion() : item();
 }
 
 void EditorModel::setComparing(bool wanted)
@@ -261,25 +245,6 @@ bool EditorModel::mayEdit(Gesture gesture) const
 }
 
 // Edits.
-
-std::shared_ptr<const Clip> EditorModel::gestureStart(Gesture gesture) const
-{
-    return open->gestureStart(active, gesture);
-}
-
-bool EditorModel::edit(std::string name, EditOperation operation, Gesture gesture)
-{
-    return mayEdit(gesture) &&
-           change([&](Document& document)
-                  { return document.edit(active, std::move(name), std::move(operation), gesture); });
-}
-
-bool EditorModel::setClip(std::string name, Clip edited, Gesture gesture)
-{
-    return mayEdit(gesture) &&
-           change([&](Document& document)
-                  { return document.setClip(active, std::move(name), std::move(edited), gesture); });
-}
 
 namespace
 {
@@ -305,22 +270,15 @@ int clipAfterStep(const Project& before, const Project& after, int active)
 }
 } // namespace
 
-bool EditorModel::setClip(std::string name, EditOperation first, Clip edited)
-{
-    return mayEdit(0) &&
-           change([&](Document& document)
-                  { return document.setClip(active, std::move(name), std::move(first), std::move(edited)); });
-}
-
 void EditorModel::undo()
 {
-    if (open->canUndo())
+    if (open->steps().canUndo())
         goTo(open->steps().current() - 1);
 }
 
 void EditorModel::redo()
 {
-    if (open->canRedo())
+    if (open->steps().canRedo())
         goTo(open->steps().current() + 1);
 }
 
@@ -337,17 +295,25 @@ void EditorModel::goTo(std::size_t state)
     projectChanged.emit();
 }
 
-bool EditorModel::change(const std::function<Result<void>(Document&)>& step)
+bool EditorModel::commit(std::string name, Result<Project> next, Gesture gesture)
 {
-    if (!take(step(*open)))
+    return change([&](Document& document) { return document.commit(std::move(name), std::move(next), gesture); });
+}
+
+bool EditorModel::change(const std::function<Result<void>(Document&)>& amendment)
+{
+    if (const auto done = amendment(*open); !done)
+    {
+        report("Not possible", done.error());
         return false;
+    }
     documentChanged();
     return true;
 }
 
-Result<int> EditorModel::insert(const std::function<Result<int>(Document&)>& step)
+Result<int> EditorModel::insert(const std::function<Result<int>(Document&)>& amendment)
 {
-    auto id = step(*open);
+    auto id = amendment(*open);
     if (!id)
         return id;
     if (follow(active))
@@ -358,24 +324,11 @@ Result<int> EditorModel::insert(const std::function<Result<int>(Document&)>& ste
 
 Result<void> EditorModel::openScene(const Scene& scene, const std::string& group)
 {
-    if (auto done = open->openScene(scene, group, "Open scene"); !done)
+    if (auto done = pacini::openScene(*open, scene, group, "Open scene"); !done)
         return done;
     documentChanged();
     sceneOpened.emit();
     return {};
-}
-
-void EditorModel::duplicate()
-{
-    const auto id = open->duplicateClip(active, "Duplicate clip");
-    if (!id)
-        return report("Not duplicated", id.error());
-    show(*id);
-}
-
-void EditorModel::removeClip()
-{
-    removeClips({active});
 }
 
 std::vector<int> EditorModel::selectedClips() const
@@ -385,41 +338,6 @@ std::vector<int> EditorModel::selectedClips() const
     if (std::find(there.begin(), there.end(), active) == there.end())
         there.assign(active != 0 ? 1 : 0, active);
     return there;
-}
-
-void EditorModel::removeClips(const std::vector<int>& ids)
-{
-    if (!take(open->removeClips(ids, ids.size() > 1 ? "Remove clips" : "Remove clip")))
-        return;
-    if (item() || unanalysed)
-        documentChanged();
-    else
-        show(isEmpty() ? 0 : open->project().clips.front()->id);
-}
-
-bool EditorModel::splitAt(double time)
-{
-    const auto right = open->splitClipAt(active, time, "Split");
-    if (!right)
-        report("Not split", right.error());
-    else
-        documentChanged();
-    return right.ok();
-}
-
-int EditorModel::nextClipId() const
-{
-    const auto& items = open->project().clips;
-    for (std::size_t i = 0; i + 1 < items.size(); ++i)
-        if (items[i]->id == active)
-            return items[i + 1]->id;
-    return 0;
-}
-
-void EditorModel::joinNext()
-{
-    if (mayEdit(0))
-        change([this](Document& document) { return document.joinClip(active, nextClipId(), "Join"); });
 }
 
 } // namespace pacini::editor

@@ -89,8 +89,6 @@ public:
     /// The shown one alone, where it is none of them.
     [[nodiscard]] std::vector<int> selectedClips() const;
     void selectClips(std::vector<int> ids) { selectedNow = std::move(ids); }
-    /// Removes them; where the shown one is among them, the first that is left is shown.
-    void removeClips(const std::vector<int>& ids);
 
     /// Shows a sound whose analysis is under way, as a clip without curves, until a clip is shown in its place.
     void showUnanalysed(std::shared_ptr<const Sound> read);
@@ -109,47 +107,35 @@ public:
     /// Keeps the clip as it is now to compare it with what it becomes.
     void keepVersion();
     /// Null when none was kept of the clip that is shown.
-    [[nodiscard]] std::shared_ptr<const Clip> keptVersion() const;
+    [[nodiscard]] std::shared_ptr<const ClipItem> keptVersion() const;
     /// The clip whose curves and settings are shown: the kept version while that is compared with. Null: none is.
     [[nodiscard]] std::shared_ptr<const ClipItem> shownItem() const;
-    /// The clip becomes the kept version, with the settings of its analysis.
-    void takeVersion();
     /// The kept version is shown and heard, which cannot be edited, or the clip again; playing goes on.
     void setComparing(bool wanted);
     [[nodiscard]] bool isComparing() const noexcept { return comparing; }
 
-    // Edits. What fails is told by onError and changes nothing.
+    // Changes; those of a clip are in ClipSteps.h. What fails is told by onError and changes nothing.
 
     [[nodiscard]] Gesture beginGesture() noexcept { return open->beginGesture(); }
-    [[nodiscard]] std::shared_ptr<const Clip> gestureStart(Gesture gesture) const;
-    bool edit(std::string name, EditOperation operation, Gesture gesture = 0);
-    bool setClip(std::string name, Clip edited, Gesture gesture = 0);
-    /// See Document::setClip().
-    bool setClip(std::string name, EditOperation first, Clip edited);
+    /// Whether the clip may be edited; not while the kept version is looked at, which is told.
+    [[nodiscard]] bool mayEdit(Gesture gesture = 0) const;
+    /// See Document::commit().
+    bool commit(std::string name, Result<Project> next, Gesture gesture = 0);
+    /// What is no step; see Amendments.h.
+    bool change(const std::function<Result<void>(Document&)>& amendment);
+    /// What adds a clip, which is not shown for it: its id.
+    Result<int> insert(const std::function<Result<int>(Document&)>& amendment);
+    /// See pacini::openScene(); says sceneOpened.
+    Result<void> openScene(const Scene& scene, const std::string& group);
     void undo();
     void redo();
     /// To any state of document().steps().
     void goTo(std::size_t state);
-    /// Any other step of the document: what clips are called, their order, groups, notes.
-    bool change(const std::function<Result<void>(Document&)>& step);
-    /// A step that adds a clip, which is not shown for it: its id.
-    Result<int> insert(const std::function<Result<int>(Document&)>& step);
-    /// See Document::openScene(); says sceneOpened.
-    Result<void> openScene(const Scene& scene, const std::string& group);
-    void duplicate();
-    void removeClip();
-    /// Two clips of one.
-    bool splitAt(double time);
-    /// The next clip of the project is put behind this one.
-    void joinNext();
-    [[nodiscard]] int nextClipId() const; ///< 0: none
 
 private:
-    bool take(Result<void> result);
     void take(Document document);
     bool follow(int before);
     void documentChanged();
-    [[nodiscard]] bool mayEdit(Gesture gesture) const;
     Result<void> saved(Result<void> result);
 
     std::unique_ptr<Document> open = std::make_unique<Document>();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/clip/session/ProjectSounds.h"
 
+#include "document/Amendments.h"
+#include "document/ProjectEdits.h"
 #include "editor/Text.h"
 #include "editor/Translation.h"
 #include "io/FinishedClip.h"
@@ -85,8 +87,8 @@ Result<int> ProjectSounds::insert(Imported imported)
         [&](Document& document)
         {
             if (!imported.sound)
-                return document.addClip(imported.clip);
-            auto id = document.addSound(imported.reference, imported.encoder, imported.clip);
+                return addClip(document, imported.clip);
+            auto id = addSound(document, imported.reference, imported.encoder, imported.clip);
             if (id)
                 sounds[document.clip(*id)->source] = imported.sound;
             return id;
@@ -212,8 +214,8 @@ void ProjectSounds::findSounds(const std::filesystem::path& chosen)
                           "use it anyway, choose \"Replace sound...\" on the Analysis page."});
                  for (const AudioReference& source : found)
                      missing.erase(source.id);
-                 model.change([&](Document& document)
-                              { return document.setSounds(found, found.size() > 1 ? "Find sounds" : "Find sound"); });
+                 model.commit(found.size() > 1 ? "Find sounds" : "Find sound",
+                              withSounds(model.document().project(), found));
                  load();
                  changed.emit();
                  if (found.size() < wanted && model.onError)
@@ -256,8 +258,8 @@ void ProjectSounds::keepSound(int sourceId, bool wanted)
             if (!read)
                 model.report(wanted ? "Sound not embedded" : "Embedded sound kept", read.error());
             else
-                model.change([&](Document& document)
-                             { return document.setSound(*read, wanted ? "Embed sound" : "Remove embedded sound"); });
+                model.commit(wanted ? "Embed sound" : "Remove embedded sound",
+                             withSounds(model.document().project(), {*read}));
             changed.emit();
         });
 }
@@ -307,9 +309,9 @@ void ProjectSounds::reanalyse(const std::vector<int>& clips, const EncoderParams
     const auto temporary = pathOf(juce::File::getSpecialLocation(juce::File::tempDirectory));
     jobs.run(
         [sources, wanted, temporary, folders = foldersOf(model.document()),
-         task = again]() -> Result<std::vector<Document::Reanalysis>>
+         task = again]() -> Result<std::vector<Reanalysis>>
         {
-            std::vector<Document::Reanalysis> done;
+            std::vector<Reanalysis> done;
             for (const Source& source : sources)
             {
                 std::optional<StoredAudio> read;
@@ -329,7 +331,7 @@ void ProjectSounds::reanalyse(const std::vector<int>& clips, const EncoderParams
             }
             return done;
         },
-        [this, wanted, task = again, of = generation](Result<std::vector<Document::Reanalysis>> done)
+        [this, wanted, task = again, of = generation](Result<std::vector<Reanalysis>> done)
         {
             if (of != generation || task->stopped)
                 return;
@@ -341,8 +343,9 @@ void ProjectSounds::reanalyse(const std::vector<int>& clips, const EncoderParams
             std::erase_if(*done, [this](const auto& one) { return !model.document().clip(one.id); });
             for (auto& one : *done)
                 keepName(one.analysis, *model.document().clip(one.id));
-            model.change([&](Document& document)
-                         { return document.reanalyse(std::move(*done), "Analysis of clips", wanted); });
+            const Document& document = model.document();
+            model.commit("Analysis of clips",
+                         withAnalyses(document.project(), wanted, std::move(*done), document.steps().newIds().source));
         });
     workChanged.emit();
 }
@@ -410,7 +413,9 @@ void ProjectSounds::putAgain(const Again& done, Result<Imported> analysed, bool 
         [&](Document& document)
         {
             auto reanalysed =
-                document.reanalyse(done.clip, done.name, done.params, std::move(analysed->clip), std::move(other));
+                document.commit(done.name, withAnalysis(document.project(), done.params,
+                                                        {done.clip, std::move(analysed->clip), std::move(other)},
+                                                        document.steps().newIds().source));
             if (reanalysed && otherSound)
             {
                 const int source = document.clip(done.clip)->source;

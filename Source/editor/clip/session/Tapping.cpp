@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/clip/session/Tapping.h"
 
+#include "editor/clip/session/ClipSteps.h"
+
 #include <pacini/clip/edits/TransientEdits.h>
 
 #include <algorithm>
@@ -23,14 +25,14 @@ void Tapping::tap(double amplitude)
         clip = model.activeId();
         tapped.clear();
     }
-    const auto start = model.gestureStart(pass);
+    const auto start = gestureStart(model, pass);
     if (!start)
         return;
     tapped.push_back({std::clamp(transport.playhead(), 0.0, start->duration), amplitude, usualEvent.sharpness});
     Clip edited = *start;
     for (const Transient& event : tapped)
         edited = addTransient(std::move(edited), event);
-    model.setClip("Tap events", std::move(edited), pass);
+    setClip(model, "Tap events", std::move(edited), pass);
 }
 
 } // namespace pacini::editor

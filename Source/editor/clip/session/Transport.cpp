@@ -54,7 +54,8 @@ void Transport::send()
         wanted.loop = selection.timeRange().value_or(TimeRange{0.0, clip->duration});
     const auto item = model.item();
     wanted.a = model.isPreviewing() ? clip : item ? item->clip : nullptr;
-    wanted.b = model.keptVersion();
+    const auto kept = model.keptVersion();
+    wanted.b = kept ? kept->clip : nullptr;
     wanted.take = model.isComparing() ? Take::b : Take::a;
     wanted.audition = auditionNow;
     if (!lent)

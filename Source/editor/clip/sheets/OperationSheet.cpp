@@ -7,6 +7,7 @@
 #include "editor/Theme.h"
 #include "editor/Translation.h"
 #include "editor/clip/EditorView.h"
+#include "editor/clip/session/ClipSteps.h"
 
 #include <algorithm>
 #include <cmath>
@@ -305,7 +306,7 @@ void OperationSheet::apply()
     EditorModel& target = model;
     close();
     if (any)
-        target.edit(name, wanted);
+        editClip(target, name, wanted);
 }
 
 void OperationSheet::layOut(juce::Rectangle<int> area)
