@@ -2,46 +2,16 @@
 
 // Commands to an engine, and the order in which they are carried out.
 
+#include <pacini/runtime/LiveControl.h>
 #include <pacini/runtime/PlayContent.h>
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 namespace pacini
 {
-
-/// Live control of a play, or of all plays in a group.
-enum class LiveControl
-{
-    gain,          ///< linear, 0 to 1000
-    intensity,     ///< 0 to 1, beside the gain
-    pan,           ///< 0 = first actuator, 1 = last
-    delay,         ///< s, 0 to EngineParams::longestDelay
-    transposition, ///< semitones, -96 to 96; steps
-    speed,         ///< 0.01 to 100, pitches stay; steps
-    priority,      ///< 0 is kept longest; steps
-    tones,         ///< linear, 0 to 1000, as are the next two: levels of the roles of the clip
-    events,
-    noise
-};
-
-/// The control that is the level of a role.
-[[nodiscard]] constexpr LiveControl controlOf(Role role) noexcept
-{
-    return role == Role::tones ? LiveControl::tones : role == Role::events ? LiveControl::events : LiveControl::noise;
-}
-
-/// The role whose level a control is, if it is one.
-[[nodiscard]] constexpr std::optional<Role> roleOf(LiveControl control) noexcept
-{
-    for (const Role role : allRoles)
-        if (controlOf(role) == control)
-            return role;
-    return {};
-}
 
 /// One command, for a frame of the output.
 struct LiveCommand
