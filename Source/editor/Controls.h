@@ -56,6 +56,14 @@ inline void prepareButton(juce::Button& button, const juce::String& tooltip, std
     button.onClick = std::move(click);
 }
 
+/// Sets up the label beside a control; screen readers have the control's own title.
+inline void prepareLabel(juce::Label& label, const juce::String& text, const juce::Font& font)
+{
+    label.setText(text, juce::dontSendNotification);
+    label.setFont(font);
+    label.setAccessible(false);
+}
+
 /// Adds children in this order, visible.
 inline void addAll(juce::Component& parent, std::initializer_list<juce::Component*> children)
 {

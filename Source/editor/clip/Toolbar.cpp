@@ -67,9 +67,7 @@ Toolbar::Toolbar(EditorModel& project, Actuators& profiles, Transport& playing)
 
     const auto choice = [this](auto& box, juce::Label& label, const juce::String& name, const juce::String& help)
     {
-        label.setText(name, juce::dontSendNotification);
-        label.setFont(smallFont());
-        label.setAccessible(false);
+        prepareLabel(label, name, smallFont());
         box.setTitle(name);
         box.setTooltip(help);
         addAndMakeVisible(label);

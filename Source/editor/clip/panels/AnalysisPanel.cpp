@@ -37,9 +37,7 @@ AnalysisPanel::AnalysisPanel(EditorView& shown)
     setTitle("Analysis");
     const auto label = [this](juce::Label& one, const juce::String& text)
     {
-        one.setText(text, juce::dontSendNotification);
-        one.setFont(smallFont());
-        one.setAccessible(false);
+        prepareLabel(one, text, smallFont());
         one.setMinimumHorizontalScale(0.8f);
         one.setBorderSize({});
         addAndMakeVisible(one);
@@ -99,7 +97,23 @@ AnalysisPanel::AnalysisPanel(EditorView& shown)
                                          [this](const std::filesystem::path& file) { sounds.findSounds(file); });
         });
     addAll(*this, {&replaceButton, &findButton, &preset, &resetButton, &spacing, &normalise, &edits});
+    prepareKnobs();
+    setSize(200, preferredHeight);
+    subscriptions.on({&sounds.workChanged},
+                     [this]
+                     {
+                         // The wish was carried out, or was stopped.
+                         if (!sounds.workNow() && !isTimerRunning())
+                             waiting.reset();
+                     });
+    subscriptions.on({&model.projectChanged, &model.versionChanged, &sounds.changed, &sounds.workChanged},
+                     [this] { show(); });
+    lookAndFeelChanged();
+    show();
+}
 
+void AnalysisPanel::prepareKnobs()
+{
     const auto range = [this](Which which, std::string_view parameter, double step, double scale = 1.0)
     {
         const DescribedRange& described = parameterNamed(encoderParameters, parameter).range;
@@ -138,26 +152,12 @@ AnalysisPanel::AnalysisPanel(EditorView& shown)
                            juce::dontSendNotification);
         edited();
     };
-    setSize(200, preferredHeight);
-    subscriptions.on({&sounds.workChanged},
-                     [this]
-                     {
-                         // The wish was carried out, or was stopped.
-                         if (!sounds.workNow() && !isTimerRunning())
-                             waiting.reset();
-                     });
-    subscriptions.on({&model.projectChanged, &model.versionChanged, &sounds.changed, &sounds.workChanged},
-                     [this] { show(); });
-    lookAndFeelChanged();
-    show();
 }
 
 void AnalysisPanel::prepare(Which which, const juce::String& name, const juce::String& unit, const juce::String& help)
 {
     Knob& one = knobs[which];
-    one.name.setText(name, juce::dontSendNotification);
-    one.name.setFont(smallFont());
-    one.name.setAccessible(false);
+    prepareLabel(one.name, name, smallFont());
     one.name.setBorderSize({});
     one.slider.setSliderStyle(juce::Slider::LinearHorizontal);
     one.slider.setTextBoxStyle(juce::Slider::TextBoxRight, false, 7 * grid + 4, rowHeight);

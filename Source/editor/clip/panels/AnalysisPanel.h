@@ -52,6 +52,7 @@ private:
     };
 
     void timerCallback() override { carryOut(); }
+    void prepareKnobs();
     void prepare(Which which, const juce::String& name, const juce::String& unit, const juce::String& help);
     void set(const EncoderParams& wanted);
     void showPreset(const EncoderParams& wanted);

@@ -66,9 +66,7 @@ Inspector::Inspector(EditorView& shown)
     setTitle("Inspector");
     const auto label = [this](juce::Label& one, const juce::String& text)
     {
-        one.setText(text, juce::dontSendNotification);
-        one.setFont(smallFont());
-        one.setAccessible(false);
+        prepareLabel(one, text, smallFont());
         one.setMinimumHorizontalScale(0.8f);
         addAndMakeVisible(one);
     };
@@ -83,6 +81,29 @@ Inspector::Inspector(EditorView& shown)
         text->setAccessible(true);
         text->setJustificationType(juce::Justification::topLeft);
     }
+    prepareFields();
+    prepareSliders();
+    const auto button = [this](juce::TextButton& one, Command command, const juce::String& help)
+    {
+        prepareButton(one, help, [this, command] { view.doCommand(command); });
+        addAndMakeVisible(one);
+    };
+    button(fadeInButton, fadeIn, "Fades in over the selection, the time range or the clip");
+    button(fadeOutButton, fadeOut, "Fades out over the selection, the time range or the clip");
+    button(reverseButton, reverse, "Reverses the whole clip");
+    setSize(200, inspectorPreferredHeight);
+    addChildComponent(chip);
+    subscriptions.on({&model.contentChanged, &clipSelection.changed, &clipSelection.rangeChanged},
+                     [this] { showSelection(); });
+    subscriptions.on({&model.contentChanged}, [this] { showFacts(); });
+    lookAndFeelChanged();
+    showSelection();
+    showFacts();
+}
+
+/// What is typed there moves the first thing selected, and the others with it.
+void Inspector::prepareFields()
+{
     const auto field = [this](juce::Label& one, const juce::String& title, const juce::String& help)
     {
         one.setEditable(true, true, true);
@@ -98,7 +119,6 @@ Inspector::Inspector(EditorView& shown)
           "Level in dB or frequency in Hz of the first selected item; the others scale along");
     field(sharpField, "Selection sharpness",
           "Sharpness of the first selected transient, 0 % dull to 100 % crisp; the others follow");
-    // What is typed there moves the first thing selected, and the others with it.
     const auto moves = [this](juce::Label& typed, SelectionStep step, auto moveOf)
     {
         typed.onTextChange = [this, &typed, step, moveOf]
@@ -132,6 +152,10 @@ Inspector::Inspector(EditorView& shown)
               return first.sharpness ? std::optional(SelectionMove{.sharpness = 0.01 * percent - *first.sharpness})
                                      : std::nullopt;
           });
+}
+
+void Inspector::prepareSliders()
+{
     const auto slider = [this](juce::Slider& one, double rest, const juce::String& title, const juce::String& help)
     {
         one.setSliderStyle(juce::Slider::LinearHorizontal);
@@ -168,22 +192,6 @@ Inspector::Inspector(EditorView& shown)
     {
         simplifyMoved();
     };
-    const auto button = [this](juce::TextButton& one, Command command, const juce::String& help)
-    {
-        prepareButton(one, help, [this, command] { view.doCommand(command); });
-        addAndMakeVisible(one);
-    };
-    button(fadeInButton, fadeIn, "Fades in over the selection, the time range or the clip");
-    button(fadeOutButton, fadeOut, "Fades out over the selection, the time range or the clip");
-    button(reverseButton, reverse, "Reverses the whole clip");
-    setSize(200, inspectorPreferredHeight);
-    addChildComponent(chip);
-    subscriptions.on({&model.contentChanged, &clipSelection.changed, &clipSelection.rangeChanged},
-                     [this] { showSelection(); });
-    subscriptions.on({&model.contentChanged}, [this] { showFacts(); });
-    lookAndFeelChanged();
-    showSelection();
-    showFacts();
 }
 
 void Inspector::lookAndFeelChanged()

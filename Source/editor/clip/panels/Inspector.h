@@ -24,6 +24,8 @@ public:
     void lookAndFeelChanged() override;
 
 private:
+    void prepareFields();
+    void prepareSliders();
     void showSelection();
     void showFacts();
     void gainMoved();

@@ -32,10 +32,8 @@ PlayPanel::PlayPanel(Transport& playing, HapticOutputs& hapticOutputs)
             {});
     speed.slider.setSkewFactorFromMidPoint(1.0);
     prepare(position, "Position", "Position of the clip across the haptic outputs", {0.0, 100.0}, 1.0, 50.0, " %");
-    panLabel.setText("Pan", juce::dontSendNotification);
-    panLabel.setFont(smallFont());
+    prepareLabel(panLabel, "Pan", smallFont());
     panLabel.setBorderSize({});
-    panLabel.setAccessible(false);
     pan.setTitle("Pan");
     pan.setTooltip("Panning by the position: off, by levels, by delays or by both");
     pan.addItem("Off", noPan);
@@ -64,10 +62,8 @@ PlayPanel::PlayPanel(Transport& playing, HapticOutputs& hapticOutputs)
 void PlayPanel::prepare(Row& row, const juce::String& name, const juce::String& help, juce::Range<double> range,
                         double step, double rest, const juce::String& unit)
 {
-    row.label.setText(name, juce::dontSendNotification);
-    row.label.setFont(smallFont());
+    prepareLabel(row.label, name, smallFont());
     row.label.setBorderSize({});
-    row.label.setAccessible(false);
     juce::Slider& slider = row.slider;
     slider.setSliderStyle(juce::Slider::LinearHorizontal);
     slider.setTextBoxStyle(juce::Slider::TextBoxRight, false, 8 * grid, playRowHeight);

@@ -42,9 +42,7 @@ SceneSheet::SceneSheet(Session& shared)
 {
     const auto label = [this](juce::Label& one, const juce::String& text)
     {
-        one.setText(text, juce::dontSendNotification);
-        one.setFont(smallFont());
-        one.setAccessible(false);
+        prepareLabel(one, text, smallFont());
         addAndMakeVisible(one);
     };
     label(clipsLabel, "Add clip");
@@ -56,6 +54,38 @@ SceneSheet::SceneSheet(Session& shared)
     label(repeatsLabel, "Repeats");
     label(note, {});
     note.setAccessible(true);
+    prepareChoices();
+    prepareSliders();
+    for (juce::TextButton* button :
+         {&playButton, &removeButton, &removeCurveButton, &fitButton, &openButton, &exportButton})
+        button->setTitle(button->getButtonText());
+    prepareButton(playButton, "Plays the scene on the haptic outputs from the cursor on, or stops (Space)",
+                  [this] { plays ? stop() : play(); });
+    prepareButton(removeButton, "Removes the selected clip from the scene (Delete)",
+                  [this] { selection.removeSelected(); });
+    prepareButton(removeCurveButton, "Plays the value instead of the curve", [this] { curve.removeCurve(); });
+    prepareButton(fitButton, "Shows the whole scene", [this] { line.fit(); });
+    prepareButton(openButton, "Opens a scene file with its clips in place of this scene", [this] { openScene(); });
+    prepareButton(exportButton, "Writes a scene file with all clips, for pacini render and the game library",
+                  [this] { exportScene(); });
+    addAll(*this, {&line, &clips, &actuators, &law, &playButton, &removeButton, &fitButton, &parameter, &value,
+                   &priority, &repeats, &removeCurveButton, &curve, &openButton, &exportButton});
+    setAnswers({{"Close", {}}});
+    subscriptions.on({&session.model.projectChanged, &session.actuators.changed},
+                     [this]
+                     {
+                         fillClips();
+                         follow();
+                         plan();
+                     });
+    subscriptions.on({&selection.changed}, [this] { follow(); });
+    fillClips();
+    follow();
+    plan();
+}
+
+void SceneSheet::prepareChoices()
+{
     clips.setTitle("Add clip");
     clips.setTooltip("Adds a clip of the project at the cursor");
     clips.setTextWhenNothingSelected(tr("Choose a clip"));
@@ -91,6 +121,10 @@ SceneSheet::SceneSheet(Session& shared)
         curve.show(offered[static_cast<std::size_t>(std::max(0, parameter.getSelectedItemIndex()))]);
         follow();
     };
+}
+
+void SceneSheet::prepareSliders()
+{
     value.setTitle("Value");
     value.setTooltip("Of the whole clip, where it has no curve");
     value.setSliderStyle(juce::Slider::LinearHorizontal);
@@ -129,32 +163,6 @@ SceneSheet::SceneSheet(Session& shared)
     {
         setRepeats(juce::roundToInt(repeats.getValue()));
     };
-    for (juce::TextButton* button :
-         {&playButton, &removeButton, &removeCurveButton, &fitButton, &openButton, &exportButton})
-        button->setTitle(button->getButtonText());
-    prepareButton(playButton, "Plays the scene on the haptic outputs from the cursor on, or stops (Space)",
-                  [this] { plays ? stop() : play(); });
-    prepareButton(removeButton, "Removes the selected clip from the scene (Delete)",
-                  [this] { selection.removeSelected(); });
-    prepareButton(removeCurveButton, "Plays the value instead of the curve", [this] { curve.removeCurve(); });
-    prepareButton(fitButton, "Shows the whole scene", [this] { line.fit(); });
-    prepareButton(openButton, "Opens a scene file with its clips in place of this scene", [this] { openScene(); });
-    prepareButton(exportButton, "Writes a scene file with all clips, for pacini render and the game library",
-                  [this] { exportScene(); });
-    addAll(*this, {&line, &clips, &actuators, &law, &playButton, &removeButton, &fitButton, &parameter, &value,
-                   &priority, &repeats, &removeCurveButton, &curve, &openButton, &exportButton});
-    setAnswers({{"Close", {}}});
-    subscriptions.on({&session.model.projectChanged, &session.actuators.changed},
-                     [this]
-                     {
-                         fillClips();
-                         follow();
-                         plan();
-                     });
-    subscriptions.on({&selection.changed}, [this] { follow(); });
-    fillClips();
-    follow();
-    plan();
 }
 
 SceneSheet::~SceneSheet()

@@ -38,6 +38,8 @@ private:
     juce::Component* firstFocus() override { return &line; }
     bool keyPressed(const juce::KeyPress& key) override;
     void timerCallback() override;
+    void prepareChoices();
+    void prepareSliders();
     void fillClips();
     void follow();
     void plan();

@@ -48,9 +48,7 @@ ExportSheet::ExportSheet(const EditorModel& project, const Actuators& profiles, 
 {
     const auto label = [this](juce::Label& one, const juce::String& text)
     {
-        one.setText(text, juce::dontSendNotification);
-        one.setFont(usualFont());
-        one.setAccessible(false);
+        prepareLabel(one, text, usualFont());
         addAndMakeVisible(one);
     };
     label(formatLabel, "Format");

@@ -33,9 +33,7 @@ class OperationSheet::Row final : public juce::Component, private juce::KeyListe
 public:
     Row(const OperationField& of, double first) : field(of)
     {
-        name.setText(field.name, juce::dontSendNotification);
-        name.setFont(usualFont());
-        name.setAccessible(false);
+        prepareLabel(name, field.name, usualFont());
         addAndMakeVisible(name);
         if (!field.choices.empty())
         {

@@ -29,10 +29,8 @@ OutputsSheet::OutputsSheet(HapticOutputs& hapticOutputs, const Actuators& profil
 {
     for (std::size_t i = 0; i < heads.size(); ++i)
     {
-        heads[i].setText(names[i], juce::dontSendNotification);
-        heads[i].setFont(smallFont());
+        prepareLabel(heads[i], names[i], smallFont());
         heads[i].setBorderSize({});
-        heads[i].setAccessible(false);
         addAndMakeVisible(heads[i]);
     }
     for (std::size_t i = 0; i < rows.size(); ++i)
@@ -54,9 +52,7 @@ void OutputsSheet::prepare(std::size_t index)
 {
     Row& row = rows[index];
     const juce::String number(static_cast<int>(index) + 1);
-    row.number.setText(number, juce::dontSendNotification);
-    row.number.setFont(usualFont());
-    row.number.setAccessible(false);
+    prepareLabel(row.number, number, usualFont());
     const auto box = [&](juce::ComboBox& one, const juce::String& title, const juce::String& help)
     {
         one.setTitle(tr(title, {number}));

@@ -100,9 +100,7 @@ void PreferencesSheet::addLanguages()
 void PreferencesSheet::add(const juce::String& name, std::unique_ptr<juce::Component> control)
 {
     auto row = std::make_unique<Row>();
-    row->name.setText(name, juce::dontSendNotification);
-    row->name.setFont(usualFont());
-    row->name.setAccessible(false);
+    prepareLabel(row->name, name, usualFont());
     control->setTitle(name);
     row->control = std::move(control);
     addAndMakeVisible(row->name);
