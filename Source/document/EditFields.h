@@ -4,6 +4,7 @@
 
 #include "document/Edit.h"
 #include "io/Fields.h"
+#include "io/LaneKinds.h"
 
 #include <array>
 #include <charconv>
@@ -20,11 +21,6 @@ namespace pacini::projectFields
 
 inline constexpr std::size_t most = 10'000'000; ///< entries of a list
 
-inline constexpr std::array<Choice<LaneKind>, 5> laneKinds = {{{"envelope", LaneKind::envelope},
-                                                               {"centroid", LaneKind::centroid},
-                                                               {"amplitude", LaneKind::amplitude},
-                                                               {"pitch", LaneKind::pitch},
-                                                               {"noise", LaneKind::noise}}};
 inline constexpr std::array<Choice<FadeDirection>, 2> fadeDirections = {
     {{"in", FadeDirection::in}, {"out", FadeDirection::out}}};
 inline constexpr std::array<Choice<FadeShape>, 3> fadeShapes = {

@@ -1,5 +1,7 @@
 #include "document/ProjectScene.h"
 
+#include "io/SceneFields.h"
+
 #include <pacini/foundation/Units.h>
 #include <pacini/synthesis/CompilePlan.h>
 
@@ -21,15 +23,6 @@ namespace pacini
 
 namespace
 {
-constexpr std::array<std::pair<SceneParameter, const char*>, 8> names{{{SceneParameter::gain, "gain"},
-                                                                       {SceneParameter::pan, "pan"},
-                                                                       {SceneParameter::delay, "delay"},
-                                                                       {SceneParameter::transposition, "transposition"},
-                                                                       {SceneParameter::stretch, "stretch"},
-                                                                       {SceneParameter::tones, "tones"},
-                                                                       {SceneParameter::events, "events"},
-                                                                       {SceneParameter::noise, "noise"}}};
-
 /// Whether a parameter goes in straight lines between points.
 bool glides(SceneParameter parameter) noexcept
 {
@@ -211,7 +204,7 @@ Result<void> validate(const ProjectScene& scene)
             return wrong(where + ".loop", "must be 0 (play once) or 0.005 s and longer");
         if (!(play.variation.amount >= 0.0 && play.variation.amount <= 1.0))
             return wrong(where + ".variation", "must be 0 to 1");
-        for (const auto& [parameter, name] : names)
+        for (const auto& [name, parameter] : sceneFields::parameters)
             if (!inRange(parameter, valueOf(play, parameter)))
                 return wrong(fmt::format("{}.{}", where, name), "is out of its range");
         for (std::size_t k = 0; k < part.curves.size(); ++k)

@@ -3,6 +3,7 @@
 #include "io/ClipFile.h"
 #include "io/ClipSeal.h"
 #include "io/FileExtension.h"
+#include "io/LaneKinds.h"
 #include "io/formats/ExportParameters.h"
 #include "io/formats/json/ClipJson.h"
 #include "python/native/ClipHandle.h"
@@ -133,24 +134,6 @@ ClipHandle edited(const ClipHandle& handle, std::optional<std::string> name, std
     return checked(std::move(clip));
 }
 
-const char* nameOf(LaneKind kind)
-{
-    switch (kind)
-    {
-    case LaneKind::amplitude:
-        return "amplitude";
-    case LaneKind::pitch:
-        return "pitch";
-    case LaneKind::envelope:
-        return "envelope";
-    case LaneKind::centroid:
-        return "centroid";
-    case LaneKind::noise:
-        return "noise";
-    }
-    return "";
-}
-
 /// What a lane was, and what its simplification cost: kind, band, points before and after, RMS and largest error.
 using LaneReport = std::tuple<std::string, std::size_t, std::size_t, std::size_t, double, double>;
 
@@ -160,7 +143,7 @@ std::pair<ClipHandle, std::vector<LaneReport>> simplified(const ClipHandle& hand
         take(abandonable([clip = handle.clip(), params] { return simplifyLanes(clip, lanesOf(clip), params); }));
     std::vector<LaneReport> lanes;
     for (const SimplifiedLane& lane : result.lanes)
-        lanes.emplace_back(nameOf(lane.lane.kind), lane.lane.index, lane.before, lane.after, lane.error.rms,
+        lanes.emplace_back(nameOf(lane.lane.kind, laneKinds), lane.lane.index, lane.before, lane.after, lane.error.rms,
                            lane.error.max);
     return {ClipHandle(std::move(result.clip)), std::move(lanes)};
 }

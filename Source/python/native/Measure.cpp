@@ -1,5 +1,6 @@
 // Measuring an actuator: sweep, simulated recording, analysis, fit, verification.
 
+#include "io/ProfileFields.h"
 #include "io/SweepFile.h"
 #include "python/native/ProfileHandle.h"
 #include "python/native/Support.h"
@@ -233,22 +234,6 @@ FrequencyResponse responseOf(std::vector<double> frequency, std::vector<double> 
     return response;
 }
 
-const char* nameOf(EqualizerType type)
-{
-    switch (type)
-    {
-    case EqualizerType::peak:
-        return "peak";
-    case EqualizerType::lowShelf:
-        return "lowShelf";
-    case EqualizerType::highShelf:
-        return "highShelf";
-    case EqualizerType::highpass:
-        return "highpass";
-    }
-    return "";
-}
-
 /// The fit, and `profile` with it.
 std::pair<nb::dict, std::optional<ProfileHandle>> fit(std::vector<double> frequency, std::vector<double> level,
                                                       const ProfileHandle* profile, bool measured, double rate,
@@ -279,7 +264,8 @@ std::pair<nb::dict, std::optional<ProfileHandle>> fit(std::vector<double> freque
         take(abandonable([response = std::move(response), params] { return fitEqualizer(response, params); }));
     nb::list list;
     for (const EqualizerSection& section : found.sections)
-        list.append(nb::make_tuple(nameOf(section.type), section.frequency, section.gain, section.q, section.order));
+        list.append(nb::make_tuple(std::string(nameOf(section.type, profileFields::equalizerTypes)), section.frequency,
+                                   section.gain, section.q, section.order));
     nb::dict result;
     result["sections"] = list;
     result["rms"] = found.rms;
