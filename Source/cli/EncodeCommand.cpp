@@ -127,6 +127,9 @@ private:
 
     /// Reads what is written and how; what is wrong is said, and anything but ok returned.
     [[nodiscard]] Exit readOutput(Console& console, const Settings& chosen, EncodeSettings& settings) const;
+    [[nodiscard]] Exit readMarkers(Console& console, const InputFiles& found, EncodeSettings& settings) const;
+    /// Prints the settings of --print-settings.
+    static void printChosen(Console& console, const TranslationParams& translation);
     void tell(Console& console, const EncodeTask& task) const;
     [[nodiscard]] Error runOnCluster() const;
 
@@ -385,6 +388,34 @@ void EncodeCommand::tell(Console& console, const EncodeTask& task) const
         console.warning(task.input.string(), strayWarning(result.stray));
 }
 
+void EncodeCommand::printChosen(Console& console, const TranslationParams& translation)
+{
+    const auto document = settingsJson(translation, usualChoices(translation.method));
+    console.addToReport({{"settings", document},
+                         {"presets", presetsJson()},
+                         {"parameters",
+                          {{"encode", translationDescriptionsJson()},
+                           {"export", exportDescriptionsJson()},
+                           {"render", descriptionsJson(infosOf(renderParameters))},
+                           {"felt", descriptionsJson(infosOf(feltParameters))}}}});
+    console.print(document.dump(4));
+}
+
+Exit EncodeCommand::readMarkers(Console& console, const InputFiles& found, EncodeSettings& settings) const
+{
+    if (markersFile.empty())
+        return Exit::ok;
+    if (found.files.size() > 1)
+        return console.fail("--markers", wrongUsage("", "is for one sound; encode the others in calls of their own"),
+                            Exit::usage);
+    auto labels = readLabels(markersFile);
+    if (!labels)
+        return console.fail(markersFile, labels.error());
+    console.warnings(markersFile, std::exchange(labels->warnings, {}));
+    settings.markers = std::move(*labels);
+    return Exit::ok;
+}
+
 Exit EncodeCommand::run(Console& console)
 {
     if (listMethods)
@@ -402,15 +433,7 @@ Exit EncodeCommand::run(Console& console)
                             Exit::usage);
     if (printSettings)
     {
-        const auto document = settingsJson(*translation, usualChoices(translation->method));
-        console.addToReport({{"settings", document},
-                             {"presets", presetsJson()},
-                             {"parameters",
-                              {{"encode", translationDescriptionsJson()},
-                               {"export", exportDescriptionsJson()},
-                               {"render", descriptionsJson(infosOf(renderParameters))},
-                               {"felt", descriptionsJson(infosOf(feltParameters))}}}});
-        console.print(document.dump(4));
+        printChosen(console, *translation);
         return Exit::ok;
     }
     const MethodInfo& method = methodInfo(translation->method);
@@ -428,17 +451,8 @@ Exit EncodeCommand::run(Console& console)
         names = {output, ".wav", fmt::format(".{}.wav", method.name)};
 
     const InputFiles found = findSounds();
-    if (!markersFile.empty())
-    {
-        if (found.files.size() > 1)
-            return console.fail(
-                "--markers", wrongUsage("", "is for one sound; encode the others in calls of their own"), Exit::usage);
-        auto labels = readLabels(markersFile);
-        if (!labels)
-            return console.fail(markersFile, labels.error());
-        console.warnings(markersFile, std::exchange(labels->warnings, {}));
-        settings.markers = std::move(*labels);
-    }
+    if (const Exit read = readMarkers(console, found, settings); read != Exit::ok)
+        return read;
     if (const auto fits = checkOutput(found, output, console.isJson()); !fits)
         return console.fail("", fits.error(), Exit::usage);
     if (isStandardOutput(output))

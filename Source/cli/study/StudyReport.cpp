@@ -311,6 +311,41 @@ void writeFindings(Writer& writer, const RatingAnalysis& analysis)
         writer.paragraph("Note: " + doubt + ".");
 }
 
+Json jsonOf(const GroupComparison& one, const RatingAnalysis& analysis)
+{
+    const bool places = analysis.kind == AnswerKind::places;
+    Json entry{{"first", one.first}, {"second", one.second}};
+    if (one.byParticipant)
+        entry["byParticipant"] = {{"pooled", jsonOf(*one.byParticipant)},
+                                  {"welch", jsonOf(*one.byParticipantWelch)},
+                                  {"mannWhitneyP", one.byParticipantRanks->p},
+                                  {"hedgesG", one.effect},
+                                  {"holm", one.holm}};
+    if (one.byStimulus)
+    {
+        entry["byStimulus"] = jsonOf(*one.byStimulus);
+        entry["byStimulus"]["paired"] = one.stimuliArePaired;
+        if (!one.stimuliArePaired)
+            entry["byStimulus"]["equalVarianceP"] = one.byStimulusEqualVarianceP;
+    }
+    Json stimuli = Json::object();
+    for (const auto& test : one.stimuli)
+    {
+        Json ofStimulus = places ? Json{{"u", test.ranks.u}} : jsonOf(test.pooled);
+        if (!places)
+        {
+            ofStimulus["welchP"] = test.welch.p;
+            ofStimulus["hedgesG"] = test.effect;
+        }
+        ofStimulus["mannWhitneyP"] = test.ranks.p;
+        ofStimulus["holm"] = test.holm;
+        ofStimulus["bonferroni"] = test.bonferroni;
+        stimuli[analysis.stimuli[test.stimulus]] = std::move(ofStimulus);
+    }
+    entry["stimuli"] = std::move(stimuli);
+    return entry;
+}
+
 Json jsonOf(const RatingAnalysis& analysis)
 {
     const bool places = analysis.kind == AnswerKind::places;
@@ -336,38 +371,7 @@ Json jsonOf(const RatingAnalysis& analysis)
         groups.push_back(groupJson(group));
     Json comparisons = Json::array();
     for (const GroupComparison& one : analysis.comparisons)
-    {
-        Json entry{{"first", one.first}, {"second", one.second}};
-        if (one.byParticipant)
-            entry["byParticipant"] = {{"pooled", jsonOf(*one.byParticipant)},
-                                      {"welch", jsonOf(*one.byParticipantWelch)},
-                                      {"mannWhitneyP", one.byParticipantRanks->p},
-                                      {"hedgesG", one.effect},
-                                      {"holm", one.holm}};
-        if (one.byStimulus)
-        {
-            entry["byStimulus"] = jsonOf(*one.byStimulus);
-            entry["byStimulus"]["paired"] = one.stimuliArePaired;
-            if (!one.stimuliArePaired)
-                entry["byStimulus"]["equalVarianceP"] = one.byStimulusEqualVarianceP;
-        }
-        Json stimuli = Json::object();
-        for (const auto& test : one.stimuli)
-        {
-            Json ofStimulus = places ? Json{{"u", test.ranks.u}} : jsonOf(test.pooled);
-            if (!places)
-            {
-                ofStimulus["welchP"] = test.welch.p;
-                ofStimulus["hedgesG"] = test.effect;
-            }
-            ofStimulus["mannWhitneyP"] = test.ranks.p;
-            ofStimulus["holm"] = test.holm;
-            ofStimulus["bonferroni"] = test.bonferroni;
-            stimuli[analysis.stimuli[test.stimulus]] = std::move(ofStimulus);
-        }
-        entry["stimuli"] = std::move(stimuli);
-        comparisons.push_back(std::move(entry));
-    }
+        comparisons.push_back(jsonOf(one, analysis));
     Json pairs = Json::array();
     for (const StimulusComparison& one : analysis.pairs)
     {
