@@ -1,5 +1,7 @@
 #include "cli/ControllerInput.h"
 
+#include "cli/Console.h"
+
 #include <pacini/foundation/ParseNumber.h>
 
 #include <fmt/format.h>
@@ -132,6 +134,34 @@ Result<std::optional<Controller>> chosenController(const std::vector<Controller>
     if (meant.empty())
         return std::optional<Controller>();
     return std::optional(meant.front());
+}
+
+std::string shownName(const Controller& controller)
+{
+    return printable(controller.name.empty() ? controller.path : controller.name);
+}
+
+Result<OpenedController> openedController(const Controller& controller)
+{
+    const auto named = [&](Error error)
+    {
+        error.where = shownName(controller);
+        return error;
+    };
+    auto opened = devices::OpenController::open(controller.path);
+    if (!opened)
+        return named(opened.error());
+    const auto model = devices::modelOf(controller, **opened);
+    if (!model)
+        return named(model.error());
+    return OpenedController{controller, std::move(opened).value(), *model};
+}
+
+Error notConnected(const std::vector<Controller>& connected)
+{
+    return {ErrorCode::io, "",
+            connected.empty() ? "no supported game controller is connected; connect one, or wait for it with --wait"
+                              : "no such controller is connected; 'pacini devices' lists the connected ones"};
 }
 
 } // namespace pacini::cli

@@ -4,9 +4,11 @@
 
 #include "devices/ControllerReports.h"
 #include "devices/HidList.h"
+#include "devices/OpenController.h"
 
 #include <pacini/foundation/Result.h>
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -32,5 +34,23 @@ namespace pacini::cli
 /// is always there. Nothing when it is not there. Errors: `invalidArgument` when several could be meant.
 [[nodiscard]] Result<std::optional<devices::Controller>>
 chosenController(const std::vector<devices::Controller>& connected, const std::string& named);
+
+/// The name of a controller, or its path where it has none, with what a terminal can show.
+[[nodiscard]] std::string shownName(const devices::Controller& controller);
+
+/// A controller that is open for writing, and what it understands.
+struct OpenedController
+{
+    devices::Controller controller;
+    std::unique_ptr<devices::OpenController> device;
+    devices::ControllerModel model;
+};
+
+/// Opens one of `connected`. Errors: those of OpenController::open() and modelOf(), with the controller's name.
+/// [worker]
+[[nodiscard]] Result<OpenedController> openedController(const devices::Controller& controller);
+
+/// Why chosenController() found none of `connected`, for commands that can wait for one.
+[[nodiscard]] Error notConnected(const std::vector<devices::Controller>& connected);
 
 } // namespace pacini::cli

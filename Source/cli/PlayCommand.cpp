@@ -68,11 +68,6 @@ std::string hexText(const devices::Report& report)
     return text;
 }
 
-std::string shownName(const devices::Controller& controller)
-{
-    return printable(controller.name.empty() ? controller.path : controller.name);
-}
-
 /// A clip without events would not be felt, and nobody would know why.
 void warnOfSilence(Console& console, const std::string& clip, const devices::ControllerModel& model)
 {
@@ -88,16 +83,6 @@ public:
     Exit run(Console& console) override;
 
 private:
-    struct Opened
-    {
-        devices::Controller controller;
-        std::unique_ptr<devices::OpenController> device;
-        devices::ControllerModel model;
-    };
-
-    /// Errors: those of OpenController::open() and modelOf(), with the device's name. [worker]
-    [[nodiscard]] static Result<Opened> openOne(const devices::Controller& controller);
-
     /// What --dry-run is for.
     [[nodiscard]] Result<devices::ControllerModel> listedModel() const;
 
@@ -108,7 +93,7 @@ private:
     [[nodiscard]] Result<devices::PlayRange> rangeIn(const Clip& clip) const;
 
     /// The controller that is meant, waited for if wanted; nothing when the user ended that.
-    [[nodiscard]] Result<std::optional<Opened>> openDevice(Console& console, Interruption& interruption) const;
+    [[nodiscard]] Result<std::optional<OpenedController>> openDevice(Console& console, Interruption& interruption) const;
 
     Exit list(Console& console, const Clip& clip, const devices::PlayRange& range) const;
     Exit play(Console& console, const Clip& clip, const devices::PlayRange& range) const;
@@ -179,23 +164,7 @@ Result<devices::PlayRange> PlayCommand::rangeIn(const Clip& clip) const
     return devices::PlayRange{Seconds(from), Seconds(end), loop};
 }
 
-Result<PlayCommand::Opened> PlayCommand::openOne(const devices::Controller& controller)
-{
-    const auto named = [&](Error error)
-    {
-        error.where = shownName(controller);
-        return error;
-    };
-    auto opened = devices::OpenController::open(controller.path);
-    if (!opened)
-        return named(opened.error());
-    const auto model = devices::modelOf(controller, **opened);
-    if (!model)
-        return named(model.error());
-    return Opened{controller, std::move(opened).value(), *model};
-}
-
-Result<std::optional<PlayCommand::Opened>> PlayCommand::openDevice(Console& console, Interruption& interruption) const
+Result<std::optional<OpenedController>> PlayCommand::openDevice(Console& console, Interruption& interruption) const
 {
     // Right after it is connected, a controller may not be opened yet: the system still gives it to the user.
     constexpr int patience = 10;
@@ -211,21 +180,18 @@ Result<std::optional<PlayCommand::Opened>> PlayCommand::openDevice(Console& cons
             return chosen.error();
         if (*chosen)
         {
-            auto opened = openOne(**chosen);
+            auto opened = openedController(**chosen);
             if (opened)
                 return std::optional(std::move(opened).value());
             if (!wait || ++refused > patience)
                 return opened.error();
         }
         else if (!wait)
-            return Error{ErrorCode::io, "",
-                         connected->empty()
-                             ? "no supported game controller is connected; connect one, or wait for it with --wait"
-                             : "no such controller is connected; 'pacini devices' lists the connected ones"};
+            return notConnected(*connected);
         if (!told)
             console.note("Waiting for a controller ...");
         if (interruption.wait(pause))
-            return std::optional<Opened>();
+            return std::optional<OpenedController>();
     }
 }
 
@@ -257,7 +223,7 @@ Result<devices::ControllerModel> PlayCommand::listedModel() const
         return Error{ErrorCode::io, "", "no such controller is connected; choose a kind with --like"};
     if (!(*chosen)->waveforms)
         return devices::ControllerModel{(*chosen)->haptics, (*chosen)->transport};
-    const auto opened = openOne(**chosen); // only it can tell its waveforms
+    const auto opened = openedController(**chosen); // only it can tell its waveforms
     if (!opened)
         return opened.error();
     return opened->model;

@@ -16,11 +16,6 @@ namespace pacini::cli
 
 namespace
 {
-std::string nameOf(const devices::Controller& controller)
-{
-    return printable(controller.name.empty() ? controller.path : controller.name);
-}
-
 /// Notes whether the state that is sent next is silent.
 class WatchedRumble : public devices::RumbleSource
 {
@@ -108,23 +103,16 @@ LivePad::~LivePad() = default;
 
 Result<void> LivePad::openOne(const devices::Controller& controller)
 {
-    const auto named = [&](Error error)
-    {
-        error.where = nameOf(controller);
-        return error;
-    };
-    auto opened = devices::OpenController::open(controller.path);
+    auto opened = openedController(controller);
     if (!opened)
-        return named(opened.error());
-    const auto model = devices::modelOf(controller, **opened);
-    if (!model)
-        return named(model.error());
-    if (!devices::DriveRumble::takesRate(fs, *model))
-        return named({ErrorCode::invalidArgument, "",
-                      fmt::format("takes no sound of {} Hz; use one of a whole number of Hz from 8000 on", fs)});
+        return opened.error();
+    const std::string name = shownName(controller);
+    if (!devices::DriveRumble::takesRate(fs, opened->model))
+        return Error{ErrorCode::invalidArgument, name,
+                     fmt::format("takes no sound of {} Hz; use one of a whole number of Hz from 8000 on", fs)};
     source.listen(true);
-    report.name = nameOf(controller);
-    link = std::make_unique<Link>(std::move(opened).value(), *model, source, fs, measured);
+    report.name = name;
+    link = std::make_unique<Link>(std::move(opened->device), opened->model, source, fs, measured);
     return {};
 }
 
@@ -138,10 +126,7 @@ Result<void> LivePad::open()
     if (!chosen)
         return chosen.error();
     if (!*chosen)
-        return Error{ErrorCode::io, "",
-                     connected->empty()
-                         ? "no supported game controller is connected; connect one, or wait for it with --wait"
-                         : "no such controller is connected; 'pacini devices' lists the connected ones"};
+        return notConnected(*connected);
     return openOne(**chosen);
 }
 
