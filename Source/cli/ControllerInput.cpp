@@ -102,7 +102,9 @@ ControllerModel modelNamed(std::string_view name)
 {
     const auto found =
         std::find_if(knownModels.begin(), knownModels.end(), [&](const auto& m) { return m.first == name; });
-    return found != knownModels.end() ? found->second : knownModels.front().second;
+    ControllerModel model = found != knownModels.end() ? found->second : knownModels.front().second;
+    model.samples = devices::usualModel(model.haptics, model.transport).samples;
+    return model;
 }
 
 Result<std::optional<Controller>> chosenController(const std::vector<Controller>& connected, const std::string& named)

@@ -27,7 +27,7 @@ std::optional<RumbleState> ClipRumble::at(std::int64_t packet)
 {
     const bool over = count && packet >= *count;
     const auto state = drive.at(packet);
-    if (over && state == silentState(model.haptics))
+    if (over && state == silentState(model))
         return std::nullopt;
     return state;
 }

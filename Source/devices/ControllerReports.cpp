@@ -39,13 +39,33 @@ std::vector<TimedReport> steamClosing(std::uint8_t format)
 }
 } // namespace
 
-RumbleState silentState(ControllerHaptics haptics) noexcept
+ControllerModel usualModel(ControllerHaptics haptics, Transport transport) noexcept
 {
-    if (haptics == ControllerHaptics::hdRumble)
+    ControllerModel model{haptics, transport};
+    if (haptics == ControllerHaptics::dualSense && transport == Transport::bluetooth)
+        model.samples = DualSenseSamples::report32;
+    return model;
+}
+
+std::optional<SampleStream> sampleStream(const ControllerModel& model) noexcept
+{
+    if (model.haptics == ControllerHaptics::steamController)
+    {
+        const SteamStream stream = steamStream(model.transport);
+        return SampleStream{stream.rate, stream.samples};
+    }
+    if (model.samples != DualSenseSamples::none)
+        return dualSenseStream;
+    return std::nullopt;
+}
+
+RumbleState silentState(const ControllerModel& model) noexcept
+{
+    if (model.haptics == ControllerHaptics::hdRumble)
         return SidesRumble{};
-    if (haptics == ControllerHaptics::waveforms)
+    if (model.haptics == ControllerHaptics::waveforms)
         return WaveformState{};
-    if (haptics == ControllerHaptics::steamController)
+    if (sampleStream(model))
         return PcmBlock{};
     return MotorLevels{};
 }
@@ -76,8 +96,13 @@ Pacing pacingOf(const ControllerModel& model) noexcept
     }
     case ControllerHaptics::steamDeck:
         return {.interval = Seconds(0.010), .refresh = Seconds(0.040)};
-    case ControllerHaptics::dualShock4:
     case ControllerHaptics::dualSense:
+        if (model.samples != DualSenseSamples::none)
+            return {.interval = Seconds(static_cast<double>(dualSenseStream.samples) / dualSenseStream.rate),
+                    .refresh = Seconds(0.0),
+                    .lastSilent = 6};
+        break;
+    case ControllerHaptics::dualShock4:
         break;
     }
     return {.interval = Seconds(0.010), .refresh = twiceASecond};
@@ -87,6 +112,8 @@ std::vector<TimedReport> openingReports(const ControllerModel& model)
 {
     if (model.haptics == ControllerHaptics::steamController)
         return steamOpening(steamStream(model.transport).format);
+    if (model.samples != DualSenseSamples::none) // rumble that was left on would silence them
+        return closingReports(model, 0);
     if (model.haptics != ControllerHaptics::hdRumble)
         return {};
     const Seconds pause = pacingOf(model).interval;
@@ -114,31 +141,57 @@ std::vector<TimedReport> resumingReports(const ControllerModel& model)
     return reports;
 }
 
+const MotorCurves& motorCurves(const ControllerModel& model) noexcept
+{
+    // Eccentric masses; a DualSense's coils follow a likeness of those of a DualShock 4 (reports of users of
+    // DS4Windows, #2571, #2572). "The lowest few values" of a DualShock 4 do not start a motor (MissionControl, #181).
+    static constexpr MotorCurve sony{8.0 / 255.0, 1.0, 1.5};
+    static constexpr MotorCurves ofSony{sony, sony};
+    // Others than those of the Xbox 360 start "almost at 0" (PokeMini, #36); the heavy one has more to move.
+    static constexpr MotorCurves ofXbox{{0.04, 1.0, 1.5}, {0.02, 1.0, 1.5}};
+    // As of old 1 % is felt as nearly all, which no curve helps; SDL sends half of each (SDL_hidapi_ps5.c).
+    static constexpr MotorCurves ofOldDualSense{{0.0, 0.5, 1.0}, {0.0, 0.5, 1.0}};
+    static constexpr MotorCurves ofCoils{}; // a Steam Deck's follow what they are sent
+    if (model.haptics == ControllerHaptics::xbox)
+        return ofXbox;
+    if (model.haptics == ControllerHaptics::dualSense && model.oldRumble)
+        return ofOldDualSense;
+    const bool isSony = model.haptics == ControllerHaptics::dualSense || model.haptics == ControllerHaptics::dualShock4;
+    return isSony ? ofSony : ofCoils;
+}
+
+namespace
+{
+/// Silence for a state of another kind.
+template <typename State>
+const State& heldBy(const RumbleState& state) noexcept
+{
+    static constexpr State silent{};
+    const auto* const held = std::get_if<State>(&state);
+    return held != nullptr ? *held : silent;
+}
+} // namespace
+
 Report reportOf(const ControllerModel& model, const RumbleState& state, unsigned counter) noexcept
 {
-    const auto* sides = std::get_if<SidesRumble>(&state);
     if (model.haptics == ControllerHaptics::hdRumble)
-        return switchRumbleReport(counter, sides != nullptr ? *sides : SidesRumble{});
-    const auto* waveform = std::get_if<WaveformState>(&state);
+        return switchRumbleReport(counter, heldBy<SidesRumble>(state));
     if (model.haptics == ControllerHaptics::waveforms)
-        return waveformReport(model.trigger, waveform != nullptr ? *waveform : WaveformState{});
-    const auto* samples = std::get_if<PcmBlock>(&state);
+        return waveformReport(model.trigger, heldBy<WaveformState>(state));
     if (model.haptics == ControllerHaptics::steamController)
-        return steamSamplesReport(steamStream(model.transport), samples != nullptr ? *samples : PcmBlock{});
-    const auto* given = std::get_if<MotorLevels>(&state);
-    const MotorLevels motors = given != nullptr ? *given : MotorLevels{};
+        return steamSamplesReport(steamStream(model.transport), heldBy<PcmBlock>(state));
+    if (model.samples != DualSenseSamples::none)
+        return dualSenseSamplesReport(heldBy<PcmBlock>(state), model.samples, counter);
+    const auto& [strong, weak] = motorCurves(model);
+    const auto& given = heldBy<MotorLevels>(state);
+    const MotorLevels motors{strong.command(given.strong), weak.command(given.weak)};
     if (model.haptics == ControllerHaptics::xbox)
         return xboxBluetoothReport(motors);
     if (model.haptics == ControllerHaptics::steamDeck)
         return steamDeckReport(motors);
     if (model.haptics == ControllerHaptics::dualSense)
-    {
-        if (!model.oldRumble)
-            return dualSenseReport(model.transport, motors, DualSenseMode::improvedRumble, counter);
-        // As of old the motors are much stronger: half of each is about as strong. Source: SDL, SDL_hidapi_ps5.c.
-        return dualSenseReport(model.transport, {0.5 * motors.strong, 0.5 * motors.weak}, DualSenseMode::rumble,
-                               counter);
-    }
+        return dualSenseReport(model.transport, motors,
+                               model.oldRumble ? DualSenseMode::rumble : DualSenseMode::improvedRumble, counter);
     if (model.transport == Transport::bluetooth)
         return dualShock4BluetoothReport(motors);
     return dualShock4UsbReport(motors);
@@ -161,8 +214,10 @@ StopReports stopReports(const ControllerModel& model) noexcept
         if (model.haptics == ControllerHaptics::steamController)
             stops[i] = {steamSwitchReport(SteamSwitch::off, SteamPair::grips, format),
                         steamSwitchReport(SteamSwitch::off, SteamPair::trackpads, format)};
+        else if (model.samples != DualSenseSamples::none) // rumble silences also the samples that it still holds
+            stops[i].report = dualSenseReport(model.transport, {}, DualSenseMode::improvedRumble, i);
         else
-            stops[i].report = reportOf(model, silentState(model.haptics), i);
+            stops[i].report = reportOf(model, silentState(model), i);
     return stops;
 }
 

@@ -3,15 +3,19 @@
 // Output protocol of each kind of controller or other haptic device: its reports and their timing.
 
 #include "devices/KnownControllers.h"
+#include "devices/MotorCurve.h"
 #include "devices/MotorLevels.h"
+#include "devices/PcmBlock.h"
 #include "devices/Report.h"
 #include "devices/ReportSink.h"
+#include "devices/SonyReports.h"
 #include "devices/SteamReports.h"
 #include "devices/SwitchReports.h"
 #include "devices/WaveformReport.h"
 
 #include <pacini/foundation/Units.h>
 
+#include <optional>
 #include <variant>
 #include <vector>
 
@@ -23,20 +27,27 @@ struct ControllerModel
 {
     ControllerHaptics haptics = ControllerHaptics::hdRumble;
     Transport transport = Transport::unknown;
-    WaveformTrigger trigger{}; ///< of waveforms: those of the device that is open
-    bool oldRumble = false;    ///< of a DualSense: its firmware is older than 2.24
+    WaveformTrigger trigger{};                         ///< of waveforms: those of the device that is open
+    bool oldRumble = false;                            ///< of a DualSense: its firmware is older than 2.24
+    DualSenseSamples samples = DualSenseSamples::none; ///< of a DualSense on Bluetooth
     bool operator==(const ControllerModel&) const = default;
 };
 
-/// State that a controller plays: SidesRumble for HD rumble, WaveformState for waveforms, PcmBlock for a Steam
-/// Controller, MotorLevels for the others.
+/// What every door plays on a controller unless it is told otherwise: samples where it takes them. [any]
+[[nodiscard]] ControllerModel usualModel(ControllerHaptics haptics, Transport transport) noexcept;
+
+/// The samples that a controller is sent instead of levels; nothing for others. [any]
+[[nodiscard]] std::optional<SampleStream> sampleStream(const ControllerModel& model) noexcept;
+
+/// State that a controller plays: SidesRumble for HD rumble, WaveformState for waveforms, PcmBlock where there is a
+/// sampleStream(), MotorLevels for the others.
 using RumbleState = std::variant<SidesRumble, MotorLevels, WaveformState, PcmBlock>;
 
 /// Whether a state is to be sent even if it is the one that was sent before. [any]
 [[nodiscard]] bool beginsAnew(const RumbleState& state) noexcept;
 
 /// The state in which nothing moves. [any]
-[[nodiscard]] RumbleState silentState(ControllerHaptics haptics) noexcept;
+[[nodiscard]] RumbleState silentState(const ControllerModel& model) noexcept;
 
 /// Timing of the packets to a controller.
 struct Pacing
@@ -45,6 +56,7 @@ struct Pacing
     Seconds refresh;           ///< a state that has not changed is sent again after this time
     Seconds quietAfter{0.300}; ///< silence is repeated for this long, then not sent any more
     int ahead = 0;             ///< packets that are sent before their time, to play from the controller's memory
+    int lastSilent = 2;        ///< silent packets after the last one
     bool operator==(const Pacing&) const = default;
 };
 
@@ -55,6 +67,7 @@ struct Pacing
 /// what lasts is triggered again twice a second, as devices may cut it off after one. Sources: dekuNukem,
 /// Nintendo_Switch_Reverse_Engineering; Linux, hid-nintendo.c; xpadneo, rumble throttle; for waveforms ours.
 ///
+/// A DualSense on Bluetooth plays samples as they come, and may repeat the last without some silent ones after them.
 /// A Steam Controller plays samples from a memory of unknown size: as many reports as one of the sources sends ahead,
 /// 8, or on Bluetooth, where they are eight times as long, 2. Every report is sent, but after silence none until
 /// something sounds. Rumble of a Steam Deck may end by itself, as that of the Steam Controller does after 50 ms, for
@@ -67,6 +80,9 @@ struct TimedReport
     Report report;
     Seconds pause;
 };
+
+/// The curves by which the levels of MotorLevels become numbers of reports, for a controller that has motors. [any]
+[[nodiscard]] const MotorCurves& motorCurves(const ControllerModel& model) noexcept;
 
 /// What must be sent before the first packet. HD rumble has to be enabled. On a cable, a Pro
 /// Controller also listens to reports only after a handshake, and for good only after it is told not to fall back to

@@ -37,8 +37,8 @@ PacketContent joined(PacketContent left, const PacketContent& right)
 
 bool DriveRumble::takesRate(double sampleRate, const ControllerModel& controller) noexcept
 {
-    return controller.haptics != ControllerHaptics::steamController ||
-           (sampleRate >= steamStream(controller.transport).rate && sampleRate == std::floor(sampleRate));
+    const auto stream = sampleStream(controller);
+    return !stream || (sampleRate >= stream->rate && sampleRate == std::floor(sampleRate));
 }
 
 DriveRumble::DriveRumble(DriveRenderer renderer, std::size_t channelCount, double sampleRate,
@@ -46,16 +46,15 @@ DriveRumble::DriveRumble(DriveRenderer renderer, std::size_t channelCount, doubl
     : render(std::move(renderer)),
       events(std::move(knownEvents)),
       fs(sampleRate),
-      model(controller),
+      stream(sampleStream(controller)),
       framesPerPacket(pacingOf(controller).interval.value * sampleRate),
       channels(channelCount, std::vector<float>(blockFrames)),
       outputs(channelCount),
       states(controller)
 {
-    const SteamStream stream = steamStream(model.transport);
     for (std::size_t side = 0; side < sides(); ++side)
-        if (model.haptics == ControllerHaptics::steamController)
-            decimators.push_back(decimatorTo(stream.rate, fs));
+        if (stream)
+            decimators.push_back(decimatorTo(stream->rate, fs));
         else
             measures.emplace_back(fs);
     decimated.resize(decimators.size());
@@ -74,7 +73,7 @@ void DriveRumble::pull(std::size_t frames)
 
 PcmBlock DriveRumble::samplesOf()
 {
-    const std::size_t wanted = steamStream(model.transport).samples;
+    const std::size_t wanted = stream->samples;
     while (decimated[0].size() < wanted)
         pull(std::min(blockFrames, static_cast<std::size_t>(std::ceil(framesPerPacket))));
     PcmBlock block;

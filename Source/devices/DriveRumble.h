@@ -52,7 +52,7 @@ private:
     DriveRenderer render;
     DriveEvents events;
     double fs;
-    ControllerModel model;
+    std::optional<SampleStream> stream;
     double framesPerPacket;
     std::vector<std::vector<float>> channels;
     std::vector<std::span<float>> outputs;

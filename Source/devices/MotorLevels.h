@@ -8,7 +8,8 @@
 namespace pacini::devices
 {
 
-/// Levels 0..1, linear in the value sent to the controller. Values outside are clamped, NaN becomes 0.
+/// Levels 0..1: of the drive in a RumbleState, of the numbers that are sent in a report (see MotorCurve). Values
+/// outside are clamped, NaN becomes 0.
 struct MotorLevels
 {
     double strong = 0.0; ///< the heavy, slow motor, in the left grip

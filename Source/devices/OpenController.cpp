@@ -20,12 +20,14 @@ Result<std::unique_ptr<OpenController>> OpenController::open(const std::string& 
 
 Result<ControllerModel> modelOf(const Controller& controller, OpenController& open)
 {
-    ControllerModel model{controller.haptics, controller.transport};
+    ControllerModel model = usualModel(controller.haptics, controller.transport);
     if (controller.haptics == ControllerHaptics::dualSense)
     {
         constexpr std::uint8_t firmware = 0x20;
         const auto report = open.feature(firmware, 64);
         model.oldRumble = report && !hasImprovedRumble(controller.product, *report);
+        if (model.samples != DualSenseSamples::none && !open.send(reportOf(model, PcmBlock{}, 0)))
+            model.samples = DualSenseSamples::none;
     }
     if (!controller.waveforms)
         return model;

@@ -32,7 +32,8 @@ public:
 };
 
 /// What a controller that is open understands; one that plays waveforms is asked for them, a DualSense for its
-/// firmware. Errors: those of chosenWaveforms(). [worker]
+/// firmware, and on Bluetooth sent a silent block of samples: one whose link refuses it gets levels. Errors: those of
+/// chosenWaveforms(). [worker]
 [[nodiscard]] Result<ControllerModel> modelOf(const Controller& controller, OpenController& open);
 
 } // namespace pacini::devices

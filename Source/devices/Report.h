@@ -2,7 +2,6 @@
 
 // HID report for a controller.
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <span>
@@ -21,20 +20,16 @@ enum class ReportWay
 class Report
 {
 public:
-    static constexpr std::size_t largest = 78;
+    static constexpr std::size_t largest = 398; // 0x36 of a DualSense
 
     Report() = default;
 
     template <std::size_t size>
     requires(size <= largest) Report(const std::array<std::byte, size>& content)
-    noexcept : used(size) { std::copy(content.begin(), content.end(), bytes.begin()); }
+    noexcept : Report(std::span<const std::byte>(content)) {}
 
     /// At most `largest` bytes.
-    explicit Report(std::span<const std::byte> content, ReportWay goes = ReportWay::output) noexcept
-        : used(content.size()), way(goes)
-    {
-        std::copy(content.begin(), content.end(), bytes.begin());
-    }
+    explicit Report(std::span<const std::byte> content, ReportWay goes = ReportWay::output) noexcept;
 
     [[nodiscard]] std::span<const std::byte> content() const noexcept { return std::span(bytes).first(used); }
 

@@ -16,7 +16,7 @@ class Repeats
 {
 public:
     explicit Repeats(const ControllerModel& controller)
-        : model(controller), pacing(pacingOf(controller)), silence(contentOf(silentState(controller.haptics)))
+        : model(controller), pacing(pacingOf(controller)), silence(contentOf(silentState(controller)))
     {
     }
 
@@ -62,16 +62,19 @@ private:
 Result<PlayReport> RumblePlayback::run()
 {
     play();
-    // Also after an error, should it have been one that passes. Once more after an interval: the first may come too
-    // soon after the packet before it, and be ignored.
+    // Also after an error, should it have been one that passes. Again after an interval: the first may come too soon
+    // after the packet before it, and be ignored.
     const auto silence = [&]
     {
-        return send(reportOf(model, silentState(model.haptics), counter));
+        return send(reportOf(model, silentState(model), counter));
     };
     if (silence())
     {
-        clock.pause(pacing.interval);
-        static_cast<void>(silence());
+        for (int more = 1; more < pacing.lastSilent; ++more)
+        {
+            clock.pause(pacing.interval);
+            static_cast<void>(silence());
+        }
         for (const TimedReport& closing : closingReports(model, counter))
         {
             static_cast<void>(send(closing.report));

@@ -3,7 +3,9 @@
 #include "devices/Crc32.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <initializer_list>
 #include <span>
 
 // Sources for all offsets and flags: Linux, hid-playstation.c; SDL, SDL_hidapi_ps4.c and SDL_hidapi_ps5.c.
@@ -16,9 +18,9 @@ namespace
 // On Bluetooth the header of the transport counts as the first byte of an output report.
 constexpr std::byte outputHeader{0xA2};
 
-void sign(std::span<std::byte, sonyBluetoothSize> report) noexcept
+void sign(std::span<std::byte> report) noexcept
 {
-    const auto content = report.first(sonyBluetoothSize - 4);
+    const auto content = report.first(report.size() - 4);
     const std::uint32_t sum = crc32(content, crc32(std::span(&outputHeader, 1)));
     for (std::size_t i = 0; i < 4; ++i)
         report[content.size() + i] = static_cast<std::byte>(sum >> (8 * i) & 0xFF);
@@ -84,6 +86,34 @@ std::array<std::byte, sonyBluetoothSize> dualSenseBluetoothReport(const MotorLev
     setDualSense(std::span(report).subspan(3), motors, mode);
     sign(report);
     return report;
+}
+
+Report dualSenseSamplesReport(const PcmBlock& block, DualSenseSamples form, unsigned sequence) noexcept
+{
+    const bool isLong = form == DualSenseSamples::report36;
+    std::array<std::byte, Report::largest> bytes{};
+    const std::span<std::byte> report = std::span(bytes).first(isLong ? 398 : 142);
+    std::size_t at = 0;
+    const auto put = [&](std::initializer_list<int> values)
+    {
+        for (const int value : values)
+            report[at++] = static_cast<std::byte>(value);
+    };
+    put({isLong ? 0x36 : 0x32, static_cast<int>((sequence & 0xFu) << 4)});
+    // A session of haptics alone; its last byte counts.
+    put({0x91, 7, 0xFE, 0, 0, 0, 0, 0xFF, static_cast<int>(sequence & 0xFFu)});
+    if (isLong)
+    {
+        constexpr int stateBytes = 0x3F;
+        put({0x90, stateBytes}); // without flags: nothing is changed
+        at += stateBytes;
+    }
+    put({0x92, static_cast<int>(2 * dualSenseStream.samples)});
+    for (std::size_t i = 0; i < dualSenseStream.samples; ++i)
+        for (const std::int16_t sample : {block.left[i], block.right[i]})
+            report[at++] = static_cast<std::byte>(std::lround(sample * (127.0 / 32767.0)));
+    sign(report);
+    return Report(report);
 }
 
 } // namespace pacini::devices

@@ -3,6 +3,8 @@
 // Output reports for the two motors of DualShock 4 and DualSense.
 
 #include "devices/MotorLevels.h"
+#include "devices/PcmBlock.h"
+#include "devices/Report.h"
 
 #include <array>
 #include <cstddef>
@@ -38,5 +40,21 @@ enum class DualSenseMode
 /// sent. [any]
 [[nodiscard]] std::array<std::byte, sonyBluetoothSize>
 dualSenseBluetoothReport(const MotorLevels& motors, DualSenseMode mode, unsigned sequence) noexcept;
+
+/// Reports by which a DualSense on Bluetooth is sent samples for its coils. Not tried on a device by us. Sources, whose
+/// authors ran theirs: SAxense, punktfunk client, hbashton's DS4Windows (0x32), DS5Dongle (the blocks of all).
+enum class DualSenseSamples
+{
+    none,     ///< levels instead
+    report32, ///< the shortest
+    report36, ///< longer, with a state block; for links on which the other is said to play nothing
+};
+
+/// 3 kHz, both sides: 32 samples in each report, every 10.667 ms. [any]
+inline constexpr SampleStream dualSenseStream{3000, 32};
+
+/// Report 0x32 (142 bytes) or 0x36 (398 bytes) with its checksum: a session block, which counts the reports, and a
+/// block of signed 8-bit samples, left and right by turns. `form` is not `none`. [any]
+[[nodiscard]] Report dualSenseSamplesReport(const PcmBlock& block, DualSenseSamples form, unsigned sequence) noexcept;
 
 } // namespace pacini::devices

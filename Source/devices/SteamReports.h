@@ -8,23 +8,14 @@
 
 #include "devices/KnownControllers.h"
 #include "devices/MotorLevels.h"
+#include "devices/PcmBlock.h"
 #include "devices/Report.h"
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 
 namespace pacini::devices
 {
-
-/// Samples of both sides of a Steam Controller for one report; those beyond SteamStream::samples do not count.
-struct PcmBlock
-{
-    static constexpr std::size_t most = 31;
-    std::array<std::int16_t, most> left{};
-    std::array<std::int16_t, most> right{};
-    bool operator==(const PcmBlock&) const = default;
-};
 
 /// Form of the samples on a connection.
 struct SteamStream

@@ -1,12 +1,18 @@
 // Whatever plays a clip plays the drive that `pacini render` makes: the level that each kind of device is sent follows
-// the level of the drive.
+// the level of the drive. The level of motors is the one that the bytes of a report mean by the motor's curve.
+//
+// pacini_tests "[devices-table]" prints the table of Resources/docs/devices.md.
 
 #include "devices/ClipRumble.h"
+#include "devices/DecodeReport.h"
 #include "devices/DecodeRumble.h"
+#include "devices/InstantClock.h"
+#include "devices/RumblePlayback.h"
 #include "devices/WaveformDevice.h"
 #include "io/AudioReader.h"
 #include "support/Catch.h"
 #include "support/Paths.h"
+#include "support/ReportList.h"
 
 #include <pacini/analysis/Encoder.h>
 #include <pacini/clip/edits/TimeEdits.h>
@@ -16,8 +22,11 @@
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
+#include <functional>
+#include <iostream>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 using namespace pacini;
@@ -131,15 +140,18 @@ std::vector<double> driveLevels(const Clip& clip)
     return smoothed(squares);
 }
 
-double squareOf(const RumbleState& state)
+double squareOf(const ControllerModel& model, const RumbleState& state)
 {
     if (const auto* sides = std::get_if<SidesRumble>(&state))
     {
         const RumbleTones tones = decodeRumble(sides->left).value();
         return tones.high.amplitude * tones.high.amplitude + tones.low.amplitude * tones.low.amplitude;
     }
-    if (const auto* motors = std::get_if<MotorLevels>(&state))
-        return motors->strong * motors->strong + motors->weak * motors->weak;
+    if (std::holds_alternative<MotorLevels>(state))
+    {
+        const MotorLevels motors = test::toldLevels(model, reportOf(model, state, 0));
+        return motors.strong * motors.strong + motors.weak * motors.weak;
+    }
     const auto& waveform = std::get<WaveformState>(state);
     return waveform.intensity * waveform.intensity;
 }
@@ -155,10 +167,30 @@ std::vector<double> sentLevels(const Clip& clip, const ControllerModel& model)
     {
         const auto packet = static_cast<std::int64_t>(static_cast<double>(i) * step / interval + 1e-9);
         if (packet != last)
-            square = squareOf(rumble.at(packet).value());
+            square = squareOf(model, rumble.at(packet).value());
         last = packet;
         squares[i] = square;
     }
+    return smoothed(squares);
+}
+
+// Of what is sent as samples.
+std::vector<double> sampleLevels(const Clip& clip, const ControllerModel& model)
+{
+    const SampleStream stream = sampleStream(model).value();
+    ClipRumble rumble(clip, {Seconds(0.0), Seconds(clip.duration)}, 0_dB, model);
+    std::vector<double> squares(static_cast<std::size_t>(clip.duration / step));
+    std::vector<double> samples;
+    while (static_cast<double>(samples.size()) < clip.duration * stream.rate)
+    {
+        const auto state = rumble.at(static_cast<std::int64_t>(samples.size() / stream.samples));
+        for (std::size_t i = 0; i < stream.samples; ++i)
+            samples.push_back(std::get<PcmBlock>(state.value()).left[i] / 32767.0);
+    }
+    const auto perStep = static_cast<std::size_t>(step * stream.rate);
+    for (std::size_t i = 0; i < squares.size(); ++i)
+        for (std::size_t k = i * perStep; k < (i + 1) * perStep; ++k)
+            squares[i] += 2.0 * samples[k] * samples[k] / static_cast<double>(perStep);
     return smoothed(squares);
 }
 
@@ -205,8 +237,9 @@ TEST_CASE("The level that a device is sent follows the level of the rendered dri
     for (const Clip& clip : fortyClips())
     {
         const auto drive = driveLevels(clip);
-        for (const auto haptics : {ControllerHaptics::hdRumble, ControllerHaptics::dualShock4, ControllerHaptics::xbox,
-                                   ControllerHaptics::steamDeck, ControllerHaptics::waveforms})
+        for (const auto haptics :
+             {ControllerHaptics::hdRumble, ControllerHaptics::dualShock4, ControllerHaptics::dualSense,
+              ControllerHaptics::xbox, ControllerHaptics::steamDeck, ControllerHaptics::waveforms})
         {
             CAPTURE(clip.name, static_cast<int>(haptics));
             const auto sent = sentLevels(clip, {haptics, Transport::usb, standardTrigger()});
@@ -217,4 +250,138 @@ TEST_CASE("The level that a device is sent follows the level of the rendered dri
                 CHECK(std::abs(each) <= 2.0);
         }
     }
+}
+
+TEST_CASE("What a DualSense is sent as samples has the level of the rendered drive", "[devices]")
+{
+    const auto model = usualModel(ControllerHaptics::dualSense, Transport::bluetooth);
+    for (const Clip& clip : fortyClips())
+    {
+        CAPTURE(clip.name);
+        const auto drive = driveLevels(clip);
+        const auto sent = sampleLevels(clip, model);
+        CHECK(correlation(drive, sent) >= 0.95);
+        for (const double each : offsets(drive, sent))
+            CHECK(std::abs(each) <= 2.0);
+    }
+}
+
+namespace
+{
+struct Shown
+{
+    const char* name;
+    ControllerModel model;
+    double strongTime; ///< s to 63 % of a level, assumed
+    double weakTime;
+};
+
+// Levels felt, as a motor shows them that gets to its speed in some time and whose curve has `exponent` above the start
+// of ours: those of our curve, or of a number that is the level itself.
+std::vector<double> feltLevels(const Clip& clip, const Shown& shown, double exponent, bool byCurve)
+{
+    const ControllerModel& model = shown.model;
+    ClipRumble rumble(clip, {Seconds(0.0), Seconds(clip.duration)}, 0_dB, model);
+    const double interval = pacingOf(model).interval.value;
+    auto [strongCurve, weakCurve] = motorCurves(model);
+    strongCurve.exponent = weakCurve.exponent = exponent;
+    std::vector<double> squares(static_cast<std::size_t>(clip.duration / step));
+    std::int64_t last = -1;
+    MotorLevels target, now;
+    for (std::size_t i = 0; i < squares.size(); ++i)
+    {
+        const auto packet = static_cast<std::int64_t>(static_cast<double>(i) * step / interval + 1e-9);
+        if (packet != last)
+        {
+            const RumbleState state = rumble.at(packet).value();
+            const auto numbers =
+                byCurve ? test::toldNumbers(model, reportOf(model, state, 0)) : std::get<MotorLevels>(state);
+            target = {strongCurve.level(numbers.strong), weakCurve.level(numbers.weak)};
+        }
+        last = packet;
+        now.strong += (target.strong - now.strong) * (1.0 - std::exp(-step / shown.strongTime));
+        now.weak += (target.weak - now.weak) * (1.0 - std::exp(-step / shown.weakTime));
+        squares[i] = now.strong * now.strong + now.weak * now.weak;
+    }
+    return smoothed(squares);
+}
+
+// Mean distance in dB where the drive is within 30 dB of its loudest; no level is taken for less than -40 dB of that.
+double distance(const std::vector<double>& drive, const std::vector<double>& felt)
+{
+    const double loudest = *std::max_element(drive.begin(), drive.end());
+    double sum = 0.0;
+    int count = 0;
+    for (std::size_t i = 0; i < drive.size(); ++i)
+        if (drive[i] > loudest * 0.0316)
+        {
+            sum += std::abs(20.0 * std::log10(std::max(felt[i], 0.01 * loudest) / drive[i]));
+            ++count;
+        }
+    return count > 0 ? sum / count : 0.0;
+}
+
+double packetsPerSecond(const std::vector<Clip>& clips, const ControllerModel& model)
+{
+    double packets = 0.0, seconds = 0.0;
+    for (const Clip& clip : clips)
+    {
+        const test::PlayedReports played(model, clip);
+        packets += static_cast<double>(played.sink.sent.size());
+        seconds += clip.duration;
+    }
+    return packets / seconds;
+}
+} // namespace
+
+TEST_CASE("Table of what is felt on each device", "[.][devices-table]")
+{
+    const auto clips = fortyClips();
+    std::vector<std::vector<double>> drives;
+    for (const Clip& clip : clips)
+        drives.push_back(driveLevels(clip));
+    const auto mean = [&](const auto& measure)
+    {
+        double sum = 0.0;
+        for (std::size_t i = 0; i < clips.size(); ++i)
+            sum += measure(i) / static_cast<double>(clips.size());
+        return sum;
+    };
+    const Transport usb = Transport::usb;
+    const std::vector<Shown> motors{{"DualShock 4", {ControllerHaptics::dualShock4, usb}, 0.060, 0.030},
+                                    {"DualSense, rumble", {ControllerHaptics::dualSense, usb}, 0.010, 0.010},
+                                    {"Xbox", {ControllerHaptics::xbox, Transport::bluetooth}, 0.060, 0.030},
+                                    {"Steam Deck", {ControllerHaptics::steamDeck, usb}, 0.005, 0.005}};
+    for (const Shown& shown : motors)
+    {
+        std::cout << "| " << shown.name;
+        for (const double exponent : {1.0, 1.5, 2.0})
+            for (const bool byCurve : {false, true})
+                std::cout << (byCurve ? " / " : " | ")
+                          << std::round(10.0 * mean(
+                                                   [&](std::size_t i) {
+                                                       return distance(drives[i],
+                                                                       feltLevels(clips[i], shown, exponent, byCurve));
+                                                   })) /
+                                 10.0;
+        std::cout << " | " << std::round(packetsPerSecond(clips, shown.model)) << " |" << std::endl;
+    }
+    const std::vector<std::pair<const char*, ControllerModel>> others{
+        {"Switch", {ControllerHaptics::hdRumble, Transport::bluetooth}},
+        {"Waveforms", {ControllerHaptics::waveforms, usb, standardTrigger()}}};
+    for (const auto& [name, model] : others)
+        std::cout << "| " << name << " | "
+                  << std::round(10.0 *
+                                mean([&](std::size_t i) { return distance(drives[i], sentLevels(clips[i], model)); })) /
+                         10.0
+                  << " | | | " << std::round(packetsPerSecond(clips, model)) << " |" << std::endl;
+    const std::vector<std::pair<const char*, ControllerModel>> samples{
+        {"DualSense, Bluetooth", usualModel(ControllerHaptics::dualSense, Transport::bluetooth)},
+        {"Steam Controller", {ControllerHaptics::steamController, usb}}};
+    for (const auto& [name, model] : samples)
+        std::cout << "| " << name << " | "
+                  << std::round(10.0 * mean([&](std::size_t i)
+                                            { return distance(drives[i], sampleLevels(clips[i], model)); })) /
+                         10.0
+                  << " | | | " << std::round(packetsPerSecond(clips, model)) << " |" << std::endl;
 }

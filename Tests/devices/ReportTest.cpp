@@ -1,10 +1,12 @@
 #include "devices/ControllerReports.h"
 #include "devices/Crc32.h"
+#include "devices/DecodeReport.h"
 #include "devices/OpenController.h"
 #include "devices/SonyReports.h"
 #include "devices/SwitchReports.h"
 #include "devices/XboxReport.h"
 #include "support/Catch.h"
+#include "support/ReportList.h"
 
 #include <cmath>
 #include <cstddef>
@@ -84,10 +86,46 @@ TEST_CASE("A DualSense gets the flags of its firmware", "[devices]")
                    reportWith(78, {{0, 0x31}, {1, 0xB0}, {2, 0x10}, {3, 0x02}, {5, 64}, {6, 191}, {41, 4}})));
 }
 
+TEST_CASE("A motor's curve is passed both ways, silence is off, and full drive is all", "[devices]")
+{
+    for (const auto haptics : {ControllerHaptics::dualShock4, ControllerHaptics::dualSense, ControllerHaptics::xbox,
+                               ControllerHaptics::steamDeck})
+        for (const bool old : {false, true})
+        {
+            const ControllerModel model{haptics, Transport::usb, {}, old};
+            CAPTURE(static_cast<int>(haptics), old);
+            for (const auto& curve : {motorCurves(model).strong, motorCurves(model).weak})
+            {
+                for (const double level : {0.005, 0.01, 0.1, 0.5, 0.9, 1.0})
+                {
+                    CHECK(curve.command(level) > curve.start);
+                    CHECK(curve.level(curve.command(level)) == Approx(level).epsilon(1e-9));
+                    CHECK(curve.command(level) < curve.command(1.01 * level) + (level == 1.0 ? 1.0 : 0.0));
+                }
+                for (const double level : {0.0, -1.0, MotorCurve::least, std::nan("")})
+                    CHECK(curve.command(level) == 0.0);
+                CHECK(curve.command(5.0) == curve.full);
+                CHECK(curve.level(curve.start) == 0.0);
+                CHECK(curve.level(0.0) == 0.0);
+            }
+            // The quietest level that is no silence moves both motors, the loudest is all that they have.
+            const double quietest = 1.001 * MotorCurve::least;
+            const MotorLevels told = test::toldNumbers(model, reportOf(model, MotorLevels{quietest, quietest}, 0));
+            CHECK(told.strong > motorCurves(model).strong.start);
+            CHECK(told.weak > motorCurves(model).weak.start);
+            CHECK(test::toldNumbers(model, reportOf(model, MotorLevels{0.003, 0.003}, 0)) == MotorLevels{});
+            const double most = old && haptics == ControllerHaptics::dualSense ? 128.0 / 255.0 : 1.0;
+            CHECK(test::toldNumbers(model, reportOf(model, MotorLevels{1.0, 2.0}, 0)) == MotorLevels{most, most});
+        }
+}
+
 TEST_CASE("A DualSense is sent the rumble of its firmware, that of old at half", "[devices]")
 {
     ControllerModel model{ControllerHaptics::dualSense, Transport::usb};
-    CHECK(reportOf(model, uneven, 0) == Report(dualSenseUsbReport(uneven, DualSenseMode::improvedRumble)));
+    const auto [strong, weak] = motorCurves(model);
+    CHECK(reportOf(model, uneven, 0) ==
+          Report(dualSenseUsbReport({strong.command(uneven.strong), weak.command(uneven.weak)},
+                                    DualSenseMode::improvedRumble)));
     model.oldRumble = true;
     CHECK(reportOf(model, uneven, 0) ==
           Report(dualSenseUsbReport({0.5 * uneven.strong, 0.5 * uneven.weak}, DualSenseMode::rumble)));
@@ -96,7 +134,11 @@ TEST_CASE("A DualSense is sent the rumble of its firmware, that of old at half",
     struct Pad : OpenController
     {
         void prepare(const StopReports&) override {}
-        Result<void> send(const Report&) override { return {}; }
+        Result<void> send(const Report& report) override
+        {
+            sent.push_back(report);
+            return refuses ? Result<void>(Error{ErrorCode::io, "", "refuses"}) : Result<void>();
+        }
         Result<std::vector<std::byte>> feature(std::uint8_t report, std::size_t) override
         {
             asked = report;
@@ -109,6 +151,8 @@ TEST_CASE("A DualSense is sent the rumble of its firmware, that of old at half",
         }
         int version = 0;
         int asked = 0;
+        bool refuses = false;
+        std::vector<Report> sent;
     };
     Controller controller;
     controller.haptics = ControllerHaptics::dualSense;
@@ -125,6 +169,107 @@ TEST_CASE("A DualSense is sent the rumble of its firmware, that of old at half",
         controller.product = static_cast<std::uint16_t>(product);
         CHECK(modelOf(controller, pad).value().oldRumble == old);
         CHECK(pad.asked == 0x20);
+        CHECK(pad.sent.empty());
+    }
+    // On Bluetooth it is tried with a silent block of samples.
+    controller.transport = Transport::bluetooth;
+    for (const bool refuses : {false, true})
+    {
+        Pad pad;
+        pad.refuses = refuses;
+        const auto model = modelOf(controller, pad).value();
+        CHECK(model.samples == (refuses ? DualSenseSamples::none : DualSenseSamples::report32));
+        REQUIRE(pad.sent.size() == 1);
+        CHECK(pad.sent[0] == dualSenseSamplesReport({}, DualSenseSamples::report32, 0));
+    }
+}
+
+TEST_CASE("A DualSense gets samples in a report with a session, and in a longer one with its state", "[devices]")
+{
+    PcmBlock block;
+    block.left[0] = 32767;
+    block.right[0] = -32767;
+    block.left[1] = 16512; // 64
+    block.right[31] = -258;
+    CHECK(numbersOf(dualSenseSamplesReport(block, DualSenseSamples::report32, 0x1B).content()) ==
+          signedBy(0x7A2A5F22u, reportWith(142, {{0, 0x32},
+                                                 {1, 0xB0},
+                                                 {2, 0x91},
+                                                 {3, 7},
+                                                 {4, 0xFE},
+                                                 {9, 0xFF},
+                                                 {10, 0x1B},
+                                                 {11, 0x92},
+                                                 {12, 0x40},
+                                                 {13, 127},
+                                                 {14, 129},
+                                                 {15, 64},
+                                                 {76, 255}})));
+    CHECK(numbersOf(dualSenseSamplesReport(block, DualSenseSamples::report36, 0x1B).content()) ==
+          signedBy(0xA02494DBu, reportWith(398, {{0, 0x36},
+                                                 {1, 0xB0},
+                                                 {2, 0x91},
+                                                 {3, 7},
+                                                 {4, 0xFE},
+                                                 {9, 0xFF},
+                                                 {10, 0x1B},
+                                                 {11, 0x90},
+                                                 {12, 0x3F},
+                                                 {76, 0x92},
+                                                 {77, 0x40},
+                                                 {78, 127},
+                                                 {79, 129},
+                                                 {80, 64},
+                                                 {141, 255}})));
+}
+
+TEST_CASE("Samples of a DualSense begin without rumble, come every 10.667 ms, end in silence, and rumble stops them",
+          "[devices]")
+{
+    Clip clip;
+    clip.duration = 1.0;
+    clip.bands.push_back({90.0, 100.0, 110.0, 0, {{0.0, 0.5}, {1.0, 0.5}}, {}});
+    for (const auto form : {DualSenseSamples::report32, DualSenseSamples::report36})
+    {
+        ControllerModel model = usualModel(ControllerHaptics::dualSense, Transport::bluetooth);
+        model.samples = form;
+        const test::PlayedReports played(model, clip);
+        const auto& sent = played.sink.sent;
+        REQUIRE(sent.size() > 100);
+        const Report without(dualSenseBluetoothReport({}, DualSenseMode::audioHaptics, 0));
+        CHECK(sent.front().report == without);
+        CHECK(sent.back().report.content()[0] == std::byte{0x31});
+        double sum = 0.0;
+        std::size_t silent = 0, count = 0;
+        for (std::size_t i = 1; i + 1 < sent.size(); ++i)
+        {
+            const auto content = sent[i].report.content();
+            CHECK(sent[i].time == Approx(sent[1].time + static_cast<double>(i - 1) * 32.0 / 3000.0).margin(1e-9));
+            CHECK(std::to_integer<unsigned>(content[1]) == (i % 16) << 4);
+            CHECK(std::to_integer<unsigned>(content[10]) == i % 256);
+            double here = 0.0;
+            const std::size_t first = form == DualSenseSamples::report32 ? 13 : 78;
+            for (std::size_t k = first; k < first + 64; ++k)
+            {
+                const double x = static_cast<std::int8_t>(std::to_integer<int>(content[k])) / 127.0;
+                here += x * x;
+                CHECK((k % 2 == first % 2 || content[k] == content[k - 1])); // both sides alike
+            }
+            silent = here > 0.0 ? 0 : silent + 1;
+            if (i >= 20 && i < 80)
+            {
+                sum += here;
+                count += 64;
+            }
+        }
+        CHECK(std::sqrt(2.0 * sum / static_cast<double>(count)) == Approx(0.5).epsilon(0.02));
+        CHECK(silent >= 6);
+        for (const StopReport& stop : stopReports(model))
+        {
+            CHECK(stop.report.content()[0] == std::byte{0x31});
+            CHECK(stop.report.content()[3] == std::byte{0x02}); // rumble instead
+            CHECK(stop.also.content().empty());
+        }
     }
 }
 

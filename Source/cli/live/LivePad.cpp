@@ -23,7 +23,7 @@ public:
     WatchedRumble(LiveDrive& drive, double fs, const devices::ControllerModel& controller, bool& soundsNow)
         : rumble(drive, fs, controller),
           model(controller),
-          silence(devices::reportOf(controller, devices::silentState(controller.haptics), 0)),
+          silence(devices::reportOf(controller, devices::silentState(controller), 0)),
           sounds(soundsNow)
     {
     }

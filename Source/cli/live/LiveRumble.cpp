@@ -15,7 +15,7 @@ constexpr Seconds samplesWait{0.010}; // in the queue of what plays samples
 LiveRumble::LiveRumble(LiveDrive& arriving, double sampleRate, const devices::ControllerModel& controller)
     : drive(arriving), interval(devices::pacingOf(controller).interval.value), measure(sampleRate), states(controller)
 {
-    if (controller.haptics != devices::ControllerHaptics::steamController)
+    if (!devices::sampleStream(controller))
         return;
     tracked.emplace(drive, sampleRate, sampleRate, static_cast<std::size_t>(samplesWait.value * sampleRate));
     samples.emplace([this](std::span<const std::span<float>> out) { tracked->read(out[0]); }, 1, sampleRate,

@@ -80,10 +80,9 @@ Result<void> listReports(Call& call)
     if (!haptics || *haptics == devices::ControllerHaptics::waveforms)
         return Error{ErrorCode::invalidArgument, fmt::format("{:04x}:{:04x}", maker, product),
                      "is no controller whose reports are known"};
-    devices::ControllerModel model;
-    model.haptics = *haptics;
-    model.transport = devices::transportByProduct(*haptics, product)
-                          .value_or(bluetooth ? devices::Transport::bluetooth : devices::Transport::usb);
+    const auto model = devices::usualModel(
+        *haptics, devices::transportByProduct(*haptics, product)
+                      .value_or(bluetooth ? devices::Transport::bluetooth : devices::Transport::usb));
     auto clip = clipOf(call, 0);
     if (!clip)
         return clip.error();

@@ -35,6 +35,7 @@ Result<void> planRumble(Call& call)
         return clip.error();
     const devices::ControllerModel motors{devices::ControllerHaptics::xbox, devices::Transport::usb};
     const double end = std::min(clip->duration, devices::longestTouched.value);
+    const auto& [strong, weak] = devices::motorCurves(motors); // of eccentric masses, as most are
     std::vector<float> levels;
     if (end > 0.0)
     {
@@ -42,8 +43,8 @@ Result<void> planRumble(Call& call)
         for (std::int64_t packet = 0; const auto state = rumble.at(packet); ++packet)
         {
             const auto& each = std::get<devices::MotorLevels>(*state);
-            levels.push_back(static_cast<float>(each.strong));
-            levels.push_back(static_cast<float>(each.weak));
+            levels.push_back(static_cast<float>(strong.command(each.strong)));
+            levels.push_back(static_cast<float>(weak.command(each.weak)));
         }
     }
     call.value["interval"] = devices::pacingOf(motors).interval.value;

@@ -334,7 +334,7 @@ export interface Report {
 export function reports(clip: ClipInput, options: ReportsOptions): Promise<{ reports: Report[], stops: Report[] }>
 
 export interface RumblePlan {
-  /** Levels of a strong and a weak motor by turns, 0 to 1. */
+  /** Numbers for a strong and a weak motor by turns, 0 to 1, by the curves of an Xbox controller. */
   motors: Float32Array
   /** Seconds from one pair of levels to the next. */
   interval: number

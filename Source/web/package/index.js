@@ -188,7 +188,7 @@ export const reports = async (clip, { vendor, product, bluetooth = false, gain =
 }
 
 /**
- * What the two motors of a controller play of a clip: `motors`, the levels of the strong and the weak one by turns, 0 to
+ * What the two motors of a controller play of a clip: `motors`, the numbers of the strong and the weak one by turns, 0 to
  * 1, every `interval` s, as `playEffect('dual-rumble')` takes them. Of more than an hour, the first is felt.
  */
 export const rumble = async (clip, { signal } = {}) => {

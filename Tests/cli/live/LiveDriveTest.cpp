@@ -251,7 +251,7 @@ TEST_CASE("Live: a controller's packets take all that has come, and nothing drif
 {
     LiveDrive drive(4800);
     LiveRumble rumble(drive, 8000.0, pad);
-    const auto silence = devices::silentState(pad.haptics);
+    const auto silence = devices::silentState(pad);
     std::vector<float> block(21, 0.0f);
     std::uint64_t pushed = 0;
     std::size_t wrong = 0;
@@ -288,7 +288,7 @@ TEST_CASE("Live: a packet without news holds the last, and lets go when nothing 
     const auto playing = std::get<devices::MotorLevels>(*rumble.at(1));
     CHECK(playing.strong > 0.1);
     CHECK(std::get<devices::MotorLevels>(*rumble.at(3)).strong > 0.1);
-    CHECK(*rumble.at(20) == devices::silentState(pad.haptics));
+    CHECK(*rumble.at(20) == devices::silentState(pad));
 }
 
 TEST_CASE("Live: what plays samples is sent the drive at its own pace")
