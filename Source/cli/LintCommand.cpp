@@ -4,6 +4,7 @@
 #include "cli/Counted.h"
 #include "cli/ExportOptions.h"
 #include "cli/InputFiles.h"
+#include "cli/LossText.h"
 #include "cli/Manifest.h"
 #include "cli/Options.h"
 #include "io/ClipFile.h"
@@ -62,24 +63,6 @@ std::vector<std::string> kindNames()
         names.emplace_back(lossName(static_cast<LossKind>(kind)));
     names.emplace_back(sceneKind);
     return names;
-}
-
-/// Whether errors of this kind are seconds.
-bool isTime(LossKind kind)
-{
-    return kind == LossKind::timeStep || kind == LossKind::length;
-}
-
-/// "0.25 octaves"
-std::string errorText(const FormatLoss& loss)
-{
-    if (loss.error <= 0.0)
-        return "";
-    if (loss.kind == LossKind::frequency)
-        return fmt::format("{:.2f} octaves", loss.error);
-    if (isTime(loss.kind))
-        return fmt::format("{:.2g} ms", 1000.0 * loss.error);
-    return fmt::format("{:.3f}", loss.error);
 }
 
 /// `pacini lint`: lists the losses of clips in a format before export, and the parts of a scene without effect.
@@ -185,9 +168,7 @@ Result<nlohmann::ordered_json> LintCommand::lintClip(Console& console, const std
         tooMuch += over ? 1u : 0u;
         losses.push_back(toJson(loss));
         losses.back()["tooMuch"] = over;
-        console.print(fmt::format("{}: {:8.3f} s {:>7}  {:<10}{:>13}  {}{}", printable(name), loss.time,
-                                  loss.duration > 0.0 ? fmt::format("+{:.3f}", loss.duration) : "", lossName(loss.kind),
-                                  errorText(loss), loss.message, over ? "  TOO MUCH" : ""));
+        console.print(lossLine(name, loss) + (over ? "  TOO MUCH" : ""));
     }
     return losses;
 }

@@ -3,7 +3,10 @@
 #include "cli/Command.h"
 #include "cli/ControllerInput.h"
 #include "cli/Interruption.h"
+#include "cli/LossText.h"
+#include "cli/Manifest.h"
 #include "cli/Options.h"
+#include "cli/PlayLosses.h"
 #include "devices/ClipRumble.h"
 #include "devices/HidList.h"
 #include "devices/InstantClock.h"
@@ -83,7 +86,7 @@ public:
     Exit run(Console& console) override;
 
 private:
-    /// What --dry-run is for.
+    /// What --dry-run and --explain are for.
     [[nodiscard]] Result<devices::ControllerModel> listedModel() const;
 
     /// What is wrong with the options.
@@ -93,8 +96,10 @@ private:
     [[nodiscard]] Result<devices::PlayRange> rangeIn(const Clip& clip) const;
 
     /// The controller that is meant, waited for if wanted; nothing when the user ended that.
-    [[nodiscard]] Result<std::optional<OpenedController>> openDevice(Console& console, Interruption& interruption) const;
+    [[nodiscard]] Result<std::optional<OpenedController>> openDevice(Console& console,
+                                                                     Interruption& interruption) const;
 
+    Exit explain(Console& console, const Clip& clip, const devices::PlayRange& range) const;
     Exit list(Console& console, const Clip& clip, const devices::PlayRange& range) const;
     Exit play(Console& console, const Clip& clip, const devices::PlayRange& range) const;
 
@@ -107,6 +112,7 @@ private:
     bool loop = false;
     bool wait = false;
     bool dryRun = false;
+    bool explaining = false;
 };
 } // namespace
 
@@ -125,12 +131,15 @@ CLI::App* PlayCommand::declare(CLI::App& app)
     command->add_flag("--loop", loop, "Repeat until Ctrl-C");
     command->add_flag("--wait", wait, "Wait until the controller is connected");
     command->add_flag("--dry-run", dryRun, "Print the packets (seconds and bytes) and send nothing");
-    addOption(*command, "--like", like, "With --dry-run: print the packets for this kind of controller",
+    command->add_flag("--explain", explaining,
+                      "List what the controller cannot show of the clip, as 'lint' does, and play nothing");
+    addOption(*command, "--like", like, "With --dry-run or --explain: for this kind of controller",
               oneOf(modelNames()));
     command->footer("The motors stop when the clip ends, on Ctrl-C, and when the program fails.\n"
                     "Examples:\n  pacini play door.json --device 1\n"
                     "  pacini play door.haptic --device pro --loop --intensity -6\n"
-                    "  pacini play door.json --dry-run --like switch");
+                    "  pacini play door.json --dry-run --like switch\n"
+                    "  pacini play door.json --explain --like dualshock4");
     return command;
 }
 
@@ -142,14 +151,18 @@ std::optional<Error> PlayCommand::usageError() const
     };
     if (input.empty())
         return wrong("the input file is missing; try 'pacini play --help'");
-    if (dryRun && loop)
-        return wrong("--loop has no end; leave it out, or --dry-run");
-    if (!like.empty() && !dryRun)
-        return wrong("--like needs --dry-run");
+    const bool playsNothing = dryRun || explaining;
+    if (dryRun && explaining)
+        return wrong("--dry-run and --explain exclude each other; leave one of them out");
+    if (playsNothing && loop)
+        return wrong(fmt::format("--loop has no end; leave it out, or {}", dryRun ? "--dry-run" : "--explain"));
+    if (!like.empty() && !playsNothing)
+        return wrong("--like needs --dry-run or --explain");
     if (!like.empty() && !device.empty())
         return wrong("--like and --device exclude each other; leave one of them out");
-    if (dryRun && wait)
-        return wrong("--wait and --dry-run exclude each other; leave one of them out");
+    if (playsNothing && wait)
+        return wrong(
+            fmt::format("--wait and {} exclude each other; leave one of them out", dryRun ? "--dry-run" : "--explain"));
     return std::nullopt;
 }
 
@@ -206,6 +219,8 @@ Exit PlayCommand::run(Console& console)
     const auto range = rangeIn(read->clip);
     if (!range)
         return console.fail(input, range.error());
+    if (explaining)
+        return explain(console, read->clip, *range);
     return dryRun ? list(console, read->clip, *range) : play(console, read->clip, *range);
 }
 
@@ -221,12 +236,32 @@ Result<devices::ControllerModel> PlayCommand::listedModel() const
         return chosen.error();
     if (!*chosen)
         return Error{ErrorCode::io, "", "no such controller is connected; choose a kind with --like"};
-    if (!(*chosen)->waveforms)
-        return devices::ControllerModel{(*chosen)->haptics, (*chosen)->transport};
-    const auto opened = openedController(**chosen); // only it can tell its waveforms
+    if (!(*chosen)->waveforms && (*chosen)->haptics != devices::ControllerHaptics::dualSense)
+        return devices::usualModel((*chosen)->haptics, (*chosen)->transport);
+    const auto opened = openedController(**chosen); // only it can tell its waveforms, or its firmware
     if (!opened)
         return opened.error();
     return opened->model;
+}
+
+Exit PlayCommand::explain(Console& console, const Clip& clip, const devices::PlayRange& range) const
+{
+    const auto model = listedModel();
+    if (!model)
+        return console.fail("", model.error());
+    Json losses = Json::array();
+    for (const FormatLoss& loss : playLosses(clip, range, Decibels(intensity), *model))
+    {
+        losses.push_back(toJson(loss));
+        console.print(lossLine(input, loss));
+    }
+    if (losses.empty())
+        console.note(fmt::format("{}: loses nothing", printable(input)));
+    console.addToReport({{"input", input},
+                         {"haptics", hapticsName(model->haptics)},
+                         {"transport", transportName(model->transport)},
+                         {"losses", losses}});
+    return Exit::ok;
 }
 
 Exit PlayCommand::list(Console& console, const Clip& clip, const devices::PlayRange& range) const

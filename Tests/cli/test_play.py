@@ -1,4 +1,6 @@
 """End to end: what pacini play would send. What is really sent is tried in hid/check_play.py."""
+import json
+import math
 import unittest
 
 from command import CommandTest
@@ -46,14 +48,82 @@ class Play(CommandTest):
         self.assertEqual([bytes.fromhex(packet["bytes"]) for packet in report["packets"]],
                          [report for _, report in self.listed("--like", "switch")])
 
+    def losses(self, *arguments):
+        """The losses of clip.json that --explain lists; the lines say the same, and nothing needs to be connected."""
+        report = self.report("play", "clip.json", "--explain", *arguments)
+        lines = self.succeeds("play", "clip.json", "--explain", *arguments).splitlines()
+        self.assertEqual(len([line for line in lines if " s " in line]), len(report["losses"]))
+        for loss, line in zip(report["losses"], lines):
+            self.assertEqual(set(loss), {"kind", "time", "duration", "error", "message"})
+            self.assertIn(loss["message"], line)
+            self.assertIn(f" {loss['kind']} ", line)
+        return report["losses"]
+
+    def kinds(self, *arguments):
+        return {loss["kind"] for loss in self.losses(*arguments)}
+
+    def put_clip(self, **parts):
+        content = {"format": "pacini.clip", "version": 1, "name": "x", "duration": 1.0, "envelope": [], "centroid": [],
+                   "bands": [], "transients": []} | parts
+        self.put("clip.json", json.dumps(content))
+
+    @staticmethod
+    def band(frequency, amplitude=0.5):
+        return {"lowFrequency": 0.9 * frequency, "centreFrequency": frequency, "highFrequency": 1.1 * frequency, "priority": 0,
+                "amplitude": [{"time": 0, "amplitude": amplitude}, {"time": 1, "amplitude": amplitude}], "pitch": []}
+
+    def test_explain_says_what_a_controller_cannot_show(self):
+        for kind in KINDS:
+            self.put_clip(bands=[self.band(160)])
+            self.assertEqual(self.losses("--like", kind), [], kind)
+        # A motor has its own pitch.
+        self.put_clip(bands=[self.band(60)])
+        pitch = [loss for loss in self.losses("--like", "dualshock4") if loss["kind"] == "frequency"]
+        self.assertEqual(len(pitch), 1)
+        self.assertAlmostEqual(pitch[0]["error"], math.log2(160 / 60), delta=0.15)
+        self.assertGreater(pitch[0]["duration"], 0.8)
+        self.assertNotIn("frequency", self.kinds("--like", "switch"))
+        # Above what is there.
+        self.put_clip(bands=[self.band(2000)])
+        self.assertIn("frequency", self.kinds("--like", "switch"))
+        self.assertEqual(self.kinds("--like", "dualsense-bluetooth"), {"frequency"})
+        self.assertEqual(self.losses("--like", "steam"), [])
+        # Several bands, noise, levels beyond full drive.
+        self.put_clip(bands=[self.band(f) for f in (80, 160, 320)],
+                      noise=[{"lowFrequency": 80, "highFrequency": 300,
+                              "amplitude": [{"time": 0, "amplitude": 0.3}, {"time": 1, "amplitude": 0.3}]}])
+        for kind in ("xbox", "switch", "waveforms"):
+            self.assertLessEqual({"bands", "noise"}, self.kinds("--like", kind), kind)
+        self.put_clip(bands=[self.band(160)])
+        for kind in ("xbox", "switch", "waveforms", "dualsense-bluetooth", "steam"):
+            self.assertIn("amplitude", self.kinds("--like", kind, "--intensity", "12"), kind)
+        # Events: between packets, too near, of any sharpness.
+        self.put_clip(transients=[{"time": time, "amplitude": 0.8, "sharpness": 1} for time in (0.1, 0.115, 0.5)])
+        for kind in ("dualshock4", "waveforms"):
+            self.assertLessEqual({"timeStep", "crowding", "event"}, self.kinds("--like", kind), kind)
+        self.assertNotIn("event", self.kinds("--like", "switch"))
+        crowded = [loss for loss in self.losses("--like", "dualshock4") if loss["kind"] == "crowding"]
+        self.assertEqual([(round(loss["time"], 3), loss["error"]) for loss in crowded], [(0.115, 0.8)])
+        # A part has its own times and only its own losses.
+        part = self.losses("--like", "dualshock4", "--from", "0.3", "--to", "0.7")
+        self.assertNotIn("crowding", {loss["kind"] for loss in part})
+        self.assertTrue(all(0.3 <= loss["time"] <= 0.7 for loss in part), part)
+        # Nothing that is felt.
+        self.put_clip(bands=[self.band(160, 0.001)])
+        for kind in ("dualshock4", "switch", "waveforms"):
+            self.assertEqual(self.kinds("--like", kind), {"empty"}, kind)
+
     def test_wrong_usage_is_told(self):
         self.clip()
         self.fails(2, ["play"], "the input file is missing")
         self.fails(2, ["play", "clip.json", "--dry-run", "--loop"], "--loop has no end")
-        self.fails(2, ["play", "clip.json", "--like", "switch"], "--like needs --dry-run")
+        self.fails(2, ["play", "clip.json", "--like", "switch"], "--like needs --dry-run or --explain")
         self.fails(2, ["play", "clip.json", "--dry-run", "--like", "stone"], "--like")
         self.fails(2, ["play", "clip.json", "--dry-run", "--like", "xbox", "--device", "1"], "--like and --device exclude each other")
         self.fails(2, ["play", "clip.json", "--dry-run", "--like", "xbox", "--wait"], "--wait and --dry-run exclude each other")
+        self.fails(2, ["play", "clip.json", "--explain", "--dry-run", "--like", "xbox"], "exclude each other")
+        self.fails(2, ["play", "clip.json", "--explain", "--loop", "--like", "xbox"], "--loop has no end")
+        self.fails(2, ["play", "clip.json", "--explain", "--wait"], "--wait and --explain exclude each other")
         self.fails(1, ["play", "clip.json", "--dry-run", "--like", "xbox", "--from", "3"], "clip.json", "nothing between")
         self.fails(1, ["play", "none.json", "--dry-run", "--like", "xbox"], "none.json")
 
