@@ -30,6 +30,9 @@ if(PACINI_BUILD_CLI OR PACINI_BUILD_TESTS)
     # Without the header of RtAudio 5 `pacini live` opens no sound device, and takes sounds from pipes and files. RtAudio 6
     # has other functions.
     pkg_check_modules(rtaudio rtaudio>=5.1 rtaudio<6)
+    # Without PulseAudio's headers, which come with those of RtAudio, its devices are not listed, and a DualSense on a
+    # cable plays by ALSA only.
+    pkg_check_modules(pulse libpulse-simple)
 endif()
 if(PACINI_BUILD_TESTS)
     find_package(Catch2 REQUIRED)

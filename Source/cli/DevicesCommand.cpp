@@ -2,7 +2,9 @@
 
 #include "cli/Command.h"
 #include "cli/ControllerInput.h"
+#include "cli/live/SoundPort.h"
 #include "devices/HidList.h"
+#include "devices/SoundCard.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -15,12 +17,19 @@ namespace pacini::cli
 
 namespace
 {
+using Json = nlohmann::ordered_json;
+
 /// `pacini devices`: the connected game controllers that can play haptics.
 class DevicesCommand : public Command
 {
 public:
     CLI::App* declare(CLI::App& app) override;
     Exit run(Console& console) override;
+
+private:
+    Exit listSounds(Console& console) const;
+
+    bool sounds = false;
 };
 } // namespace
 
@@ -28,6 +37,7 @@ CLI::App* DevicesCommand::declare(CLI::App& app)
 {
     auto* command =
         app.add_subcommand("devices", "List the connected game controllers and other devices that can play haptics");
+    command->add_flag("--sound", sounds, "List the sound devices that 'pacini live' can name instead");
     command->footer("'pacini play CLIP --device N' plays on device N.\nPacini supports Joy-Con, Switch Pro, DualShock "
                     "4, DualSense, Steam Controller (2026), Steam Deck,\nXbox controllers on Bluetooth, and as "
                     "'Waveforms' devices with waveforms of HID page 0x0E: some\ntouchpads, mice, pens and dials. The "
@@ -35,9 +45,29 @@ CLI::App* DevicesCommand::declare(CLI::App& app)
     return command;
 }
 
+Exit DevicesCommand::listSounds(Console& console) const
+{
+    Json list = Json::array();
+    std::string lines;
+    for (const SoundDevice& device : SoundPort::devices())
+    {
+        list.push_back({{"name", device.name},
+                        {"description", device.description},
+                        {"inputs", device.inputs},
+                        {"outputs", device.outputs}});
+        lines +=
+            fmt::format("{}{:>2} in {:>2} out  {}{}{}", lines.empty() ? "" : "\n", device.inputs, device.outputs,
+                        printable(device.name), device.description.empty() ? "" : "  ", printable(device.description));
+    }
+    console.addToReport({{"soundDevices", list}});
+    console.print(lines.empty() ? "No sound device is there" : lines);
+    return Exit::ok;
+}
+
 Exit DevicesCommand::run(Console& console)
 {
-    using Json = nlohmann::ordered_json;
+    if (sounds)
+        return listSounds(console);
     const auto controllers = devices::connectedControllers();
     if (!controllers)
         return console.fail("", controllers.error());
@@ -53,6 +83,11 @@ Exit DevicesCommand::run(Console& console)
                         {"haptics", haptics},
                         {"transport", transport},
                         {"path", controller.path}});
+        if (controller.haptics == devices::ControllerHaptics::dualSense)
+        {
+            const auto card = devices::soundCardOf(controller.path);
+            list.back()["soundCard"] = card ? Json(*card) : Json(nullptr);
+        }
         lines += fmt::format("{}{:>2}  {}  {:<11}  {:<9}  {}", lines.empty() ? "" : "\n", number,
                              printable(controller.path), haptics, transport, printable(controller.name));
     }

@@ -7,6 +7,7 @@
 #include "cli/Manifest.h"
 #include "cli/Options.h"
 #include "cli/PlayLosses.h"
+#include "devices/ClipDrive.h"
 #include "devices/ClipRumble.h"
 #include "devices/HidList.h"
 #include "devices/InstantClock.h"
@@ -20,10 +21,14 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -89,6 +94,11 @@ private:
     /// What --dry-run and --explain are for.
     [[nodiscard]] Result<devices::ControllerModel> listedModel() const;
 
+    [[nodiscard]] DualSenseWay way() const
+    {
+        return dualSense.empty() ? DualSenseWay::samples : *valueOf(dualSense, dualSenseWays);
+    }
+
     /// What is wrong with the options.
     [[nodiscard]] std::optional<Error> usageError() const;
 
@@ -101,11 +111,14 @@ private:
 
     Exit explain(Console& console, const Clip& clip, const devices::PlayRange& range) const;
     Exit list(Console& console, const Clip& clip, const devices::PlayRange& range) const;
+    Exit playSound(Console& console, const Clip& clip, const devices::PlayRange& range, OpenedController& opened,
+                   Interruption& interruption) const;
     Exit play(Console& console, const Clip& clip, const devices::PlayRange& range) const;
 
     std::string input;
     std::string device;
     std::string like;
+    std::string dualSense;
     double intensity = 0.0; ///< dB
     double from = 0.0;      ///< s
     double to = -1.0;       ///< s; negative: the end
@@ -135,6 +148,7 @@ CLI::App* PlayCommand::declare(CLI::App& app)
                       "List what the controller cannot show of the clip, as 'lint' does, and play nothing");
     addOption(*command, "--like", like, "With --dry-run or --explain: for this kind of controller",
               oneOf(modelNames()));
+    addOption(*command, "--dualsense", dualSense, dualSenseHelp, oneOf(dualSenseWays));
     command->footer("The motors stop when the clip ends, on Ctrl-C, and when the program fails.\n"
                     "Examples:\n  pacini play door.json --device 1\n"
                     "  pacini play door.haptic --device pro --loop --intensity -6\n"
@@ -193,7 +207,7 @@ Result<std::optional<OpenedController>> PlayCommand::openDevice(Console& console
             return chosen.error();
         if (*chosen)
         {
-            auto opened = openedController(**chosen);
+            auto opened = openedController(**chosen, way());
             if (opened)
                 return std::optional(std::move(opened).value());
             if (!wait || ++refused > patience)
@@ -227,7 +241,7 @@ Exit PlayCommand::run(Console& console)
 Result<devices::ControllerModel> PlayCommand::listedModel() const
 {
     if (!like.empty())
-        return modelNamed(like);
+        return playedIn(modelNamed(like), way());
     const auto connected = devices::connectedControllers();
     if (!connected)
         return connected.error();
@@ -238,7 +252,7 @@ Result<devices::ControllerModel> PlayCommand::listedModel() const
         return Error{ErrorCode::io, "", "no such controller is connected; choose a kind with --like"};
     if (!(*chosen)->waveforms && (*chosen)->haptics != devices::ControllerHaptics::dualSense)
         return devices::usualModel((*chosen)->haptics, (*chosen)->transport);
-    const auto opened = openedController(**chosen); // only it can tell its waveforms, or its firmware
+    const auto opened = openedController(**chosen, way()); // only it can tell its waveforms, or its firmware
     if (!opened)
         return opened.error();
     return opened->model;
@@ -296,7 +310,14 @@ Exit PlayCommand::play(Console& console, const Clip& clip, const devices::PlayRa
     }
     if (!*opened)
         return Exit::failed; // the signal ends the program
-    const auto& [controller, target, model] = **opened;
+    OpenedController& all = **opened;
+    const auto& controller = all.controller;
+    const auto& target = all.device;
+    const auto& model = all.model;
+    if (!all.lesser.empty())
+        console.note(fmt::format("{} plays by rumble: it {}", shownName(controller), all.lesser));
+    if (all.sound)
+        return playSound(console, clip, range, all, interruption);
     warnOfSilence(console, input, model);
     devices::SteadyClock clock;
     devices::RumblePlayer player(model, devices::ClipRumble(clip, range, Decibels(intensity), model), *target, clock);
@@ -330,6 +351,55 @@ Exit PlayCommand::play(Console& console, const Clip& clip, const devices::PlayRa
     console.note(fmt::format("{} played on {}: {}, {} packets, at most {:.1f} ms late{}", printable(input),
                              shownName(controller), durationText(length), result->sent, 1e3 * result->latest.value,
                              result->leftOut > 0 ? fmt::format(", {} left out", result->leftOut) : ""));
+    return Exit::ok;
+}
+
+Exit PlayCommand::playSound(Console& console, const Clip& clip, const devices::PlayRange& range,
+                            OpenedController& opened, Interruption& interruption) const
+{
+    constexpr double fading = 0.15; // s, in which the last sound fades out
+    const double fs = opened.sound->sampleRate();
+    const double length = range.to.value - range.from.value;
+    std::atomic<std::int64_t> made{0};
+    const auto started = opened.sound->play(
+        [&made, render = devices::clipDrive(clip, range, Decibels(intensity), fs)](std::span<float> frames)
+        {
+            for (std::size_t i = 0; i < frames.size(); i += devices::DriveRumble::blockFrames)
+                render(std::array<std::span<float>, 1>{
+                    frames.subspan(i, std::min(devices::DriveRumble::blockFrames, frames.size() - i))});
+            made.fetch_add(static_cast<std::int64_t>(frames.size()));
+        });
+    const std::string name = shownName(opened.controller);
+    const auto failed = [&](Error error)
+    {
+        error.where = name;
+        return console.fail(input, error);
+    };
+    if (!started)
+        return failed(started.error());
+    bool ended = false;
+    double position = 0.0;
+    while (!ended && opened.sound->isRunning() && opened.isThere() && (loop || position < length + fading))
+    {
+        console.progress(loop ? 1.0 : std::min(position / length, 1.0),
+                         fmt::format("{}  {}", durationText(position), name));
+        ended = interruption.wait(Seconds(0.02));
+        position = static_cast<double>(made.load()) / fs;
+    }
+    const bool isThere = opened.sound->isRunning() && opened.isThere();
+    opened.sound->stop();
+    console.endProgress();
+    if (ended)
+        return Exit::failed; // the signal ends the program
+    if (!isThere)
+        return failed({ErrorCode::io, "", "does not answer any more; was it unplugged or switched off?"});
+    console.addToReport({{"input", input},
+                         {"controller", opened.controller.name},
+                         {"path", opened.controller.path},
+                         {"seconds", length},
+                         {"samples", made.load()}});
+    console.note(fmt::format("{} played on {}: {}, as samples by its sound device", printable(input), name,
+                             durationText(length)));
     return Exit::ok;
 }
 

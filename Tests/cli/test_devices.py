@@ -30,9 +30,17 @@ class Devices(CommandTest):
             self.assertEqual(lines, ["No supported game controller is connected"])
         self.assertEqual([entry["number"] for entry in controllers], list(range(1, len(controllers) + 1)))
         for entry in controllers:
-            self.assertEqual(set(entry), {"number", "name", "haptics", "transport", "path"})
+            self.assertEqual(set(entry) - {"soundCard"}, {"number", "name", "haptics", "transport", "path"})
             self.assertTrue(Path(entry["path"]).exists(), entry)
             self.assertTrue(any(entry["name"] in line for line in lines), entry)
+
+    def test_sound_devices_are_listed_by_the_names_that_live_takes(self):
+        done = self.run_command("devices", "--sound", "--json", timeout=60)
+        self.assertEqual((done.returncode, done.stderr), (0, b""))
+        for entry in json.loads(done.stdout)["soundDevices"]:
+            self.assertEqual(set(entry), {"name", "description", "inputs", "outputs"})
+            self.assertRegex(entry["name"], "^(jack|pulse|alsa|core):.")
+        self.assertTrue(self.succeeds("devices", "--sound").strip())
 
 
 if __name__ == "__main__":

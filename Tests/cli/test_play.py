@@ -42,6 +42,16 @@ class Play(CommandTest):
                                                           "--intensity", "-6"))
         self.assertAlmostEqual(soft, 100 * curve[1], delta=1)
 
+    def test_a_dualsense_is_sent_what_it_is_told_to(self):
+        self.clip()
+        for way, size in (("samples", 142), ("long-samples", 398), ("rumble", 78)):
+            packets = self.listed("--like", "dualsense-bluetooth", "--dualsense", way)
+            self.assertEqual({len(report) for _, report in packets[1:-1]}, {size}, way)
+            self.assertEqual({len(report) for _, report in self.listed("--like", "dualsense", "--dualsense", way)}, {48}, way)
+        self.assertEqual(self.listed("--like", "dualsense-bluetooth"),
+                         self.listed("--like", "dualsense-bluetooth", "--dualsense", "samples"))
+        self.fails(2, ["play", "clip.json", "--dry-run", "--like", "dualsense", "--dualsense", "organ"], "--dualsense")
+
     def test_packets_as_json_are_those_of_the_list(self):
         self.clip()
         report = self.report("play", "clip.json", "--dry-run", "--like", "switch")

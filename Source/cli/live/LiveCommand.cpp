@@ -146,6 +146,7 @@ private:
     std::size_t channels = 2;
     std::vector<std::string> controllers;
     bool wait = false;
+    std::string dualSense;
     std::string output;
     std::string profile;
     std::string preset;
@@ -174,6 +175,7 @@ CLI::App* LiveCommand::declare(CLI::App& app)
               "[the only game controller, unless there is another output]",
               "N|NAME");
     command->add_flag("--wait", wait, "Also begin when no controller is connected yet");
+    addOption(*command, "--dualsense", dualSense, dualSenseHelp, oneOf(dualSenseWays));
     addOption(*command, "--sound-output", soundOutputs, "Sound device to play the drive signal on; may be repeated",
               "SYSTEM[:NAME]");
     addOption(*command, "-o,--output", output, "Drive signal to write: a .wav, or - for WAV on standard output", "OUT");
@@ -280,6 +282,7 @@ Exit LiveCommand::openOutputs(Console& console, Session& session) const
 {
     const double fs = session.engine->sampleRate();
     auto named = controllers;
+    const auto way = dualSense.empty() ? DualSenseWay::samples : *valueOf(dualSense, dualSenseWays);
     if (named.empty() && output.empty() && soundOutputs.empty())
         named.emplace_back();
     for (const std::string& name : named)
@@ -287,7 +290,7 @@ Exit LiveCommand::openOutputs(Console& console, Session& session) const
         session.drives.push_back(std::make_unique<LiveDrive>(static_cast<std::size_t>(fs)));
         session.engine->add(*session.drives.back());
         LatencyProbe* probe = session.pads.empty() ? session.probe.get() : nullptr;
-        session.pads.push_back(std::make_unique<LivePad>(name, *session.drives.back(), fs, probe));
+        session.pads.push_back(std::make_unique<LivePad>(name, way, *session.drives.back(), fs, probe));
         const auto opened = session.pads.back()->open();
         if (opened)
             continue;

@@ -2,6 +2,7 @@
 
 #include "cli/ControllerInput.h"
 #include "cli/live/LiveRumble.h"
+#include "cli/live/TrackedDrive.h"
 
 #include <fmt/format.h>
 
@@ -9,6 +10,7 @@
 #include <atomic>
 #include <memory>
 #include <optional>
+#include <span>
 #include <utility>
 
 namespace pacini::cli
@@ -76,25 +78,78 @@ private:
 /// All that lasts from a connection to its end; the player ends first.
 struct LivePad::Link
 {
-    Link(std::unique_ptr<devices::OpenController> opened, const devices::ControllerModel& model, LiveDrive& drive,
-         double fs, LatencyProbe* probe)
-        : device(std::move(opened)),
-          sink(std::make_unique<WatchedSink>(*device, sounds, probe, sent)),
-          player(model, std::make_unique<WatchedRumble>(drive, fs, model, sounds), *sink, clock)
+    Link(OpenedController opened, LiveDrive& drive, double fs, LatencyProbe* probe)
+        : pad(std::move(opened)), sink(std::make_unique<WatchedSink>(*pad.device, sounds, probe, sent))
     {
+        if (pad.sound)
+            playSound(drive, fs);
+        else
+            player.emplace(pad.model, std::make_unique<WatchedRumble>(drive, fs, pad.model, sounds), *sink, clock);
     }
 
-    std::unique_ptr<devices::OpenController> device;
+    Link(const Link&) = delete;
+    Link& operator=(const Link&) = delete;
+    ~Link()
+    {
+        if (pad.sound)
+            pad.sound->stop();
+    }
+
+    /// Blocks of its sound device count as reports.
+    void playSound(LiveDrive& drive, double fs)
+    {
+        constexpr double margin = 0.010; // s, as for a sound card whose blocks are not known
+        const double goes = static_cast<double>(pad.sound->blockFrames()) / pad.sound->sampleRate();
+        tracked.emplace(drive, fs, pad.sound->sampleRate(), static_cast<std::size_t>((goes + margin) * fs));
+        failure = pad.sound->play(
+            [this](std::span<float> frames)
+            {
+                tracked->read(frames);
+                sent.fetch_add(1, std::memory_order_relaxed);
+            });
+    }
+
+    [[nodiscard]] bool isPlaying()
+    {
+        if (player)
+            return player->isPlaying();
+        return pad.sound->isRunning() && pad.isThere() && !tracked->isOver();
+    }
+
+    void stop()
+    {
+        if (player)
+            player->stop();
+        else
+            pad.sound->stop();
+    }
+
+    [[nodiscard]] Result<devices::PlayReport> finish()
+    {
+        if (player)
+            return player->finish();
+        const bool isThere = pad.isThere();
+        pad.sound->stop();
+        if (!failure)
+            return failure.error();
+        if (!isThere)
+            return Error{ErrorCode::io, "", "does not answer any more; was it unplugged or switched off?"};
+        return devices::PlayReport{};
+    }
+
+    OpenedController pad;
+    Result<void> failure;
     bool sounds = false; ///< of the player's thread
     std::atomic<std::int64_t> sent{0};
     bool works = false; ///< it has taken a report
     std::unique_ptr<devices::ReportSink> sink;
     devices::SteadyClock clock;
-    devices::RumblePlayer player;
+    std::optional<TrackedDrive> tracked;         ///< of its sound device
+    std::optional<devices::RumblePlayer> player; ///< of reports
 };
 
-LivePad::LivePad(std::string named, LiveDrive& drive, double sampleRate, LatencyProbe* probe)
-    : wanted(std::move(named)), source(drive), fs(sampleRate), measured(probe)
+LivePad::LivePad(std::string named, DualSenseWay way, LiveDrive& drive, double sampleRate, LatencyProbe* probe)
+    : wanted(std::move(named)), dualSense(way), source(drive), fs(sampleRate), measured(probe)
 {
     source.listen(false);
 }
@@ -103,7 +158,7 @@ LivePad::~LivePad() = default;
 
 Result<void> LivePad::openOne(const devices::Controller& controller)
 {
-    auto opened = openedController(controller);
+    auto opened = openedController(controller, dualSense);
     if (!opened)
         return opened.error();
     const std::string name = shownName(controller);
@@ -112,7 +167,8 @@ Result<void> LivePad::openOne(const devices::Controller& controller)
                      fmt::format("takes no sound of {} Hz; use one of a whole number of Hz from 8000 on", fs)};
     source.listen(true);
     report.name = name;
-    link = std::make_unique<Link>(std::move(opened->device), opened->model, source, fs, measured);
+    report.lesser = opened->lesser;
+    link = std::make_unique<Link>(std::move(*opened), source, fs, measured);
     return {};
 }
 
@@ -132,7 +188,7 @@ Result<void> LivePad::open()
 
 Result<void> LivePad::takeResult()
 {
-    const auto result = link->player.finish();
+    const auto result = link->finish();
     noteConnection();
     report.sent += link->sent.load();
     link.reset();
@@ -159,7 +215,9 @@ void LivePad::look(Console& console)
     {
         if (noteConnection())
             console.note(fmt::format("{} is back", report.name));
-        if (link->player.isPlaying() || source.isOver())
+        if (!report.lesser.empty())
+            console.note(fmt::format("{} plays by rumble: it {}", report.name, std::exchange(report.lesser, {})));
+        if (link->isPlaying() || source.isOver())
             return;
         const bool worked = link->works; // one that is just being plugged in may open and not answer
         if (const auto done = takeResult(); !done && worked)
@@ -172,14 +230,14 @@ void LivePad::look(Console& console)
 
 bool LivePad::isDone() const
 {
-    return !link || !link->player.isPlaying();
+    return !link || !link->isPlaying();
 }
 
 const LivePadReport& LivePad::close()
 {
     if (link)
     {
-        link->player.stop();
+        link->stop();
         static_cast<void>(takeResult());
     }
     return report;

@@ -3,6 +3,7 @@
 // A controller that plays a live drive signal, and comes back after it was unplugged.
 
 #include "cli/Console.h"
+#include "cli/ControllerInput.h"
 #include "cli/live/LatencyProbe.h"
 #include "cli/live/LiveDrive.h"
 #include "devices/HidList.h"
@@ -28,6 +29,7 @@ struct LivePadReport
     std::int64_t leftOut = 0; ///< packets that would have come too late
     Seconds latest;           ///< by how much the packet that was latest came too late
     int connections = 0;
+    std::string lesser; ///< why it plays less than it could; empty otherwise
 };
 
 /// Sends from its own thread; all functions are for one other thread.
@@ -35,7 +37,7 @@ class LivePad
 {
 public:
     /// `named` as for --device; the drive and the probe, which may be null, outlive this.
-    LivePad(std::string named, LiveDrive& drive, double sampleRate, LatencyProbe* probe);
+    LivePad(std::string named, DualSenseWay way, LiveDrive& drive, double sampleRate, LatencyProbe* probe);
     LivePad(const LivePad&) = delete;
     LivePad& operator=(const LivePad&) = delete;
     ~LivePad();
@@ -62,6 +64,7 @@ private:
     bool noteConnection();
 
     std::string wanted;
+    DualSenseWay dualSense;
     LiveDrive& source;
     double fs;
     LatencyProbe* measured;

@@ -1,5 +1,6 @@
 #include "cli/live/SoundPort.h"
 
+#include "cli/live/PulseServer.h"
 #include "io/SoundHandle.h"
 
 #include <fmt/format.h>
@@ -8,7 +9,10 @@
 #include <atomic>
 #include <cctype>
 #include <cstdlib>
+#include <filesystem>
+#include <optional>
 #include <string_view>
+#include <system_error>
 #include <type_traits>
 #include <utility>
 
@@ -109,11 +113,41 @@ std::vector<rtaudio_api_t> compiledSystems()
     return named;
 }
 
+/// The systems with devices of their own that can be there: ALSA's library has no use without its part of the kernel.
+std::vector<rtaudio_api_t> runningSystems()
+{
+    std::vector<rtaudio_api_t> running;
+    std::error_code failed;
+    const bool hasAlsa = std::filesystem::exists("/proc/asound", failed);
+    for (const rtaudio_api_t api : compiledSystems())
+        if (api != RTAUDIO_API_LINUX_PULSE && (api != RTAUDIO_API_LINUX_ALSA || hasAlsa))
+            running.push_back(api);
+    return running;
+}
+
 std::string lowerCase(std::string text)
 {
     for (char& c : text)
         c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     return text;
+}
+
+/// What to say of a source or a sink that PulseAudio does not know, for which it would take its default; nothing when
+/// it knows it, or does not tell what it knows.
+std::optional<Error> unknownAtPulse(const std::string& name, bool isInput)
+{
+    const auto known = pulseDevices(isInput);
+    if (!known || known->empty() || name.front() == '@')
+        return std::nullopt;
+    std::string names;
+    for (const PulseDevice& device : *known)
+    {
+        if (device.name == name)
+            return std::nullopt;
+        names += fmt::format("{}{}", names.empty() ? "" : ", ", device.name);
+    }
+    return Error{ErrorCode::io, "",
+                 fmt::format("is none of the {} of pulse: {}", isInput ? "sources" : "sinks", names)};
 }
 
 class RtPort final : public SoundPort
@@ -134,8 +168,9 @@ public:
     RtPort& operator=(const RtPort&) = delete;
 
     /// Chooses the device, of which no stream is open yet.
-    [[nodiscard]] Result<void> choose(const std::string& name, bool isInput)
+    [[nodiscard]] Result<void> choose(const std::string& name, bool isInput, unsigned firstChannel = 0)
     {
+        silent = firstChannel;
         const int count = audio != nullptr ? library().deviceCount(audio) : 0;
         if (count <= 0)
             return Error{ErrorCode::io, "",
@@ -145,6 +180,8 @@ public:
 #if defined(__linux__)
         if (system == "pulse" && !name.empty())
         {
+            if (auto unknown = unknownAtPulse(name, isInput))
+                return *unknown;
             // RtAudio knows one device of PulseAudio, whose library looks there for the one that is meant.
             ::setenv(isInput ? "PULSE_SOURCE" : "PULSE_SINK", name.c_str(), 1);
             wanted.clear();
@@ -160,7 +197,7 @@ public:
             const bool isDefault = (isInput ? info.is_default_input : info.is_default_output) != 0;
             const bool meant = wanted.empty() ? isDefault || !found
                                               : lowerCase(info.name).find(lowerCase(wanted)) != std::string::npos;
-            if (!meant || (found && !isDefault))
+            if (!meant || (found && !isDefault) || info.output_channels < firstChannel)
                 continue;
             found = true;
             stream.device_id = static_cast<unsigned>(i);
@@ -262,7 +299,10 @@ private:
             if (makes)
                 makes(std::span(scratch).first(n));
             for (std::size_t k = 0; k < n; ++k)
-                std::fill_n(out + (i + k) * channels, channels, scratch[k]);
+            {
+                std::fill_n(out + (i + k) * channels, silent, 0.0f);
+                std::fill_n(out + (i + k) * channels + silent, channels - silent, scratch[k]);
+            }
             i += n;
         }
     }
@@ -270,6 +310,7 @@ private:
     std::string_view system;
     rtaudio_t audio; ///< null: it could not be made
     rtaudio_stream_parameters_t stream{};
+    std::size_t silent = 0; ///< channels before the first that plays
     bool found = false;
     unsigned rate = 48000; ///< Hz
     unsigned frames = 128; ///< of a block; JACK has its own
@@ -300,6 +341,49 @@ Result<std::unique_ptr<SoundPort>> openPort(const std::string& named, bool isInp
 }
 } // namespace
 
+std::vector<SoundDevice> SoundPort::devices()
+{
+    const SoundLibraryCall quiet;
+    std::vector<SoundDevice> all;
+    for (const bool sources : {true, false})
+        if (const auto known = pulseDevices(sources))
+            for (const PulseDevice& device : *known)
+                all.push_back({"pulse:" + device.name, device.description, sources ? device.channels : 0,
+                               sources ? 0 : device.channels});
+    for (const rtaudio_api_t api : runningSystems())
+    {
+        const rtaudio_t audio = library().create(api);
+        if (audio == nullptr)
+            continue;
+        library().showWarnings(audio, 0);
+        for (int i = 0, count = library().deviceCount(audio); i < count; ++i)
+            if (const auto info = library().deviceInfo(audio, i); info.probed != 0)
+                all.push_back({fmt::format("{}:{}", systemName(api), info.name), "",
+                               static_cast<int>(info.input_channels), static_cast<int>(info.output_channels)});
+        library().destroy(audio);
+    }
+    return all;
+}
+
+Result<std::unique_ptr<SoundPort>> SoundPort::openDualSense(int card)
+{
+    constexpr int coils = 2; // channels before them
+    if (const auto sinks = pulseDevices(false))
+        for (const PulseDevice& sink : *sinks)
+            if (sink.card == card && sink.channels >= coils + 2)
+                return openPulseSurround(sink.name);
+    const SoundLibraryCall quiet;
+    for (const rtaudio_api_t api : runningSystems())
+        if (api == RTAUDIO_API_LINUX_ALSA)
+            for (const char* const name : {"DualSense", "Wireless Controller"})
+            {
+                auto port = std::make_unique<RtPort>(api);
+                if (port->choose(name, false, coils))
+                    return std::unique_ptr<SoundPort>(std::move(port));
+            }
+    return Error{ErrorCode::io, "", "none of four channels can be opened"};
+}
+
 std::vector<std::string> SoundPort::systems()
 {
     std::vector<std::string> names;
@@ -317,6 +401,16 @@ Result<std::unique_ptr<SoundPort>> openPort(const std::string&, bool)
     return Error{ErrorCode::io, "", "needs RtAudio 5, without which this pacini was built; use a pipe"};
 }
 } // namespace
+
+std::vector<SoundDevice> SoundPort::devices()
+{
+    return {};
+}
+
+Result<std::unique_ptr<SoundPort>> SoundPort::openDualSense(int)
+{
+    return Error{ErrorCode::io, "", "needs RtAudio 5, without which this pacini was built"};
+}
 
 std::vector<std::string> SoundPort::systems()
 {

@@ -3,6 +3,7 @@ import errno
 import struct
 import threading
 import time
+from pathlib import Path
 
 import gi
 
@@ -40,6 +41,12 @@ PRO_CONTROLLER = {"maker": 0x057E, "product": 0x2009, "by": "Nintendo Co., Ltd."
                   "descriptor": GAMEPAD, "features": {}}
 DUALSHOCK_4 = PRO_CONTROLLER | {"maker": 0x054C, "product": 0x09CC, "by": "Sony", "name": "Wireless Controller"}
 
+# Firmware 6.30 in feature report 20; on a cable with a sound card, on Bluetooth with another number of the bus.
+DUALSENSE = PRO_CONTROLLER | {"maker": 0x054C, "product": 0x0CE6, "by": "Sony Interactive Entertainment",
+                              "name": "DualSense Wireless Controller", "card": 7,
+                              "features": {0x20: bytes([0x20]) + bytes(43) + bytes([0x30, 0x06]) + bytes(18)}}
+DUALSENSE_BLUETOOTH = {name: value for name, value in DUALSENSE.items() if name != "card"} | {"bus": "0005"}
+
 STEAM_CONTROLLER = {"maker": 0x28DE, "product": 0x1302, "by": "Valve Software", "name": "Steam Controller",
                     "descriptor": STEAM_REPORTS, "features": {}}
 STEAM_RECEIVER = STEAM_CONTROLLER | {"product": 0x1304, "name": "Steam Controller Puck"}
@@ -58,7 +65,17 @@ def description(device):
     """What umockdev has to be told; the device is the only one."""
     ids = f"{device['maker']:04X}:{device['product']:04X}"
     hid = f"{INTERFACE}/0003:{ids}.0001"
-    return f"""P: {USB}
+    card = "" if "card" not in device else f"""P: {USB}/1-1:1.1
+E: DEVTYPE=usb_interface
+E: SUBSYSTEM=usb
+A: bInterfaceNumber=01\\n
+
+P: {USB}/1-1:1.1/sound/card{device['card']}
+E: SUBSYSTEM=sound
+A: number={device['card']}\\n
+
+"""
+    return card + f"""P: {USB}
 E: DEVTYPE=usb_device
 E: PRODUCT={device['maker']:x}/{device['product']:x}/210
 E: SUBSYSTEM=usb
@@ -79,7 +96,7 @@ A: bInterfaceNumber=00\\n
 
 P: {hid}
 E: DRIVER=hid-generic
-E: HID_ID=0003:0000{device['maker']:04X}:0000{device['product']:04X}
+E: HID_ID={device.get("bus", "0003")}:0000{device['maker']:04X}:0000{device['product']:04X}
 E: HID_NAME={device['by']} {device['name']}
 E: HID_PHYS=usb-0000:00:14.0-1/input0
 E: HID_UNIQ=000000000001
@@ -106,6 +123,7 @@ class FakeController:
         self.bed = UMockdev.Testbed.new()
         self.writes = []
         self.pulled = False
+        self.refused = ()  # numbers of reports
         self.changed = threading.Condition()
         self.handler = UMockdev.IoctlBase()
         self.handler.connect("handle-ioctl", self.on_ioctl)
@@ -123,6 +141,11 @@ class FakeController:
         ids = f"{self.device['maker']:04X}:{self.device['product']:04X}"
         self.bed.uevent(f"/sys{INTERFACE}/0003:{ids}.0001/hidraw/hidraw0", "remove")
 
+    def take_away(self):
+        """As unplug(), and its node is gone too."""
+        self.unplug()
+        Path(self.bed.get_root_dir() + NODE).unlink()
+
     def clear(self):
         with self.changed:
             self.writes.clear()
@@ -138,7 +161,11 @@ class FakeController:
         if self.pulled:
             client.complete(-1, errno.ENODEV)
             return True
-        self.note(client, now, bytes(client.get_arg().retrieve()))
+        report = bytes(client.get_arg().retrieve())
+        if report[0] in self.refused:
+            client.complete(-1, errno.EINVAL)
+        else:
+            self.note(client, now, report)
         return True
 
     def note(self, client, now, report):
