@@ -23,7 +23,7 @@ namespace pacini
 /// Parameters of the fit.
 struct ActuatorFitParams
 {
-    Decibels maxBoost{6.0};             ///< by which the drive may be raised to flatten a resonance, 0 to 40 dB
+    Decibels maxBoost{6.0};             ///< maximum boost of the drive to flatten a resonance, 0 to 40 dB
     double strength = standardStrength; ///< 0: as flat as can be; 1: as strong as can be; clamped, NaN counts as 0
     bool operator==(const ActuatorFitParams&) const = default;
 };
@@ -67,9 +67,9 @@ inline double gainAtResonance(const Flattening& flattening) noexcept
     return flattening.gain * size(flattening.actuator) / size(flattening.target);
 }
 
-/// Which part of the way to the resonance a strength goes, where flattening as far as can be loses `loss` dB there: as
-/// far as leaves at most 24 (1 - strength)^3 dB of it, so that narrow resonances go first, which lose most, and those
-/// that lose little stay flat. What loses more than 24 dB goes the same way; a loss below 3 dB counts as that.
+/// Returns the part of the way to the resonance, 0 to 1, for a strength. `loss` is the level, dB, that full flattening
+/// loses at the resonance; losses below 3 dB count as 3 dB. At most (1 - strength)^3 max(24, loss) dB of it remain.
+/// Narrow resonances lose most, so they move first; resonances that lose little stay flat.
 inline double wayToResonance(double loss, double strength) noexcept
 {
     constexpr double mostLost = 24.0, leastLost = 3.0; // dB
@@ -78,11 +78,12 @@ inline double wayToResonance(double loss, double strength) noexcept
     return std::max(0.0, 1.0 - std::max(mostLost, flat) * rest * rest * rest / flat);
 }
 
-/// The flattening `way` of the way from `flat` to its strongest: the target of that has the actuator's own frequency
-/// and so much less q that a driver which raises the drive by `maxBoost` starts and stops it sooner without a loss at
-/// the resonance; resonances of a q of 2 and less are fast enough as they are. What is lost at the resonance, in dB,
-/// falls in proportion; the target stays low and broad for longer, since it is the drive's makeup gain that costs
-/// least, and all of it goes into overdrive at the start of what is felt and into braking at the end.
+/// Returns the flattening at the part `way`, 0 to 1, between `flat` and its strongest form.
+///
+/// The strongest form keeps the frequency of the actuator. Its q is reduced as far as a driver with `maxBoost` can
+/// start and stop the mass sooner without a loss at the resonance; a q of 2 or less is fast enough and stays. The loss
+/// at the resonance, in dB, falls in proportion to `way`. The target stays low and broad for most of the way: makeup
+/// gain costs least, and all of it becomes overdrive at the start of a vibration and braking at its end.
 inline Flattening strengthened(const Flattening& flat, double way, Decibels maxBoost) noexcept
 {
     constexpr double fastEnough = 2.0;
@@ -109,8 +110,8 @@ inline EqualizerSections withoutCuts(EqualizerSections sections, double part) no
     return sections;
 }
 
-/// The range that flattening extends, drawn in to the half-power band of the resonance as far as that lies in the
-/// actuator's own range. Far ends move first: in Hz, not in octaves.
+/// Narrows the range `extended` by flattening towards the half-power band of the resonance, within the range `own` of
+/// the actuator. Distant ends move first: the way is in Hz, not in octaves.
 inline ActuatorRange drawnIn(ActuatorRange extended, const ActuatorRange& own, const Resonance& resonance,
                              double way) noexcept
 {
@@ -123,19 +124,20 @@ inline ActuatorRange drawnIn(ActuatorRange extended, const ActuatorRange& own, c
 }
 } // namespace detail
 
-/// How a valid profile's actuator is played with a strength. With 0 it is as flat as can be (see flatteningOf) and its
-/// range grows at either end as far as its resonance moves. The inverse of a sharp resonance costs 10 to 24 dB there;
-/// with more strength
+/// Returns the flattening, equalizer and range with which a valid profile's actuator plays at a strength. At a strength
+/// of 0, the response is as flat as possible (see flatteningOf), and the range grows at both ends by the shift of the
+/// resonance. The inverse of a sharp resonance costs 10 to 24 dB at the resonance. With more strength
 ///
-/// - the frequencies that are played are drawn in to the half-power band of the resonance, the narrower that is the
-///   more, where the actuator needs least drive;
-/// - the inverse gives up its cut there, and a makeup gain what is left of it, up to no loss at a strength of 1;
-/// - what the inverse raises around the resonance is overdrive at each start and braking at each end, so that time
-///   stays crisp although the resonance is used. The protection behind takes what is too much of it.
+/// - the played frequencies move towards the half-power band of the resonance, where the actuator needs least drive,
+///   the more the narrower it is;
+/// - the inverse gives up its cut at the resonance, and a makeup gain restores the rest, up to no loss at a strength of
+///   1;
+/// - the boost of the inverse around the resonance becomes overdrive at each start and braking at each end, so that
+///   timing stays crisp although the resonance is used. The protection behind it limits any excess.
 ///
-/// A measured equaliser costs little and stays as it is up to standardStrength; from there its cuts, and what lies
-/// outside of the resonance, are given up in proportion. Motors and plain signals have nothing to trade. Continuous in
-/// the strength.
+/// A measured equalizer costs little and stays up to standardStrength. Above that, its cuts and the range outside of
+/// the resonance are reduced in proportion. The strength has no effect on motors and plain signals. The result is
+/// continuous in the strength.
 [[nodiscard]] inline ActuatorFit fitActuator(const Profile& profile, const ActuatorFitParams& params) noexcept
 {
     ActuatorFit fit{std::nullopt, profile.equalizer, profile.range, 0.0};
@@ -168,9 +170,9 @@ inline ActuatorRange drawnIn(ActuatorRange extended, const ActuatorRange& own, c
     return fit;
 }
 
-/// How long a valid profile's actuator rings when it is played so: s in which its ringing, as worn, falls to 1/e. That
-/// is q / (pi f) of the resonance that it is flattened to, or of its own with as much less q as the equaliser cuts
-/// there. 0 for motors and plain signals.
+/// Returns the ring time of a valid profile's actuator with this fit: s in which its ringing, as worn, falls to 1/e.
+/// That is q / (pi f) of the target resonance, or of the actuator's own resonance with its q reduced by the cut of the
+/// equalizer. 0 for motors and plain signals.
 [[nodiscard]] inline double ringTime(const Profile& profile, const ActuatorFit& fit) noexcept
 {
     if (profile.technology == Technology::erm || profile.technology == Technology::pcm)

@@ -24,8 +24,8 @@ struct BodyBand
 enum class BodyPoint
 {
     movingMass, ///< acceleration, m/s^2
-    device,     ///< acceleration, m/s^2: what an accelerometer on the case shows
-    skin,       ///< acceleration, m/s^2: what is felt
+    device,     ///< acceleration, m/s^2, as an accelerometer on the case measures it
+    skin,       ///< acceleration of the skin, m/s^2
     excursion   ///< of the moving mass from rest against the device, m
 };
 

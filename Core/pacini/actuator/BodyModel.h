@@ -97,7 +97,7 @@ struct BodyModelParams
     Resonance resonance;
     BodyPoint point = BodyPoint::skin;
     BodyForce driven = BodyForce::coil; ///< with `device` the input is in units of body.force too
-    Decibels tolerance{-60.0};          ///< of what is left out, see planBody; -infinity keeps everything
+    Decibels tolerance{-60.0};          ///< for parts to leave out, see planBody; -infinity keeps everything
     bool operator==(const BodyModelParams&) const = default;
 };
 
@@ -126,7 +126,7 @@ public:
 
     [[nodiscard]] std::size_t latencyFrames() const noexcept { return BodyModelCoefficients::latency; }
     [[nodiscard]] const BodyModelCoefficients& coefficients() const noexcept { return filter.coefficients(); }
-    /// What is computed, and what was left out with which predicted error.
+    /// The computed parts, and the omitted parts with their predicted error.
     [[nodiscard]] const BodyPlan& plan() const noexcept { return planned; }
 
 private:

@@ -57,12 +57,12 @@ struct BodyPlan
     return std::abs(simpler.response(point, Hertz(f)) - wanted) / std::max(std::abs(wanted), 1e-300);
 }
 
-/// The body with all parts left out whose absence changes the response of `point` by less than `tolerance`.
+/// Returns the body without the parts whose absence changes the response of `point` by less than `tolerance`.
 ///
-/// The joint is rigid when (1000 Hz / its frequency)^2 is below the tolerance: so much more than its base does a mass
-/// move on a spring, that far below its resonance. Beside a sharp resonance the little that the joint gives may cost
-/// more than the same rule says for that frequency; then it is kept. The skin is left out only when the whole
-/// difference that it makes is below the tolerance.
+/// The joint becomes rigid when (1000 Hz / its frequency)^2 is below the tolerance: that far below its resonance, a
+/// mass on a spring moves more than its base by that ratio. Beside a sharp resonance the joint may matter more than
+/// this rule says for its frequency; then it is kept. The skin is left out only when its whole effect is below the
+/// tolerance.
 [[nodiscard]] inline BodyPlan planBody(const BodyParams& body, const Resonance& resonance,
                                        Decibels tolerance = Decibels(-60.0), BodyPoint point = BodyPoint::skin,
                                        BodyForce driven = BodyForce::coil) noexcept

@@ -26,14 +26,14 @@ struct CoilHeatParams
     bool operator==(const CoilHeatParams&) const = default;
 };
 
-/// Thermal limiter. The coil as one thermal mass: its temperature, given as the constant power that would hold it
-/// there, follows the power as a one-pole filter and starts cold. It may never exceed maxPower.
+/// Thermal limiter. The coil is one thermal mass. Its temperature, given as the constant power that would hold it,
+/// follows the power as a one-pole filter, starts cold, and never exceeds maxPower.
 ///
-/// Two parts act. The wanted power, averaged over about 0.1 s so that a gain does not follow the waveform, is compared
-/// with an allowance that falls with the temperature, from five times the aimed-at power when cold (bursts pass) to
-/// once when warm: the temperature then approaches the aim from below and never passes it. What averaging leaves (fast
-/// coils, sudden peaks on a warm coil) a bound on the single sample takes away; the aim lies 5 % below the limit, so
-/// that it hardly ever has to.
+/// It has two stages. The first averages the wanted power over about 0.1 s, so that the gain does not follow the
+/// waveform, and compares it with an allowance. The allowance falls with the temperature, from five times the target
+/// power when cold (bursts pass) to the target power when warm: the temperature approaches the target from below and
+/// never passes it. The second stage bounds every single sample, for fast coils and sudden peaks on a warm coil. The
+/// target lies 5 % below the limit, so the second stage rarely acts.
 class CoilHeat
 {
 public:
@@ -56,7 +56,7 @@ public:
         averages = {};
     }
 
-    /// Follows the power as it is wanted and returns it over what is allowed now: what the square of a gain must undo.
+    /// Follows the wanted power. Returns its ratio to the allowed power, which the square of a gain must undo.
     double measure(double wanted) noexcept
     {
         averages.follow(full * wanted * wanted, step, group);
@@ -139,7 +139,7 @@ private:
         return std::min(warmed, std::max(temperature.value(), power));
     }
 
-    /// Lets the averages follow whole groups if they are certain to stay within what is allowed at `hottest`.
+    /// Updates the averages for whole groups if they are certain to stay within the allowance at `hottest`.
     bool followFreely(std::span<const double> wanted, double maxMeasure, double hottest) noexcept
     {
         MovingMass after = averages;

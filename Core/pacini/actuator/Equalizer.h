@@ -66,8 +66,8 @@ using EqualizerSections = FixedVector<EqualizerSection, 16>;
     return {};
 }
 
-/// The equalizer of a valid profile as a filter at `fs` Hz; sections at or above 0.49 fs are left out, since they would
-/// not do there what they say. Cookbook sections (see Biquad.h) and Butterworth high-passes.
+/// The equalizer of a valid profile as a filter at `fs` Hz. Sections at or above 0.49 fs are left out, because their
+/// responses would be wrong there. Cookbook sections (see Biquad.h) and Butterworth high-passes.
 [[nodiscard]] inline BiquadCascadeCoefficients designEqualizer(const EqualizerSections& sections, double fs) noexcept
 {
     BiquadCascadeCoefficients cascade;

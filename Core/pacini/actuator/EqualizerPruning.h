@@ -91,7 +91,7 @@ template <typename Indices>
 } // namespace detail
 
 /// Leaves out every section whose own response stays within the tolerance of flat over the range, at the sample rate
-/// `fs`, and says what that costs: the errors of several may add up beyond the tolerance, or cancel. Sections that
+/// `fs`, and states the error: the errors of several may add up beyond the tolerance, or cancel. Sections that
 /// designEqualizer() leaves out at this rate are among the dropped ones. Design time only: some thousand responses.
 [[nodiscard]] inline PrunedEqualizer pruneEqualizer(const EqualizerSections& equalizer, const PruningParams& params,
                                                     double fs) noexcept

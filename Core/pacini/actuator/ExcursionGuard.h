@@ -94,14 +94,15 @@ struct ExcursionCoefficients
     return guard;
 }
 
-/// Excursion limiter (safety filter). Admits of every wanted drive as much as keeps the energy of the modelled mass
-/// within its limit to the end of the sample, and of the mass as it is worn (see WornGuard) the like. Both bear any
-/// smaller drive of the same sign, so that one does not undo the other. A drive of 0 never raises the energy, so that
-/// there always is an admissible drive and the limit holds for ever, for any input; a limiter that only turns down a
-/// gain has no such proof, since a resonator that is already moving goes on when the drive falls. At resonance the
-/// largest drive that keeps the energy is proportional to the velocity, so that even a sinusoid held by the guard alone
-/// stays nearly a sinusoid. (A safety filter on an invariant set: A. Ames et al., "Control barrier functions: theory
-/// and applications", ECC 2019, here for the exact discrete model.)
+/// Excursion limiter (safety filter). Passes each wanted drive as far as the energy of the modelled mass stays within
+/// its limit to the end of the sample; likewise for the mass as worn (see WornGuard). Both also accept any smaller
+/// drive of the same sign, so neither undoes the other.
+///
+/// A drive of 0 never raises the energy, so an admissible drive always exists, and the limit holds for any input and
+/// any time. A limiter that only reduces a gain has no such proof, because a moving resonator continues when the drive
+/// falls. At resonance the largest drive that keeps the energy is proportional to the velocity, so a sinusoid held by
+/// the guard alone stays nearly a sinusoid. (A safety filter on an invariant set: A. Ames et al., "Control barrier
+/// functions: theory and applications", ECC 2019, here for the exact discrete model.)
 class ExcursionGuard
 {
 public:
@@ -124,8 +125,8 @@ public:
         worn.reset();
     }
 
-    /// Follows the drive as it is wanted and returns the energy that it would cause over the limit, less 1 %: what the
-    /// square of a gain must undo. The 1 % keeps a steady tone that the gain holds clear of the guard.
+    /// Follows the wanted drive. Returns the energy that it would cause relative to the limit, less 1 %, which the
+    /// square of a gain must undo. Due to the 1 %, the guard does not act on a steady tone held by the gain.
     double measure(double wanted) noexcept
     {
         asWanted.follow(wanted, guard.steps.back(), guard.group);
@@ -193,9 +194,9 @@ public:
         return true;
     }
 
-    /// Follows whole groups of frames as they are wanted, from the start of a group. Raises each of `levels` to what
-    /// measure() would return there, but leaves them alone if it is certain that none of that exceeds `maxMeasure`.
-    /// `peak` is that of `wanted`. Returns the largest, 0 for those that were left alone.
+    /// Follows whole groups of wanted frames, from the start of a group. Raises each of `levels` to the result of
+    /// measure(), but leaves them unchanged if no result can exceed `maxMeasure`. `peak` is the peak of `wanted`.
+    /// Returns the largest level, 0 for unchanged levels.
     double measure(std::span<const double> wanted, double peak, double maxMeasure, std::span<double> levels) noexcept
     {
         double largest = 0.0;

@@ -10,10 +10,10 @@
 namespace pacini
 {
 
-/// A recursion waits for its own last value at every frame, some ten cycles of the processor each time. A step over a
-/// whole group waits once: what the group's frames add does not depend on the state. Such a step rounds otherwise than
-/// single steps do, so the groups lie on a fixed grid from the last reset() or design() on, and single steps that reach
-/// the end of a group arrive at the same number as the step over it: the result does not depend on who takes which.
+/// A recursion waits for its last value at every frame, about ten cycles of the processor each time. A step over a
+/// whole group waits once, because the contribution of the group's frames does not depend on the state. Such a step
+/// rounds differently from single steps. The groups therefore lie on a fixed grid from the last reset() or design() on,
+/// and single steps arrive at the same number at the end of a group: the result does not depend on the kind of steps.
 inline constexpr std::size_t groupFrames = 8;
 
 /// One number for each frame of a group.

@@ -25,9 +25,9 @@ struct LevelLimiterParams
     bool operator==(const LevelLimiterParams&) const = default;
 };
 
-/// The level's part of Protection: for every input the output stays within +-1. A signal that stays there by itself
-/// passes bit for bit, only later by the look-ahead, which is why the knee is hard and no mean is taken out: what is
-/// rendered without a profile is looked at, measured and taken further by other programs.
+/// Level limiter, the part of Protection for drives without a profile. The output stays within +-1 for every input. A
+/// signal within +-1 passes bit for bit, delayed by the look-ahead. The knee is therefore hard and the mean is kept:
+/// other programs view, measure and process the drive rendered without a profile.
 class LevelLimiter
 {
 public:
@@ -92,12 +92,12 @@ public:
 
     [[nodiscard]] std::size_t latencyFrames() const noexcept { return latency; }
 
-    /// What happened in the last call of process(); of the thread that calls it.
+    /// Activity in the last call of process(). For the thread that calls process().
     [[nodiscard]] const ProtectionMeter& meter() const noexcept { return lastCall; }
 
 private:
     static constexpr std::size_t longestStretch = 256;
-    static constexpr std::size_t lineRoom = 4 * longestStretch; ///< so much that the line seldom has to be moved
+    static constexpr std::size_t lineRoom = 4 * longestStretch; ///< long enough that the line rarely moves
 
     /// The place of the next `frames` in the line; the frames before them lie in front of it.
     [[nodiscard]] float* roomFor(std::size_t frames) noexcept

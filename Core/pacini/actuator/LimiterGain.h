@@ -117,7 +117,7 @@ struct SoftKnee
     static constexpr double endSquared = 1.2589254117941673;                   ///< +1 dB
 };
 
-/// No knee: unity up to the limit, so that what keeps it by itself is not touched, exactly the limit above it.
+/// Hard knee: unity gain up to the limit, so that signals within the limit stay unchanged; exactly the limit above it.
 struct HardKnee
 {
     [[nodiscard]] static double gain(double ratioSquared) noexcept
@@ -213,8 +213,8 @@ public:
     }
 
 private:
-    /// The gain for what is held; `released`: it has fallen by one frame's release. Within a knee that is a step there,
-    /// which needs no logarithm: a limiter that lets go spends most of its time so.
+    /// Returns the gain for the held level. `released` tells that the level fell by one frame's release. Within a knee,
+    /// a release is a step on the knee without a logarithm; a limiter spends most of its time in release.
     double gainOf(bool released) noexcept
     {
         if constexpr (requires { Knee::gainAt(0.0); })

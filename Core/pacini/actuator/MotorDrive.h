@@ -95,8 +95,8 @@ struct MotorDriveParams
     bool operator==(const MotorDriveParams&) const = default;
 };
 
-/// The time constants of a motor's speed from those times in which its strength, the square of the speed, passes 90 %
-/// of a step or falls to 10 %.
+/// Returns the time constants of a motor's speed. `response` has the times at which its strength, the square of the
+/// speed, passes 90 % of a step and falls to 10 %.
 [[nodiscard]] inline FirstOrderTimes speedTimes(const ActuatorResponse& response) noexcept
 {
     return {response.riseTime / -std::log(1.0 - std::sqrt(0.9)), response.fallTime / -std::log(std::sqrt(0.1))};
@@ -178,7 +178,7 @@ public:
     }
 
 private:
-    /// What tick() does where the coil bears the largest voltage, which it then follows by whole groups.
+    /// tick() for whole groups of frames, while the coil bears the largest voltage.
     void playFreely(std::span<const float> in, std::span<float> out) noexcept
     {
         std::array<double, flushInterval> driveRoom;

@@ -62,9 +62,9 @@ namespace pacini
     return {gain, gain * zeros.z1, gain * zeros.z2, poles.z1, poles.z2};
 }
 
-/// The resonance of the moving mass when its base is not held still but is the device on the skin: the pair of the
-/// whole chain that lies nearest to that of two free masses on the suspension's spring. This is the pair to invert for
-/// a wearer.
+/// Returns the resonance of the moving mass with the device on the skin, where its base is not held still: of the whole
+/// chain, the pole pair closest to that of two free masses on the suspension's spring. This is the pair to invert for a
+/// wearer.
 [[nodiscard]] inline Resonance loadedResonance(const BodyParams& body, const Resonance& resonance) noexcept
 {
     const BodyChain chain = makeBodyChain(body, resonance);
@@ -225,8 +225,8 @@ struct OutputFilterParams
     bool operator==(const OutputFilterParams&) const = default;
 };
 
-/// Equaliser and flattening in series at `fs` Hz. Resonances near or above half the sample rate have other gains than
-/// their model there: what is beyond the flattening's bound is taken from all frequencies.
+/// Equalizer and flattening in series at `fs` Hz. Resonances close to or above half the sample rate have other gains
+/// than their model there. Any excess over the bound of the flattening is removed at all frequencies.
 [[nodiscard]] inline BiquadCascadeCoefficients designOutputFilter(const OutputFilterParams& params, double fs) noexcept
 {
     BiquadCascadeCoefficients cascade = designEqualizer(params.equalizer, fs);

@@ -193,7 +193,7 @@ using RootList = FixedVector<Root, RealPolynomial::maxDegree>;
     return roots;
 }
 
-/// Puts conjugate roots together, and of the real ones those that lie close: what nearly coincides must be one group.
+/// Groups conjugate roots, and real roots that lie close together: nearly coincident roots must be one group.
 [[nodiscard]] inline PoleGroupList groupRoots(const RootList& roots) noexcept
 {
     PoleGroupList groups;

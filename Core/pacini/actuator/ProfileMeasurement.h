@@ -44,7 +44,7 @@ struct Linearity
     double worstFrequency = 0.0;            ///< Hz
     std::vector<LinearityOutlier> outliers; ///< beyond the tolerance, from low to high
 
-    /// Whether nothing lies beyond the tolerance.
+    /// Whether all of the response is within the tolerance.
     [[nodiscard]] bool passed() const noexcept { return outliers.empty(); }
     bool operator==(const Linearity&) const = default;
 };
@@ -55,7 +55,7 @@ struct ProfileMeasurement
     static constexpr std::size_t maxPoints = 4096;
     static constexpr std::size_t maxOutliers = 256;
 
-    int placements = 1;                    ///< recordings that were averaged: of other wearers or attached anew
+    int placements = 1;                    ///< averaged recordings: of other wearers, or attached again
     double drive = 0.0;                    ///< dB of the sweep's peak re full drive
     std::optional<double> distortionDrive; ///< dB re full drive at which harmonic distortion passes 10 %
     std::optional<Linearity> linearity;    ///< with the equaliser, where it was verified

@@ -158,7 +158,7 @@ public:
 
     [[nodiscard]] std::size_t latencyFrames() const noexcept { return latency; }
 
-    /// What happened in the last call of process(); of the thread that calls it.
+    /// Activity in the last call of process(). For the thread that calls process().
     [[nodiscard]] const ProtectionMeter& meter() const noexcept { return lastCall; }
 
     /// The largest gain reduction in the last call of process(), dB.
@@ -166,7 +166,7 @@ public:
 
 private:
     static constexpr std::size_t longestStretch = flushInterval;
-    static constexpr std::size_t lineRoom = 4 * longestStretch; ///< so much that the line seldom has to be moved
+    static constexpr std::size_t lineRoom = 4 * longestStretch; ///< long enough that the line rarely moves
 
     /// How many of the next `frames` are taken at once: whole groups wherever that is possible.
     [[nodiscard]] std::size_t stretch(std::size_t frames) const noexcept
@@ -277,8 +277,8 @@ private:
         return peaks.first();
     }
 
-    /// Does what tick() would do, for whole groups of frames in which no limit comes near. Returns false and changes
-    /// nothing where that is not certain.
+    /// tick() for whole groups of frames that stay clear of all limits. Returns false and changes nothing if this is
+    /// not certain.
     bool passFreely(std::span<float> out, double wantedPeak) noexcept
     {
         if (!gain.idle() || wantedPeak * wantedPeak > SoftKnee::startSquared || freePeak > 1.0)
@@ -303,9 +303,9 @@ private:
         return true;
     }
 
-    /// Does what tick() would do, for whole groups of frames in which something may come near its limit, in turn: which
-    /// gains the levels need, the drives, and only where these may be beyond a bound the bounds. Returns false and
-    /// changes nothing where a level depends on the drives, as that of heat does.
+    /// tick() for whole groups of frames that may approach a limit. Computes the gains, then the drives, and the bounds
+    /// only if the drives may exceed them. Returns false and changes nothing if a level depends on the drives, as with
+    /// heat.
     bool passGuarded(std::span<float> out, double wantedPeak) noexcept
     {
         std::array<double, longestStretch> gainRoom, driveRoom;
@@ -389,7 +389,7 @@ private:
         return play(delayed, g);
     }
 
-    /// What the mean of the output loses by a gain, in parts of the free drive.
+    /// Loss of the output's mean by a gain, as a fraction of the free drive.
     [[nodiscard]] double leakOfGain(double g) const noexcept { return outputMean.leakPerFrame() * (g - 1.0); }
 
     /// One frame: from the delayed input and its gain to the drive.

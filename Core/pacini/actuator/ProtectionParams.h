@@ -122,8 +122,8 @@ inline constexpr double defaultThermalTime = 1.0; // s
     return params;
 }
 
-/// What becomes of the limits of a valid profile, in plain words, such as "travel is kept within its limit; no drive
-/// reaches the limit of heat". Of a motor that turns (`turns`) travel is none.
+/// Describes the protection by the limits of a valid profile, such as "travel is kept within its limit; no drive
+/// reaches the limit of heat". Motors that turn (`turns`) have no travel.
 [[nodiscard]] inline std::string protectionText(const Profile& profile, bool turns = false)
 {
     using Limit = ProtectionNeeds::Limit;

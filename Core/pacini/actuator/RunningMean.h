@@ -19,7 +19,7 @@ namespace pacini
 class RunningMean
 {
 public:
-    /// `leak` between 0 and 1. The mean goes on; a group begins.
+    /// Starts a group and keeps the mean. `leak` is between 0 and 1.
     void design(double leakOfFrame) noexcept
     {
         start = value();

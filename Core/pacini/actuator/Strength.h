@@ -5,9 +5,9 @@
 namespace pacini
 {
 
-/// The strength that costs at most 3 dB of felt level against an actuator that is not flattened, and keeps at least two
-/// thirds of what adaptation gains in likeness: chosen on thirty recordings with `pacini bench actuators`. That holds
-/// on each shipped profile but the DualSense's (q 1.7), where adaptation gains next to nothing.
+/// The default strength. It costs at most 3 dB of felt level against the unflattened actuator, and keeps at least two
+/// thirds of the likeness gained by adaptation: chosen on thirty recordings with `pacini bench actuators`. This holds
+/// for each shipped profile except the DualSense (q 1.7), for which adaptation gains little.
 inline constexpr double standardStrength = 0.4;
 
 } // namespace pacini

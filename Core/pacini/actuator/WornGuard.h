@@ -105,7 +105,7 @@ struct WornCoefficients
 class WornGuard
 {
 public:
-    /// Goes on from where the modes are, if there are as many: a little changed, they are nearly the same.
+    /// Starts from the current modes, if their number is equal: after a small change they are nearly the same.
     void design(const BodyChain& chain, double travel, double fs) noexcept
     {
         const std::size_t before = guard.groups.size();

@@ -54,7 +54,7 @@ public:
         return interleaved;
     }
 
-    /// What the filters still hold.
+    /// Delivers the samples that the filters still hold.
     void finish()
     {
         clear();

@@ -76,7 +76,7 @@ private:
     std::vector<Fade> fades;
 };
 
-/// The rate at which every sound is analysed offline, Hz: twice what lies above the top of touch (1-1.8 kHz).
+/// The sample rate of all offline analysis, Hz: twice the top of the range of touch (1-1.8 kHz) and more.
 inline constexpr int analysisRate = 4000;
 
 /// Parameters of the band analysis.
@@ -118,8 +118,8 @@ struct BandAnalysisResult
         return std::min(static_cast<double>(frames) * bandStep, static_cast<double>(envelope.size()) * envelopeStep);
     }
 
-    /// Takes away the first `length` s, a multiple of bandStep below seconds(); so much earlier the rest begins. The
-    /// frame at the cut is in both, the peak too.
+    /// Removes the first `length` s, a multiple of bandStep below seconds(). The remaining times decrease by `length`.
+    /// Both parts contain the frame at the cut, and the peak.
     [[nodiscard]] BandAnalysisResult takeFirst(double length)
     {
         const auto cut = [length](std::vector<float>& frames, double step)
@@ -212,10 +212,10 @@ public:
     /// Values of the envelope that finish() will have found in all.
     [[nodiscard]] std::int64_t envelopeFrames() const noexcept { return framesEvery(BandAnalysisResult::envelopeStep); }
 
-    /// What is complete by now; taken from its front, it is not kept.
+    /// The completed frames. Frames taken from the front are not kept.
     [[nodiscard]] BandAnalysisResult& found() noexcept { return output; }
 
-    /// Completes the analysis of the sound and returns what was not taken of it.
+    /// Completes the analysis of the sound and returns the frames that were not taken.
     [[nodiscard]] BandAnalysisResult finish()
     {
         analyseBlock(pending.front().size(), true);
@@ -249,7 +249,7 @@ private:
 
     [[nodiscard]] std::size_t bandCount() const noexcept { return settings.bands.size(); }
 
-    /// Frames of what was received, one every `step` s.
+    /// Number of frames for the samples received, one every `step` s.
     [[nodiscard]] std::int64_t framesEvery(double step) const noexcept
     {
         return static_cast<std::int64_t>(std::floor(static_cast<double>(received) / analysisRate / step + 1e-9)) + 1;

@@ -134,7 +134,7 @@ private:
         std::vector<double> importance;
     };
 
-    /// Time in which the envelope is above -75 dB of full drive (Weber 2020, section 4.3).
+    /// Returns the active time, in which the envelope is above -75 dB of full drive (Weber 2020, section 4.3).
     [[nodiscard]] static double activeSeconds(const BandAnalysisResult& found, double gain)
     {
         std::size_t active = 0;
@@ -143,7 +143,7 @@ private:
         return static_cast<double>(active) * BandAnalysisResult::envelopeStep;
     }
 
-    /// A curve of levels goes on at `start`, where the sections share a frame. An empty one is silence.
+    /// Continues a curve of levels at `start`, where the sections share a frame. An empty curve is silence.
     void joinLevel(Curve& curve, Curve next, double start) const
     {
         const bool sounds = reaches(curve, start);
@@ -159,8 +159,8 @@ private:
         }
     }
 
-    /// A curve of frequencies goes on at `start`. Where it is a single point, that holds for its whole section; where
-    /// it is empty, the one before or after.
+    /// Continues a curve of frequencies at `start`. A single point applies to its whole section. An empty section takes
+    /// the frequency before or after it.
     void joinPitch(Curve& curve, const Curve& next, double start) const
     {
         constexpr double step = 3.0 * BandAnalysisResult::bandStep;

@@ -35,10 +35,10 @@
 namespace pacini
 {
 
-/// Transients for `onsets`, scaled by `gain`, amplitudes within 0-1. An event is felt as strong as its part in the
-/// range of touch, or as half its full band where it is brighter than that: a bright click has no low part of its own,
-/// and shall be felt. Where that half exceeds full drive, all of it is scaled down alike, so that bright events keep
-/// their ratios.
+/// Returns transients for `onsets`, scaled by `gain`, with amplitudes of 0-1. An event is felt as strong as its part in
+/// the range of touch, or as half its full band if that is stronger: a bright click has no low part of its own, but
+/// must be felt. If that half exceeds full drive, all bright events are scaled down alike, so that they keep their
+/// ratios.
 [[nodiscard]] inline std::vector<Transient> transientsFrom(std::span<const Onset> onsets, double gain)
 {
     constexpr double brightShare = 0.5;
@@ -56,9 +56,9 @@ namespace pacini
     return transients;
 }
 
-/// The hits of an even train stay apart only when nothing sounds between them: within `trains`, `envelope` (a frame
-/// every `step` s) is held down to its valley between each two `onsets`, and the pulses of the events carry what is
-/// above it. Where hits come unevenly, some have no event of their own, and the envelope alone carries those.
+/// Separates the hits of even trains. Within `trains`, `envelope` (a frame every `step` s) is held down to its valley
+/// between each two `onsets`, and the pulses of the events carry the rest: hits stay apart only when nothing sounds
+/// between them. In uneven sequences some hits have no event of their own, and the envelope alone carries these.
 inline void holdDownBetween(std::span<const Onset> onsets, std::span<const TrainSpan> trains, double step,
                             std::span<float> envelope)
 {
@@ -87,10 +87,11 @@ inline void holdDownBetween(std::span<const Onset> onsets, std::span<const Train
 }
 
 /// Streaming encoder. Encodes one sound after another; keeps its transforms and filters between them. Use: start, push
-/// any number of times, finish. Which points are worth their price depends on the loudest moment, which may be the
-/// last: unless that is told, what the analysis finds is kept to the end, 20 MB an hour for 12 bands, and 35 MB with
-/// `audible`. Curves are fitted in sections of ten minutes, so that with it nothing is kept but the clip. One thread at
-/// a time, never the audio thread.
+/// any number of times, finish.
+///
+/// The choice of points depends on the loudest moment, which may be the last. Without a SoundScale, the analysis is
+/// therefore kept to the end: 20 MB an hour for 12 bands, 35 MB with `audible`. With a scale, curves are fitted in
+/// sections of ten minutes, and only the clip is kept. One thread at a time, never the audio thread.
 class Encoder
 {
 public:
@@ -167,7 +168,7 @@ public:
     }
 
 private:
-    /// What is heard, where that is wanted.
+    /// Analysis of the heard sound, if needed.
     struct Heard
     {
         Heard(std::span<const BandEdges> bands, const EncoderParams& params)
@@ -207,7 +208,7 @@ private:
         return peak > (settings.normalise ? silence : loudest) ? loudest / peak : 1.0;
     }
 
-    /// Of a sound of which all is kept.
+    /// For a sound that is kept as a whole.
     [[nodiscard]] SoundScale scaleOf(const BandAnalysisResult& found, std::span<const Onset> onsets) const
     {
         const auto all = heard ? heard->level.found() : std::span<const HeardFrame>();

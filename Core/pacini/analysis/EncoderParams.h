@@ -20,7 +20,7 @@ namespace pacini
 enum class HeardRole
 {
     beside,  ///< as a tone beside the low part of the sound, see HeardBeside
-    instead, ///< instead of the low part, where most of what is heard lies above it, see HeardInstead
+    instead, ///< instead of the low part, if most of the heard sound lies above it, see HeardInstead
 };
 
 /// Parameters of the encoder; encoderParameters describes them.
@@ -34,9 +34,9 @@ struct EncoderParams
     int quantise = 6;          ///< see PackParams
     bool normalise = true;     ///< scale to full drive; otherwise full scale is full drive, and sounds more than 54 dB
                                ///< above it are scaled down to that
-    double audible = 1.0;      ///< how much of what lies above the range of touch is felt
+    double audible = 1.0;      ///< amount of sound above the range of touch that is felt
     HeardRole heard = HeardRole::beside;
-    OnsetParams onsets; ///< what counts as an event; see Onset
+    OnsetParams onsets; ///< criteria of events; see Onset
     bool operator==(const EncoderParams&) const = default;
 };
 
@@ -45,7 +45,7 @@ inline constexpr std::array<std::string_view, 2> spacingMembers{"logarithmic", "
 
 inline constexpr std::array<std::string_view, 2> heardRoleNames{"beside", "instead"};
 
-/// What users can set of EncoderParams, in the order of help texts and records.
+/// Descriptions of all user settings of EncoderParams, in the order of help texts and records.
 inline constexpr std::array encoderParameters{
     described<&EncoderParams::bands>({.name = "bands",
                                       .text = "Number of frequency bands",

@@ -16,7 +16,7 @@ namespace pacini
 /// source.
 inline constexpr double trainGapSeconds = 0.045;
 
-/// The onsets from 20 s before `start` on, on a clock that begins there: what a part of a sound has to do with.
+/// Returns the onsets from 20 s before `start` on, with times relative to that: those that affect a part of a sound.
 [[nodiscard]] inline std::vector<Onset> onsetsFrom(std::span<const Onset> onsets, double start)
 {
     constexpr double before = 20.0;

@@ -26,7 +26,7 @@ struct SeparationParams
     FrameParams frames{Seconds(0.0929), Seconds(0.0232)};
     Seconds harmonicSpan{0.2};   ///< of the median along time, clamped to 0-10 s, to the next odd number of frames
     Hertz percussiveSpan{500.0}; ///< of the median along frequency, to the next odd number of bins
-    double margin = 2.0;         ///< by which one part must exceed the other, 1 (no residual) to 1000
+    double margin = 2.0;         ///< ratio by which one part must exceed the other, 1 (no residual) to 1000
     bool operator==(const SeparationParams&) const = default;
 };
 
@@ -126,7 +126,8 @@ private:
 
     [[nodiscard]] Spectrum& at(std::size_t m) noexcept { return ring[m % ring.size()]; }
 
-    /// Samples by which the first frame starts before the sound: all samples lie in as many frames.
+    /// Samples between the start of the first frame and that of the sound, so that all samples lie in the same number
+    /// of frames.
     [[nodiscard]] std::size_t lead() const noexcept { return grid.window - hop; }
 
     void transform(std::size_t m)

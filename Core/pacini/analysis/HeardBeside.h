@@ -17,9 +17,9 @@
 namespace pacini
 {
 
-/// Adds a tone of 280 to 380 Hz for what is heard above the range of touch: hi-hats, ticks, drops, consonants. What
-/// lies in the range of touch keeps its level, its pitch and its rhythm. The tone follows the rises of loudness more
-/// than its steady part, and yields to the low part while that sounds (see heardBeside()). One sound, piece by piece.
+/// Adds a tone of 280 to 380 Hz for sound above the range of touch: hi-hats, ticks, drops, consonants. The part within
+/// the range of touch keeps its level, pitch and rhythm. The tone follows the rises of loudness more than its steady
+/// part, and yields to the low part (see heardBeside()). Processes one sound, piece by piece.
 class HeardBeside
 {
 public:

@@ -89,12 +89,14 @@ private:
     std::vector<float> shares;
 };
 
-/// Makes sound above the range of touch perceptible to the skin. Where most of the sound as heard (A-weighted power,
-/// over some seconds) lies above 900 Hz, the level follows the course of the loudness: the bands keep at most a quarter
-/// of their own amplitude, and a tone of 150 to 290 Hz, the brighter the higher, brings what they lack, as if the sound
-/// had it. Elsewhere nothing changes. `audible` (0 to 1) sets the amount, and BandAnalysisResult::heardShare records it
-/// over time. The limits of the blend, what the bands keep and the range of the tone are choices by trial, not derived.
-/// One sound, piece by piece.
+/// Makes sound above the range of touch perceptible to the skin. If most of the heard sound (A-weighted power, over
+/// some seconds) lies above 900 Hz, the level follows the loudness. The bands then keep at most a quarter of their own
+/// amplitude, and a tone of 150 to 290 Hz, higher for brighter sounds, adds the missing level. Otherwise nothing
+/// changes.
+///
+/// `audible` (0 to 1) sets the amount, and BandAnalysisResult::heardShare records it over time. The limits of the
+/// blend, the share of the bands and the range of the tone were chosen by trial, not derived. Processes one sound,
+/// piece by piece.
 class HeardInstead
 {
 public:
@@ -133,7 +135,7 @@ public:
 private:
     static constexpr std::size_t ratio = HeardTone::ratio;
 
-    /// Of the loudest, from a share of it in loudness. What is hardly heard beside it, as hiss in pauses, is not felt.
+    /// Threshold as a share of the largest loudness. Sound below it, such as hiss in pauses, is not felt.
     [[nodiscard]] static double felt(double loudness) noexcept
     {
         return std::max(0.0, loudness - unheard) / (1.0 - unheard);
@@ -158,7 +160,8 @@ private:
     static constexpr double highest = 290.0; // Hz
     static constexpr double mostKept = 0.25;
     static constexpr double unheard = 0.03; // of the loudest: white noise 70 dB below the peak of knocks
-    /// Of full drive: beats of the bands with the tone need the rest, or the limiter would flatten what is loud.
+    /// Share of full drive. Beats of the bands with the tone need the rest; otherwise the limiter would flatten loud
+    /// sounds.
     static constexpr double loudestLevel = 0.8;
 
     HeardTone tone;

@@ -22,10 +22,10 @@ namespace pacini
 struct HeardFrame
 {
     float loudness = 0.0f;  ///< of all that is heard
-    float high = 0.0f;      ///< of what lies above 900 Hz
-    float bright = 0.0f;    ///< of that, weighted by where it lies: 0 at 900 to 1800 Hz, 1 above 3600 Hz
+    float high = 0.0f;      ///< of the part above 900 Hz
+    float bright = 0.0f;    ///< the same, weighted by frequency: 0 at 900 to 1800 Hz, 1 above 3600 Hz
     float power = 0.0f;     ///< mean square of the sound, A-weighted
-    float highPower = 0.0f; ///< that of what lies above 900 Hz
+    float highPower = 0.0f; ///< the same of the part above 900 Hz
 };
 
 /// Estimates the course of loudness from the powers that onsets are found in, so that it costs no filters of its own.

@@ -17,14 +17,14 @@
 namespace pacini
 {
 
-/// Computes the SoundScale of a sound with what is heard of it, section by section in step with the encoder.
+/// Computes the SoundScale of a sound with its heard part, section by section in step with the encoder.
 class HeardSurvey
 {
 public:
     HeardSurvey(double audible, HeardRole wanted) : shares(audible), role(wanted) {}
 
-    /// Looks at the next section, if all that it needs is in `heard`, which begins with it. Returns what needs not be
-    /// kept of that. `onsets` of the whole sound, as far as they are known.
+    /// Processes the next section, if `heard`, which begins with it, contains all that it needs. Returns the values
+    /// that need not be kept. `onsets` are the known onsets of the whole sound.
     [[nodiscard]] std::size_t next(std::span<const HeardFrame> heard, std::span<const Onset> onsets)
     {
         if (heard.size() <= SoundSection::framesSeen)

@@ -72,8 +72,8 @@ public:
         return weights > 0.0 ? sum / weights : 0.0;
     }
 
-    /// Scales what the bands hold in frame `j` by `kept` and adds a tone of `power` (amplitude squared) at `frequency`
-    /// (Hz, moved into the range of the bands).
+    /// Scales the bands in frame `j` by `kept` and adds a tone of `power` (amplitude squared) at `frequency` (Hz, moved
+    /// into the range of the bands).
     void add(BandAnalysisResult& found, std::size_t j, double kept, double power, double frequency) const
     {
         const double placed = std::clamp(frequency, bands.front().low, bands.back().high);

@@ -18,8 +18,8 @@ namespace pacini
 {
 
 /// Measures the short-time powers for onset detection, piece by piece, in bounded memory. push() samples, read
-/// frames(), drop() what was read; finish() once at the end. The frames do not depend on how the input is cut into
-/// calls. Not real-time: allocates.
+/// frames(), drop() the frames read; finish() once at the end. The frames do not depend on the sizes of the pieces. Not
+/// real-time: allocates.
 class OnsetFeatures
 {
 public:

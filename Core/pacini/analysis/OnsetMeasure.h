@@ -19,7 +19,7 @@ struct Onset
     double time = 0.0;         ///< s, start of the attack
     double amplitude = 0.0;    ///< peak of the attack on the scale of the samples, full band
     double lowAmplitude = 0.0; ///< the same of the part below 1800 Hz
-    double sharpness = 0.0;    ///< 0: what is new lies below 150 Hz, 1: above 2.5 kHz, in between by log frequency
+    double sharpness = 0.0;    ///< 0: the new sound lies below 150 Hz, 1: above 2.5 kHz, in between by log frequency
     double salience = 0.0;     ///< how clearly it stands out: from 1 at the threshold to about 2.7 out of silence
     bool operator==(const Onset&) const = default;
 };

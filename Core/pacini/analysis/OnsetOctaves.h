@@ -22,10 +22,10 @@ class OnsetOctaves
 public:
     static constexpr std::size_t splits = 5;
 
-    /// Samples of high(i), and of what low(i) remains there, per OnsetFrame.
+    /// Samples of high(i), and of the rest low(i), per OnsetFrame.
     static constexpr std::array<std::ptrdiff_t, splits> samplesPerFrame{8, 8, 4, 2, 1};
 
-    /// Takes what the base signal has gained. The signal begins with 8 or more zeros before index 0.
+    /// Processes new samples of the base signal. The signal begins with 8 or more zeros before index 0.
     void extend(const SlidingBuffer<float>& base)
     {
         split(base, 1, lows[0], highs[0]);

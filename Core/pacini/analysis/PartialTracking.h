@@ -24,7 +24,7 @@ struct PartialTrackingParams
     Hertz low{30.0};          ///< peaks outside are left out
     Hertz high{1000.0};       ///< above low
     Decibels floor{-60.0};    ///< amplitudes below this (re 1) are left out
-    double glide = 0.06;      ///< by which share of its frequency a partial may move from frame to frame: a semitone
+    double glide = 0.06;      ///< relative change of frequency that a partial may make from frame to frame: a semitone
     std::size_t sleep = 1;    ///< frames that a partial may be missing without dying
     std::size_t shortest = 4; ///< frames that a partial lives at least, or it is none
     bool operator==(const PartialTrackingParams&) const = default;
@@ -151,7 +151,7 @@ private:
         return nearest;
     }
 
-    /// The partial goes on at `peak`, over the frames that it slept in a straight line.
+    /// Continues the partial at `peak`, in a straight line over the frames without a peak.
     void goOn(Partial& partial, const PartialPoint& peak) const
     {
         const PartialPoint before = partial.points.back();

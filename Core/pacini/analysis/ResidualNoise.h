@@ -28,7 +28,7 @@ struct ResidualNoiseParams
 namespace detail
 {
 
-/// How much of bin k, taken as the range half a bin to either side, lies between `low` and `high` Hz (0 to 1).
+/// Returns the share of bin k, as the range half a bin to either side, that lies between `low` and `high` Hz (0 to 1).
 inline double shareOfBin(const FrameGrid& grid, std::size_t k, double low, double high) noexcept
 {
     const double from = grid.frequency(static_cast<double>(k) - 0.5);

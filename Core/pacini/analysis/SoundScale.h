@@ -22,9 +22,9 @@ struct SoundScale
 struct SoundSection
 {
     static constexpr double seconds = 600.0; ///< a multiple of three frames of the bands
-    /// What a section waits for of the next. Loud events mask those before them by what falls 20 dB a second: after
-    /// these no event between silence and the largest sample is masked any more. In HeardShares, power counts 87 dB
-    /// less by then.
+    /// Length of the next section that a section waits for. Masking by a loud event falls 20 dB a second towards
+    /// earlier events: beyond this time, no event between silence and the largest sample is masked. In HeardShares,
+    /// power counts 87 dB less by then.
     static constexpr double secondsAhead = 20.0;
 
     // The same in values of BandAnalysisResult::envelope.

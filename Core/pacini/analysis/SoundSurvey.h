@@ -69,7 +69,7 @@ public:
     }
 
 private:
-    /// What is heard, where that is wanted.
+    /// Analysis of the heard sound, if needed.
     struct Heard
     {
         Heard(int sampleRate, std::size_t channels, const EncoderParams& params)

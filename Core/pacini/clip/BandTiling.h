@@ -43,7 +43,7 @@ struct BandEdges
 
 namespace detail
 {
-/// Whether bands can tile what lies between two frequencies, Hz.
+/// Whether bands can tile the range between two frequencies, Hz.
 inline bool canTile(double low, double high)
 {
     return low > 0.0 && high > low && high <= limits::frequency;

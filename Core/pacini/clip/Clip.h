@@ -252,7 +252,7 @@ Result<void> checkList(const std::vector<Item>& items, double duration, std::str
 } // namespace detail
 
 /// Checks every invariant of a clip: finite numbers, times in order and within the duration, amplitudes from 0,
-/// frequencies above 0, low <= centre <= high. The first broken rule comes back with its place.
+/// frequencies above 0, low <= centre <= high. Returns the first broken rule with its place.
 [[nodiscard]] inline Result<void> validate(const Clip& clip)
 {
     using namespace detail;

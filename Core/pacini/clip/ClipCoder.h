@@ -41,7 +41,7 @@ template <typename Coder>
 class ClipCoder
 {
 public:
-    /// `inputBytes` bounds what a reader believes; see leastBytes().
+    /// `inputBytes` limits the sizes that a reader accepts; see leastBytes().
     ClipCoder(Coder& coderToUse, const PackParams& packParams, std::size_t inputBytes = limits::points / pointsPerByte)
         : coder(coderToUse),
           params(packParams),

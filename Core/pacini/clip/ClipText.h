@@ -19,7 +19,7 @@
 namespace pacini::detail
 {
 
-/// Text like what is to come; part of the format: changing it changes the version.
+/// Text similar to that of clips, for the predictor. Part of the format: changing it changes the version.
 inline std::string textPrimer()
 {
     std::string text;

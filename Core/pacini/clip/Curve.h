@@ -39,7 +39,7 @@ using Curve = std::vector<Breakpoint>;
     return a.value + (b.value - a.value) * ((time - a.time) / (b.time - a.time));
 }
 
-/// Ends a curve at `end`: what lies behind becomes one point there, on the line that led to it.
+/// Ends a curve at `end`. One point at `end`, on the curve, replaces the points after it.
 inline void cutAfter(Curve& curve, double end)
 {
     if (curve.empty() || curve.back().time <= end)
@@ -72,7 +72,7 @@ public:
     /// Same value as valueAt(curve, time); `time` must not be smaller than in the call before.
     [[nodiscard]] double at(double time) noexcept { return lineAt(time).at(time); }
 
-    /// The straight line on which the curve lies from `time` on, with a time limit like that of at().
+    /// Returns the straight segment of the curve from `time` on, with a time limit as in at().
     [[nodiscard]] CurveLine lineAt(double time) noexcept
     {
         constexpr double never = std::numeric_limits<double>::infinity();

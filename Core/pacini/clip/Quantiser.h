@@ -57,7 +57,7 @@ class LevelQuantiser
 {
 public:
     static constexpr double range = 72.0;     ///< dB below full drive
-    static constexpr double highest = 1000.0; ///< values of codes above come back as this
+    static constexpr double highest = 1000.0; ///< value of all higher codes
 
     /// `bits` in 4-16.
     constexpr explicit LevelQuantiser(int bits) noexcept
@@ -96,7 +96,7 @@ private:
 class PitchQuantiser
 {
 public:
-    static constexpr double lowest = 1e-3; ///< Hz; values outside come back as the limits
+    static constexpr double lowest = 1e-3; ///< Hz; values outside become the limits
     static constexpr double highest = 4e5; ///< Hz
 
     constexpr explicit PitchQuantiser(int bits) noexcept

@@ -133,7 +133,7 @@ private:
     std::uint64_t pending = 0;
 };
 
-/// Arithmetic decoder of what RangeWriter wrote.
+/// Arithmetic decoder for the output of RangeWriter.
 class RangeReader
 {
 public:

@@ -144,7 +144,8 @@ inline constexpr unsigned withCurves = withFollower | methodSet({Method::decompo
 
 } // namespace detail
 
-/// What users can set of MethodChoices. Those that a2vt has too share its description; their defaults differ.
+/// Descriptions of all user settings of MethodChoices. Settings shared with a2vt use its descriptions, with other
+/// defaults.
 inline constexpr std::array methodParameters{
     MethodParameter{describedAs<&MethodChoices::bands>(parameterNamed(encoderParameters, "bands")), detail::thesisOnly},
     MethodParameter{describedAs<&MethodChoices::breakpoints>(parameterNamed(encoderParameters, "breakpoints")),

@@ -104,7 +104,7 @@ struct MethodSound
 {
     std::vector<float> samples; ///< within the method's range, the largest magnitude is 1; silence stays silence
     double fs = 48000.0;        ///< Hz
-    double gain = 1.0;          ///< what made the largest magnitude 1
+    double gain = 1.0;          ///< gain that made the largest magnitude 1
     Seconds duration;
     Seconds active; ///< the time that breakpoints are counted on
 

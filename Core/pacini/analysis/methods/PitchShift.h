@@ -53,8 +53,8 @@ public:
 
     [[nodiscard]] std::size_t size() const noexcept { return inverse.size(); }
 
-    /// Takes a windowed frame whose middle is at index 0 (the first half at the end); returns what it became, laid out
-    /// alike, to be read as real parts.
+    /// Transforms a windowed frame whose middle is at index 0 (the first half at the end). Returns the shifted frame in
+    /// the same layout, to be read as real parts.
     std::span<const std::complex<double>> process(std::span<const double> frame)
     {
         std::swap(spectrum, before);

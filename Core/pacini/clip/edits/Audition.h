@@ -29,8 +29,8 @@ struct Audition
     }
 };
 
-/// The clip as it is heard. The envelope, to which the decoder levels the bands, is lowered by the share of the power
-/// that is left, so that a soloed band is as loud as within the whole.
+/// Returns the clip as it is heard with solo and mute. The decoder levels the bands to the envelope, so the envelope is
+/// lowered by the remaining share of the power: a soloed band is as loud as within the whole clip.
 [[nodiscard]] inline Clip audibleClip(Clip clip, const Audition& audition)
 {
     bool all = true;

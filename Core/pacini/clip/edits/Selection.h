@@ -66,7 +66,7 @@ struct Selection
     return all;
 }
 
-/// Set union: what is in one of the two (shift-marquee adds).
+/// Set union (shift-marquee adds).
 [[nodiscard]] inline Indices unionOf(const Indices& a, const Indices& b)
 {
     Indices both;
@@ -74,7 +74,7 @@ struct Selection
     return both;
 }
 
-/// Symmetric difference: what is in exactly one of the two (control-click toggles).
+/// Symmetric difference: elements of exactly one of the two (control-click toggles).
 [[nodiscard]] inline Indices toggled(const Indices& a, const Indices& b)
 {
     Indices either;

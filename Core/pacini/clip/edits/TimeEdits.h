@@ -205,14 +205,14 @@ inline void joinCurves(Curve& a, const Curve& b, double at, double lengthOfB, do
     return a;
 }
 
-/// Removes a stretch of time; what follows moves up.
+/// Removes a time range; the content after it moves forward.
 [[nodiscard]] inline Result<Clip> cutClip(const Clip& clip, TimeRange range)
 {
     const TimeRange within = withinClip(range, clip.duration);
     return joinClips(splitClip(clip, within.from).first, splitClip(clip, within.to).second);
 }
 
-/// `part` at `time` (clamped to the clip); what was behind moves back. Errors as in joinClips().
+/// Inserts `part` at `time` (clamped to the clip); the content after it moves back. Errors as in joinClips().
 [[nodiscard]] inline Result<Clip> insertClip(const Clip& clip, double time, const Clip& part)
 {
     const auto [left, right] = splitClip(clip, time);
