@@ -42,7 +42,7 @@ struct Comparison
     SignalMetrics measures;
     FeltFigures impression;                 ///< of the candidate
     std::optional<MatchParts> match;        ///< empty for a silent reference
-    double matchLag = 0.0;                  ///< ms by which the candidate is late, as far as that can be told
+    double matchLag = 0.0;                  ///< delay of the candidate, ms, if it can be determined
     bool aligned = false;                   ///< `match` is that without it: both are of different length
     double matchOfSound = 0.0;              ///< predicted match of the reference itself, played as it is
     std::optional<EventScore> events;       ///< within 25 ms; with known onsets only
@@ -198,7 +198,7 @@ public:
     }
 
 private:
-    /// What the measures need of one sound.
+    /// Precomputed features of one sound.
     struct Features
     {
         HtsFeatures hts;

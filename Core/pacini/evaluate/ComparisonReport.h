@@ -9,7 +9,7 @@
 namespace pacini
 {
 
-/// Tells `sink` the counts of an event score.
+/// Reports the counts of an event score to `sink`.
 void reportEvents(const EventScore& score, auto& sink)
 {
     sink.value("f1", score.f);
@@ -18,7 +18,7 @@ void reportEvents(const EventScore& score, auto& sink)
     sink.value("missed", score.falseNegatives);
 }
 
-/// Tells `sink` the parts of a haptic translation score.
+/// Reports the parts of a haptic translation score to `sink`.
 void reportHts(const HtsScore& score, auto& sink)
 {
     sink.value("wide", score.wide);
@@ -27,7 +27,7 @@ void reportHts(const HtsScore& score, auto& sink)
     sink.value("event", score.event);
 }
 
-/// Tells `sink` the parts of a predicted match.
+/// Reports the parts of a predicted match to `sink`.
 void reportMatch(const MatchParts& parts, auto& sink)
 {
     sink.value("attacks", parts.attacks);
@@ -38,7 +38,7 @@ void reportMatch(const MatchParts& parts, auto& sink)
     sink.value("silence", parts.silence);
 }
 
-/// Tells `sink` how a candidate feels, and from what that was predicted.
+/// Reports the predicted impression of a candidate, and the parts of its prediction, to `sink`.
 void reportImpression(const FeltFigures& figures, auto& sink)
 {
     const FeltImpression impression = feltImpression(figures);
@@ -56,8 +56,8 @@ void reportImpression(const FeltFigures& figures, auto& sink)
                });
 }
 
-/// Tells `sink` all of a comparison, in the order of reports. A sink has `value(key, number or bool or optional of
-/// these)`, `none(key)` and `group(key, fill)`, which calls `fill` with a sink for what stands below the key.
+/// Reports a whole comparison to `sink`, in the order of reports. A sink has `value(key, number or bool or optional of
+/// these)`, `none(key)` and `group(key, fill)`, which calls `fill` with a sink for the entries below the key.
 void reportComparison(const Comparison& comparison, auto& sink)
 {
     sink.value("duration", comparison.duration);

@@ -14,9 +14,9 @@
 namespace pacini
 {
 
-/// How much of the cell of a sample lies inside a signal of `length` unit-spaced samples (which cover -0.5 to
-/// length - 0.5). The cell is `spacing` wide around `position`. Weighting coarse samples by it keeps sums and smoothed
-/// values right where the signal begins and ends.
+/// Returns the share of a sample's cell that lies inside a signal of `length` unit-spaced samples (which cover -0.5 to
+/// length - 0.5). The cell is `spacing` wide around `position`. Coarse samples weighted by it give correct sums and
+/// smoothed values at the start and end of the signal.
 [[nodiscard]] inline double coverage(double position, double spacing, std::size_t length) noexcept
 {
     const double begin = std::max(position - spacing / 2.0, -0.5);
@@ -47,7 +47,7 @@ public:
     /// Samples on each side of the centre that the kernel needs.
     [[nodiscard]] std::size_t reachFrames() const noexcept { return reach; }
 
-    /// The smoothed value of x at index `centre`; what lies outside x counts as zero.
+    /// The smoothed value of x at index `centre`; samples outside of x count as zero.
     [[nodiscard]] float at(std::span<const float> x, std::size_t centre) const noexcept
     {
         const std::size_t begin = centre > reach ? centre - reach : 0;
@@ -55,10 +55,10 @@ public:
         return begin < end ? dotProduct(taps.data() + (begin + reach - centre), x.data() + begin, end - begin) : 0.0f;
     }
 
-    /// The factor that makes at() of coarse samples right near the ends of a signal of `length` samples: the value at
-    /// `position` has used every `spacing`-th sample weighted by coverage(), whose sum differs from the part of the
-    /// kernel that lies inside the signal as soon as the kernel is only a few coarse samples long. Exact for a signal
-    /// that is constant within the kernel; 1 far from the ends. `position` (samples) is inside the signal.
+    /// Returns the factor that corrects at() of coarse samples close to the ends of a signal of `length` samples. The
+    /// value at `position` used every `spacing`-th sample weighted by coverage(). If the kernel is only a few coarse
+    /// samples long, the sum of these weights differs from the part of the kernel inside the signal. Exact for a signal
+    /// that is constant within the kernel; 1 away from the ends. `position` (samples) is inside the signal.
     [[nodiscard]] double endCorrection(double position, double spacing, std::size_t length) const noexcept
     {
         double used = 0.0;

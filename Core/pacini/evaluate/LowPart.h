@@ -15,14 +15,14 @@
 namespace pacini
 {
 
-/// What a translation keeps of the part of a sound below 300 Hz; nothing where the sound has no such part.
+/// Preservation of the part of a sound below 300 Hz by a translation. None if the sound has no such part.
 struct LowPart
 {
     /// Mean over the bands of 30 to 120 and 120 to 300 Hz of the correlation of the envelopes (20 ms) of sound and
     /// drive, -1 to 1. A band counts where its peak is within 20 dB of that of the sound below 1.8 kHz.
     std::optional<double> kept;
-    /// Level of the drive in the strongest low events against that between them, as a share of the same ratio of the
-    /// sound; both as felt. Nothing for a sound with fewer than two such events, or less than 6 dB between them.
+    /// Ratio of the felt level in the strongest low events to the level between them, for the drive, as a share of the
+    /// same ratio of the sound. None for a sound with fewer than two such events, or less than 6 dB between them.
     std::optional<double> beat;
 };
 

@@ -11,11 +11,11 @@
 namespace pacini
 {
 
-/// Filters through `count` sections, in place. What BiquadCascade is for streams, with a number of sections that the
-/// compiler knows: it keeps all coefficients and states in registers and overlaps the recursions of neighbouring
-/// sections, which makes it about twice as fast; the comparison of long recordings spends much of its time here. Takes
-/// samples in double precision too, and does not guard against denormals: recordings end. The direct form is exact
-/// enough here (see Biquad.h): rates are at most 768 kHz, q is near 1, and features are floats.
+/// Filters through `count` sections, in place: a BiquadCascade for recordings, with a number of sections known to the
+/// compiler. It keeps all coefficients and states in registers and overlaps the recursions of neighbouring sections,
+/// which makes it about twice as fast; the comparison of long recordings spends much of its time here. Takes samples in
+/// double precision too, and does not guard against denormals, because recordings end. The direct form is exact enough
+/// here (see Biquad.h): rates are at most 768 kHz, q is close to 1, and features are floats.
 template <std::size_t count>
 class SectionCascade
 {

@@ -235,7 +235,8 @@ inline void compareCentroids(const SignalFeatures& reference, const SignalFeatur
     return measures;
 }
 
-/// Length at 8 kHz of a signal of `samples` samples at `sampleRate` Hz: what a SignalAnalyzer for this reference needs.
+/// Returns the length at 8 kHz of a signal of `samples` samples at `sampleRate` Hz, which a SignalAnalyzer for this
+/// reference requires.
 [[nodiscard]] inline std::size_t signalAnalysisLength(std::size_t samples, int sampleRate) noexcept
 {
     return resampledFrames(samples, sampleRate, SignalFeatures::sampleRate);

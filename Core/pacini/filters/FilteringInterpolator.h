@@ -69,8 +69,8 @@ public:
                                                [](const Pair& s) { return s.first() == 0.0 && s.second() == 0.0; });
     }
 
-    /// The frames of an output, from `from` on and before `to`, in which the interpolated signal counts; elsewhere it
-    /// is 0 in front of the filter.
+    /// The frames of an output, from `from` to before `to`, in which the interpolated signal counts; outside, the
+    /// filter's input is 0.
     struct Counted
     {
         std::size_t from = 0;
@@ -163,7 +163,7 @@ private:
         }
     }
 
-    /// What an input frame answers with, and what it leaves behind.
+    /// The response to an input frame, and the state that it leaves.
     void designTaps() noexcept
     {
         States s{};
@@ -174,7 +174,7 @@ private:
             left[k] = {s[k].s1, s[k].s2};
     }
 
-    /// What each state answers with, and where it gets.
+    /// The response of each state, and its next value.
     void designStates()
     {
         for (std::size_t j = 0; j < stateCount(); ++j)
@@ -236,7 +236,7 @@ private:
             states[k] = next[k] + more[k];
     }
 
-    /// Adds what the cascade makes of all that is not the interpolated signal: from rest, since it is linear.
+    /// Adds the cascade's response to all other input than the interpolated signal, from rest, since it is linear.
     void addApart(std::span<const float> newest, std::span<const float> added, std::size_t first,
                   const Counted& counted, std::span<float> out) noexcept
     {

@@ -30,7 +30,7 @@ public:
     [[nodiscard]] float& at(std::size_t row, std::size_t phase) noexcept { return weights[row * stride + phase]; }
     [[nodiscard]] float at(std::size_t row, std::size_t phase) const noexcept { return weights[row * stride + phase]; }
 
-    /// One output frame for each phase: what the first rows make of `first`, and those after them of `second`.
+    /// Returns one output frame for each phase: the first rows applied to `first`, the rows after them to `second`.
     void process(std::span<const float> first, std::span<const float> second, float* target) const noexcept
     {
         for (std::size_t p = 0; p < ratio;)
@@ -163,8 +163,8 @@ private:
     PolyphaseRows coefficients;
 };
 
-/// Designs that were asked for last, for those who make many interpolators alike: a design costs more than all the rest
-/// of a decoder. [worker], from one thread at a time; what it gives may be used and freed anywhere.
+/// Cache of the last requested designs, for many interpolators of one design: a design costs more than all the rest of
+/// a decoder. [worker], from one thread at a time; the designs may be used and freed anywhere.
 class InterpolatorDesigns
 {
 public:

@@ -7,10 +7,10 @@
 namespace pacini
 {
 
-/// Gain that goes to its target along 3 u^2 - 2 u^3, frame by frame and independent of block sizes; it reaches the
-/// target exactly. A straight line has a corner at each end, which of 10 ms is heard at -45 dB beyond 1.5 kHz; this
-/// curve stays below -70 dB. A target that moves during a fade counts from its end on, so that automation of any speed
-/// is a row of such curves and never leaves the range of its targets.
+/// Gain that approaches its target along 3 u^2 - 2 u^3, frame by frame and independent of block sizes; it reaches the
+/// target exactly. A straight line has a corner at each end: for 10 ms, these are heard at -45 dB above 1.5 kHz. This
+/// curve stays below -70 dB. A new target during a fade takes effect at its end, so that automation of any speed is a
+/// sequence of such curves and never leaves the range of its targets.
 class Fade
 {
 public:

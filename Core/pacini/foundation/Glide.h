@@ -10,7 +10,7 @@
 namespace pacini
 {
 
-/// Frames of a glide that lasts `seconds`, at most an hour; 0 for what is not above 0 (NaN too).
+/// Returns the frames of a glide of `seconds`, at most an hour; 0 for values not above 0 (NaN too).
 [[nodiscard]] inline std::size_t framesOfGlide(Seconds glide, double fs) noexcept
 {
     return glide.value > 0.0 ? static_cast<std::size_t>(std::min(glide.value, 3600.0) * fs + 0.5) : 0;

@@ -16,7 +16,7 @@ template <typename T>
 class HandOver
 {
 public:
-    /// What the receiver holds: the object and its place in the list of used ones.
+    /// The object that the receiver holds, and its place in the list of used ones.
     struct Node
     {
         T content;
@@ -32,7 +32,7 @@ public:
         collect();
     }
 
-    /// Replaces what was sent before and not yet received; frees what came back. [message]
+    /// Sends an object. It replaces an object that was sent but not yet received. Frees returned objects. [message]
     void send(T content)
     {
         auto node = std::make_unique<Node>(Node{std::move(content), nullptr});
@@ -40,7 +40,7 @@ public:
         collect();
     }
 
-    /// Frees what came back. [message]
+    /// Frees returned objects. [message]
     void collect() noexcept
     {
         Node* node = used.exchange(nullptr, std::memory_order_acquire);

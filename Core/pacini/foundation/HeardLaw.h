@@ -8,11 +8,10 @@
 namespace pacini
 {
 
-inline constexpr double heardSteadySeconds = 0.05; ///< in which the steady part of loudness follows it, time constant
+inline constexpr double heardSteadySeconds = 0.05; ///< time constant with which the steady part follows the loudness
 
-/// What of a `loudness` counts as heard above the range of touch, where `high` is the part of it that lies there, and
-/// `share` (0 to 1) that of the power: their geometric mean. A sound with less than a twentieth of its power there has
-/// none.
+/// Returns the part of a `loudness` that counts as above the range of touch: the geometric mean of `loudness` and
+/// `high`, the loudness above that range. It fades in between a `share` of the power there (0 to 1) of .05 and .2.
 [[nodiscard]] inline double heardAbove(double loudness, double high, double share) noexcept
 {
     constexpr double none = 0.05;
@@ -21,8 +20,8 @@ inline constexpr double heardSteadySeconds = 0.05; ///< in which the steady part
     return u * u * (3.0 - 2.0 * u) * std::sqrt(std::max(0.0, loudness * high));
 }
 
-/// Amplitude of the tone, 0 and above, from `loudness` and its `steady` part, 1 at full drive. 45 % of the steady part
-/// do not count, so that hiss and ringing leave room for what happens; below .03 nothing is felt. Loudness grows as
+/// Returns the amplitude of the tone, 0 and above, from `loudness` and its `steady` part, 1 at full drive. 45 % of the
+/// steady part do not count, so that hiss and ringing leave pauses; below .03 nothing is felt. Loudness grows with
 /// amplitude to the power of .6: the exponent 5/3 makes a sound of half the level half as strong.
 [[nodiscard]] inline double heardRise(double loudness, double steady) noexcept
 {
@@ -35,17 +34,17 @@ inline constexpr double heardSteadySeconds = 0.05; ///< in which the steady part
 
 inline constexpr double heardMaskedBy = 300.0; ///< Hz, below which a sound masks the tone
 
-/// Amplitude of the tone beside the rest of the sound, from `wanted`, the amplitude `own` of all bands and the power
-/// (amplitude squared) of the `low` ones, all at a full drive of 1. What is 6 dB below the low part is masked; the
-/// drive that the bands need is theirs.
+/// Returns the amplitude of the tone beside the rest of the sound, from its amplitude `wanted`, the amplitude `own` of
+/// all bands and the power (amplitude squared) of the `low` ones, all at a full drive of 1. A tone 6 dB below the low
+/// part is masked. The bands have priority for the drive.
 [[nodiscard]] inline double heardBeside(double wanted, double own, double low) noexcept
 {
     const double a = std::min(wanted, std::max(0.0, 1.0 - own));
     return std::sqrt(std::max(0.0, a * a - 0.25 * low));
 }
 
-/// Pitch of the tone, Hz, from brightness 0 to 1: above what the low part of a sound masks, below where skin and
-/// actuators end.
+/// Returns the pitch of the tone, Hz, for a brightness of 0 to 1: above the frequencies that the low part of a sound
+/// masks, below the upper limit of skin and actuators.
 [[nodiscard]] inline double heardPitch(double brightness) noexcept
 {
     constexpr double lowest = 280.0;

@@ -18,7 +18,7 @@ template <typename... Forms>
     return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value, forms...).ptr};
 }
 
-/// A number with so many decimals. What rounds to zero has no sign, so never "-0.0".
+/// Returns a number with the given number of decimals. Numbers that round to zero have no sign, so never "-0.0".
 [[nodiscard]] inline std::string decimalText(double value, int decimals)
 {
     std::string text = numberText(value, std::chars_format::fixed, decimals);

@@ -18,7 +18,7 @@ enum class ErrorCode
     unsupportedVersion, ///< the input was written by a newer version
     truncated,          ///< the input ends too early
     notFinite,          ///< a NaN or an infinity where a number is needed
-    tooLarge,           ///< a size or a count is beyond what is accepted
+    tooLarge,           ///< a size or a count exceeds its limit
     io,                 ///< the file system refused
     diskFull,           ///< no more can be written there
     cancelled,          ///< the user stopped the work

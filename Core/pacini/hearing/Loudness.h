@@ -22,7 +22,7 @@ class LoudnessMeter
 {
 public:
     static constexpr double sampleRate = ThirdOctaveLevels::sampleRate; ///< Hz
-    static constexpr double rate = 500.0;                               ///< Hz, of what comes out
+    static constexpr double rate = 500.0;                               ///< Hz, of the output
     static constexpr std::size_t standardHop = 24; ///< samples from one set of levels to the next, .5 ms
 
     /// `hop`: 12, 24, 48, 96 or a multiple of 96.

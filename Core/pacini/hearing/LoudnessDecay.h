@@ -78,7 +78,7 @@ public:
     /// `rate` (Hz) is that of the sets of levels; the standard has 2000, of which each step is exact.
     explicit LoudnessDecay(double rate) noexcept : substep(1.0 / (rate * detail::loudnessSubsteps)) {}
 
-    /// What is left of earlier sets at the time of `input`, one step after the set before and before `next`.
+    /// Returns the remainder of earlier sets at the time of `input`, one step after the set before and before `next`.
     CoreLoudness step(const CoreLoudness& input, const CoreLoudness& next) noexcept
     {
         CoreLoudness result{};

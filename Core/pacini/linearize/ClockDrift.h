@@ -19,7 +19,7 @@ namespace pacini
 struct DelayStep
 {
     double time = 0.0;    ///< s of the playback
-    double seconds = 0.0; ///< by which everything later comes later; below 0 when frames are missing
+    double seconds = 0.0; ///< delay, s, of everything after it; below 0 when frames are missing
 };
 
 /// Drift model: delay = drift sinceThen + the sum of the steps before it
@@ -28,7 +28,7 @@ struct DelayFit
     double drift = 0.0; ///< seconds of the recording more than one for each second of the playback
     std::vector<DelayStep> steps;
 
-    /// s by which what is played at `time` is late because of the steps.
+    /// Returns the delay, s, of the signal played at `time` s due to the steps.
     [[nodiscard]] double steppedAt(double time) const noexcept
     {
         double sum = 0.0;

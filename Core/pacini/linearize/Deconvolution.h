@@ -88,8 +88,8 @@ public:
         return x;
     }
 
-    /// The power by which white noise is raised at `f` cycles per sample, from the power of one sample to that of one
-    /// bin of a single lag.
+    /// Returns the gain of white-noise power at `f` cycles per sample, from the power of one sample to that of one bin
+    /// of a single lag.
     [[nodiscard]] double noisePower(double f) const noexcept
     {
         const auto bin = static_cast<std::size_t>(std::lround(f * static_cast<double>(fft.size())));

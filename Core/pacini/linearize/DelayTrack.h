@@ -23,7 +23,7 @@ struct DelayPoint
 {
     double time = 0.0;      ///< s of the playback at which the sweep passes the band
     double sinceThen = 0.0; ///< s of the playback since the reference passed it
-    double delay = 0.0;     ///< s by which more time than that has passed in the recording
+    double delay = 0.0;     ///< difference of the time that has passed in the recording, s
     double deviation = 0.0; ///< s, expected standard deviation of the delay
 };
 

@@ -20,17 +20,17 @@ namespace pacini
 struct EqualizedSweep
 {
     std::vector<float> signal;
-    SweepParams sweep;    ///< what is played: as asked for, but at levels that fit
-    double lowered = 0.0; ///< dB by which its levels are below those that were asked for, a whole number
-    double gain = 0.0;    ///< dB by which the signal is louder than `sweep` says, 0 or more
+    SweepParams sweep;    ///< the played sweep: as requested, but at levels that fit
+    double lowered = 0.0; ///< reduction of its levels from the requested ones, dB, a whole number
+    double gain = 0.0;    ///< gain of the signal above the levels in `sweep`, dB, 0 or more
     double peak = 0.0;    ///< the largest magnitude, at most 1
 };
 
-/// makeSweepSignal(params) through `sections`; as it is without any. What these raise beyond full scale would be cut
-/// off and measured as distortion, so all levels are lowered together by as few whole dB as make it fit. `raised`: a
-/// signal that stays below the loudest level is scaled to it, since an equalizer that lowers nearly everything would
-/// let it drown in the noise. Errors: those of makeSweepSignal(); invalidArgument at `levels` when the lowest would
-/// have to leave its range.
+/// Returns makeSweepSignal(params) filtered by `sections`. A boost beyond full scale would be clipped and measured as
+/// distortion, so all levels are lowered together by the fewest whole dB that make the signal fit. `raised`: a signal
+/// below the loudest level is scaled up to it, since an equalizer that lowers nearly everything would otherwise leave
+/// it in the noise. Errors: those of makeSweepSignal(); invalidArgument at `levels` if the lowest would have to leave
+/// its range.
 [[nodiscard]] inline Result<EqualizedSweep> makeEqualizedSweep(const SweepParams& params,
                                                                const EqualizerSections& sections, bool raised = false)
 {

@@ -51,7 +51,7 @@ public:
         return curve;
     }
 
-    /// The cost of what evaluate() was last called for.
+    /// The cost at the last call of evaluate().
     [[nodiscard]] double cost(double level) const
     {
         double sum = 0.0;
@@ -67,7 +67,7 @@ public:
         return sum + penalty * excess;
     }
 
-    /// The most by which that exceeds a limit of the boost, dB.
+    /// The largest excess over a limit of the boost, dB.
     [[nodiscard]] double largestExcess() const
     {
         double most = 0.0;

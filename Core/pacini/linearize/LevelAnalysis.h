@@ -69,7 +69,7 @@ public:
             p /= static_cast<double>(std::max<std::size_t>(1, pieces));
     }
 
-    /// The power at f Hz; the lowest two bins hold what the mean left and count as the third.
+    /// The power at f Hz. The lowest two bins contain the rest of the mean, so they count as the third.
     [[nodiscard]] double at(double f) const noexcept
     {
         if (power.size() < 4)

@@ -38,9 +38,9 @@ inline void sortSources(Profile& profile)
     return response;
 }
 
-/// Puts what was measured in the place of what the profile said. `response` is the average of all placements,
-/// `placements` their number and `drive` the level of the loudest sweep, dB re full drive. Equalizer and body go: they
-/// belong to another resonance. Frequencies outside what a profile may hold are moved to its ends.
+/// Replaces the values of the profile by the measured ones. `response` is the average of all placements, `placements`
+/// their number and `drive` the level of the loudest sweep, dB re full drive. Removes equalizer and body, because they
+/// belong to another resonance. Frequencies outside the valid range of a profile are moved to its ends.
 inline void setMeasurement(Profile& profile, const FrequencyResponse& response, const MeasurementFindings& findings,
                            std::size_t placements, double drive)
 {
@@ -87,8 +87,8 @@ inline void setMeasurement(Profile& profile, const FrequencyResponse& response, 
     detail::sortSources(profile);
 }
 
-/// Puts the sections of a fit into the profile, and takes out what was verified with others. `fittedTo` says what they
-/// flatten, such as `the measurement`, `rate` is that of the fit, Hz.
+/// Sets the sections of a fit in the profile, and removes the verification of earlier ones. `fittedTo` names the
+/// response that they flatten, such as `the measurement`; `rate` is the sample rate of the fit, Hz.
 inline void setEqualizer(Profile& profile, const EqualizerFit& fit, const std::string& fittedTo, double rate)
 {
     profile.equalizer = fit.sections;
@@ -105,7 +105,7 @@ inline void setEqualizer(Profile& profile, const EqualizerFit& fit, const std::s
     detail::sortSources(profile);
 }
 
-/// Puts the proof into the profile: how flat it is, and what came through the equalizer at each measured point.
+/// Sets the verification in the profile: the flatness, and the response through the equalizer at each measured point.
 inline void setVerification(Profile& profile, const FrequencyResponse& after, const Linearity& linearity)
 {
     if (!profile.measurement)

@@ -20,8 +20,8 @@ struct PlacementAverageParams
 {
     double lowFrequency = 30.0;    ///< Hz, from where levels and shapes are compared
     double highFrequency = 1000.0; ///< Hz, to where
-    double offsetLimit = 2.5;      ///< dB by which a level may differ from the others, 0 to 60
-    double shapeLimit = 3.0;       ///< dB by which half of a response may differ once the levels agree, 0 to 60
+    double offsetLimit = 2.5;      ///< largest difference of a level from the others, dB, 0 to 60
+    double shapeLimit = 3.0;       ///< largest difference of half of a response after the levels agree, dB, 0 to 60
     bool operator==(const PlacementAverageParams&) const = default;
 };
 

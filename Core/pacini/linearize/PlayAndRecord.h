@@ -46,7 +46,7 @@ public:
         return prepare(std::move(made).value(), params.sampleRate, channels, tail);
     }
 
-    /// The same for the samples of a measurement at `sampleRate` Hz, such as sweeps that go through an equalizer.
+    /// The same for the samples of a measurement at `sampleRate` Hz, such as sweeps through an equalizer.
     [[nodiscard]] Result<void> prepare(std::vector<float> samples, double sampleRate, std::size_t channels,
                                        double tail = 0.5)
     {
@@ -63,7 +63,7 @@ public:
         return {};
     }
 
-    /// [message] Begins with the next call of process(); a measurement that runs or has ended begins anew. Does nothing
+    /// [message] Starts with the next call of process(); restarts a measurement that runs or has ended. Does nothing
     /// before prepare().
     void start() noexcept
     {

@@ -22,8 +22,8 @@ struct RecordedChannels
     [[nodiscard]] std::size_t frames() const noexcept { return channels.empty() ? 0 : channels.front().size(); }
     [[nodiscard]] double seconds() const noexcept { return static_cast<double>(frames()) / rate; }
 
-    /// `count` frames of channel c from frame `first` on (may be negative); zeros where nothing was recorded. The mean
-    /// of what was recorded is taken out: an accelerometer shows gravity.
+    /// `count` frames of channel c from frame `first` on (may be negative); zeros outside of the recording. The mean of
+    /// the recording is removed, because an accelerometer shows gravity.
     [[nodiscard]] std::vector<double> part(std::size_t c, std::ptrdiff_t first, std::size_t count) const
     {
         std::vector<double> out(count, 0.0);

@@ -26,7 +26,7 @@ struct ResponseFeatureParams
     double highFrequency = 1000.0; ///< Hz, to where, and where the plateau ends
     double smoothing = 1.0 / 12.0; ///< octaves over which the response has been smoothed
     double evenWithin = 3.0;       ///< dB around the plateau
-    double feltBelow = 20.0;       ///< dB under the strongest frequency down to which is felt, without a threshold
+    double feltBelow = 20.0;       ///< dB under the strongest frequency that are still felt, without a threshold
     std::optional<FrequencyResponse> threshold; ///< level that is just felt at full drive, in the response's dB
     bool operator==(const ResponseFeatureParams&) const = default;
 };
@@ -35,7 +35,7 @@ struct ResponseFeatureParams
 struct FrequencyRange
 {
     double low = 0.0;  ///< Hz
-    double high = 0.0; ///< Hz; not above low when there is no such frequency
+    double high = 0.0; ///< Hz; not above low if there is no such frequency
     bool operator==(const FrequencyRange&) const = default;
 };
 

@@ -76,7 +76,7 @@ namespace detail
 }
 } // namespace detail
 
-/// Simulated recording: what the rig records of `drive`, both at params.sampleRate: one channel for each axis.
+/// Returns the simulated recording of `drive`, both at params.sampleRate, with one channel for each axis.
 [[nodiscard]] inline std::vector<std::vector<float>> recordOnRig(std::span<const float> drive, const RigParams& params)
 {
     std::vector<float> amplified(drive.size());

@@ -160,9 +160,9 @@ private:
     return x;
 }
 
-/// Start frequency of a proving sweep: where a sweep from `low` to `high` Hz begins that is to prove an equalizer meant
-/// for `lowest` Hz and more: a little below. What lies lower is left as loud as it was and would set the peak, so that
-/// the rest drowned in the noise of the sensor.
+/// Returns the start frequency of a verification sweep: slightly below `lowest` Hz, the lowest frequency of the
+/// equalizer to verify, for a sweep from `low` to `high` Hz. Lower frequencies keep their level and would set the peak,
+/// so that the rest would vanish in the noise of the sensor.
 [[nodiscard]] inline double provingLowFrequency(double low, double high, double lowest) noexcept
 {
     return std::max(low, std::min(0.8 * lowest, 0.25 * high));

@@ -50,7 +50,7 @@ public:
         }
     }
 
-    /// Of the values first .. last; 0 when last < first, or for what lies behind the end.
+    /// The maximum of the values first .. last; 0 when last < first, or beyond the end.
     [[nodiscard]] double over(std::size_t first, std::size_t last) const noexcept
     {
         const std::size_t begin = first / cell;

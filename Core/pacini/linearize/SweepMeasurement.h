@@ -18,7 +18,7 @@ namespace pacini
 /// Possible defect of a recording whose result is still usable.
 enum class MeasurementDefect
 {
-    clipping,      ///< samples at the limit of what can be recorded
+    clipping,      ///< samples at the limit of the recording range
     droppedFrames, ///< frames got lost or came twice
     silentChannel, ///< a channel without any change
     noiseChannel,  ///< a channel with noise only
@@ -77,7 +77,7 @@ struct SweepMeasurement
     [[nodiscard]] const FrequencyResponse& response() const { return levels[main].response; }
 };
 
-/// Takes `gain`, dB by which the sweep was played louder than its parameters say, out of the levels.
+/// Subtracts `gain`, the level of the played sweep above its parameters, dB, from the levels.
 inline void takeOut(SweepMeasurement& measurement, double gain) noexcept
 {
     for (LevelMeasurement& level : measurement.levels)

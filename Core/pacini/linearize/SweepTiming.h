@@ -18,12 +18,12 @@ namespace pacini
 /// Arrival times of all sweeps and the drift between the clocks.
 struct SweepTiming
 {
-    double start = 0.0;           ///< s of the recording at which what is played at 0 s arrives
+    double start = 0.0;           ///< arrival of the signal played at 0 s, s of the recording
     double drift = 0.0;           ///< seconds of the recording more than one for each second of the playback
     bool driftKnown = false;      ///< false after a single sweep without markers
     std::vector<DelayStep> steps; ///< frames that are missing
 
-    /// s of the recording at which what is played at `playTime` s arrives.
+    /// Returns the arrival, s of the recording, of the signal played at `playTime` s.
     [[nodiscard]] double arrival(double playTime) const noexcept
     {
         double time = start + playTime * (1.0 + drift);
@@ -32,7 +32,7 @@ struct SweepTiming
         return time;
     }
 
-    /// The inverse of arrival(): what was being played when what is heard at `time` s of the recording left.
+    /// Inverse of arrival(): returns the play time of the signal that arrives at `time` s of the recording.
     [[nodiscard]] double playTime(double time) const noexcept
     {
         double played = (time - start) / (1.0 + drift);

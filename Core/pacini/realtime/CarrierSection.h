@@ -294,7 +294,7 @@ private:
         }
     }
 
-    /// A band that takes over from others goes on with the loudest of their sinusoids.
+    /// A band that takes over from others continues the loudest of their sinusoids.
     void handOver(std::size_t bands) noexcept
     {
         for (std::size_t k = 0; k < bands; ++k)

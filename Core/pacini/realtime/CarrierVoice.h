@@ -71,7 +71,7 @@ public:
         }
     }
 
-    /// What a whole hop has told.
+    /// Measurements of a whole hop.
     struct Heard
     {
         double power = 0.0;     ///< A^2
@@ -159,8 +159,8 @@ public:
         im = sine / size;
     }
 
-    /// While it is silent: goes on from the phase of another one, so that what is handed over between two of one pitch
-    /// does not cancel.
+    /// For a silent voice: continues from the phase of another voice, so that a hand-over between two voices of one
+    /// pitch does not cancel.
     void follow(const CarrierOscillator& other) noexcept
     {
         re = other.re;

@@ -75,8 +75,8 @@ private:
     std::array<double, 3> points{};
 };
 
-/// Parameter on its way: a ramp whose ends follow three one-poles in a row. After one of them the slope jumps with the
-/// target, which is heard at -40 dB beyond 1.5 kHz; after three it turns slowly.
+/// Smoothed parameter: a ramp whose ends follow three one-poles in series. After one one-pole, the slope jumps with the
+/// target, which is heard at -40 dB above 1.5 kHz; after three it turns slowly.
 class HopGlide
 {
 public:
@@ -86,7 +86,8 @@ public:
         ramp.jump(target);
     }
 
-    /// At the start of a hop: each one-pole goes the part `share` of its way. The last millionth is jumped.
+    /// Starts a hop: each one-pole moves by the fraction `share` of the distance to its target. The last millionth is
+    /// jumped.
     void aim(double target, double share) noexcept
     {
         double towards = target;

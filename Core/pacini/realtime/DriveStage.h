@@ -49,7 +49,7 @@ public:
         burstLeft = 0;
     }
 
-    /// Forgets what has died away.
+    /// Clears states that have decayed.
     void rest() noexcept
     {
         states = {};

@@ -20,10 +20,9 @@
 namespace pacini
 {
 
-/// Heard voice. Live form of HeardBeside: a sinusoid of 280 to 380 Hz, the brighter the higher, for what is heard above
-/// 900 Hz. A sine of 1 kHz at half of full scale has a loudness of 1, which is full drive when it begins.
-/// Loudness is that of three bands (S. Stevens, "On the psychophysical law", 1957; weights and memory as in
-/// HeardLevel).
+/// Heard voice, the live form of HeardBeside: a sinusoid of 280 to 380 Hz, higher for brighter sounds, for sound above
+/// 900 Hz. A sine of 1 kHz at half of full scale has a loudness of 1, which is full drive at its onset. Loudness is
+/// that of three bands (S. Stevens, "On the psychophysical law", 1957; weights and memory as in HeardLevel).
 class HeardVoice
 {
 public:
@@ -54,14 +53,14 @@ public:
     /// How far it goes, 0 to 1, at once.
     void jump(double audible) noexcept { wanted.jump(audible); }
 
-    /// Whether nobody wants it and nothing is left of it: then process() may be left out.
+    /// Whether the voice is off and has decayed. process() may then be skipped.
     [[nodiscard]] bool silent() const noexcept { return wanted.silent() && oscillator.silent(); }
 
     /// How much of it is wanted in the coming hop, 0 to 1.
     [[nodiscard]] double share() const noexcept { return wanted.end(); }
 
-    /// At the start of a hop: `audible` (0 to 1) goes the part `gainShare` of its way; `gain` is that of the voice.
-    /// `own` is the amplitude of all bands as they are played, `lowPower` the power (amplitude squared) of the low
+    /// Starts a hop. `audible` (0 to 1) moves by the fraction `gainShare` of the distance to its target; `gain` is that
+    /// of the voice. `own` is the amplitude of all bands as played, `lowPower` the power (amplitude squared) of the low
     /// ones.
     void aim(double audible, double gain, double gainShare, double own, double lowPower) noexcept
     {
@@ -72,7 +71,8 @@ public:
         oscillator.aim(gain * heardBeside(wanted.end() * felt, own, lowPower), 1.0, pitch / rate);
     }
 
-    /// Frames `at` and on of the hop: listens to `in` and to `highs`, what lies above it, or nothing; adds to `out`.
+    /// Processes frames of the hop from `at` on: analyses `in` and `highs`, the part above it or empty, and adds to
+    /// `out`.
     void process(std::span<const double> in, std::span<const double> highs, std::span<double> out,
                  std::size_t at) noexcept
     {
@@ -116,7 +116,7 @@ private:
         return 0.47 * memory.quick + 0.53 * memory.slow;
     }
 
-    /// Loudness of the last hop, and what follows from it.
+    /// Updates from the loudness of the last hop.
     void hear() noexcept
     {
         std::array<double, 3> parts{};

@@ -18,9 +18,9 @@
 namespace pacini
 {
 
-/// High-band voice. Skin hardly feels what lies above a few hundred hertz, but rivers, bells and tyres live there. The
-/// strength of what lies above `border`, less what lies below it and is felt anyway, becomes that of one sinusoid: a
-/// sound that is felt already keeps its own shape, one that is not becomes its envelope.
+/// High-band voice. Skin hardly feels frequencies above a few hundred hertz, but rivers, bells and tyres lie there. The
+/// strength above `border`, less the strength below it, which is felt anyway, becomes the strength of one sinusoid. A
+/// sound that is felt already keeps its own shape; any other sound becomes its envelope.
 class HighBandVoice
 {
 public:
@@ -45,7 +45,7 @@ public:
     /// The gain at once.
     void jump(double wantedGain) noexcept { gain.jump(wantedGain); }
 
-    /// Whether nobody wants it and nothing is left of it: then process() may be left out.
+    /// Whether the voice is off and has decayed. process() may then be skipped.
     [[nodiscard]] bool silent() const noexcept { return gain.silent() && oscillator.silent(); }
 
     /// At the start of a hop: the gain (linear) of the upper part goes the part `share` of the way to `wantedGain`;

@@ -76,7 +76,7 @@ public:
         sendDesign();
     }
 
-    /// What is left out with the newest set-up and `params`, and why. [message]
+    /// The parts that the newest set-up and `params` leave out, with the reasons. [message]
     [[nodiscard]] TranslatorPlan plan(const Params& wanted) const
     {
         return translatorPlan(designTranslator(setup, fs), wanted);
@@ -150,7 +150,7 @@ public:
         readings->setOutput(peak, std::max(reduction, -Decibels::fromGain(engine.takeLimiterGain()).value));
     }
 
-    /// Frames by which the drive is later than the sound.
+    /// Delay of the drive against the sound, frames.
     [[nodiscard]] std::size_t latencyFrames() const noexcept { return latency; }
 
     /// Frames after a reset until a sound that was there before is played steadily. [audio]

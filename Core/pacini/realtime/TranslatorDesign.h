@@ -55,7 +55,7 @@ struct TranslatorDesign
     BandLayout layout;
     FixedVector<TranslatorBand, maxTranslatorBands> bands;
     double innerRate = 6000.0; ///< Hz
-    BandMeter meter;           ///< to be copied, as what follows, so that the audio thread designs nothing
+    BandMeter meter;           ///< copied, like the members below, so that the audio thread designs nothing
     DirectPath direct;
     bool anyDirect = false;
     double directLow = 1.0, directHigh = 1.0; ///< Hz, the range of the direct path
@@ -73,15 +73,15 @@ struct TranslatorDesign
     double scale = 1.0;               ///< room for overdrive
     std::optional<ProtectionParams> protection;
     double brightFrequency = 0.0; ///< Hz at which sounds too high for the skin are felt; 0: there is no need
-    bool playsHeard = true;       ///< the actuator has a voice for what is heard above the range of touch
+    bool playsHeard = true;       ///< the actuator has a voice for sound above the range of touch
     double feltRange = 60.0;      ///< dB between full drive and the weakest drive that is felt
     TranslatorPlan plan;
 };
 
 inline constexpr double highestInnerRate = 12000.0; // Hz
 
-/// The whole factor by which the translator lowers a rate: to 6 kHz or a little more, where 1 kHz has room, and less
-/// than highestInnerRate.
+/// Returns the whole factor by which the translator reduces a sample rate: to 6 kHz or slightly more, which leaves room
+/// for 1 kHz, and below highestInnerRate.
 [[nodiscard]] inline std::size_t translatorFactor(double fs) noexcept
 {
     return static_cast<std::size_t>(std::max(1.0, std::floor(clampTo(fs, 2000.0, 1e7) / 6000.0)));
@@ -89,7 +89,7 @@ inline constexpr double highestInnerRate = 12000.0; // Hz
 
 namespace detail
 {
-/// Takes the pulses of events from the profile where it says what they are.
+/// Sets the pulses of events from the profile, if it describes them.
 inline void choosePulses(TranslatorDesign& design, const ActuatorTransient& transient) noexcept
 {
     if (transient.shape != TransientShape::adaptive)
@@ -155,7 +155,8 @@ inline void planSavings(TranslatorDesign& design, const std::optional<Profile>& 
         design.plan.push_back({"dynamicRange", "the actuator covers the whole range of touch"});
 }
 
-/// Limits the range to what the inner rate can carry; few voices play where they are felt.
+/// Limits the range to frequencies that the inner rate can carry. An actuator of few voices plays them where they are
+/// felt.
 inline void limitRange(TranslatorDesign& design, bool anyWaveform) noexcept
 {
     design.highest = std::min(design.highest, 0.4 * design.innerRate);
@@ -247,7 +248,7 @@ inline void designBrightness(TranslatorDesign& design, bool anyWaveform)
     return design;
 }
 
-/// The design's savings, and what a set of parameters leaves out beside them. [message]
+/// The parts that the design leaves out, and those that a set of parameters leaves out. [message]
 [[nodiscard]] inline TranslatorPlan translatorPlan(const TranslatorDesign& design, const TranslatorParams& params)
 {
     TranslatorPlan plan = design.plan;

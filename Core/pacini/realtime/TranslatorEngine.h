@@ -187,7 +187,7 @@ public:
         jumpToParams();
     }
 
-    /// Whether process() listens to what lies above the frames.
+    /// Whether process() analyses the samples above the range of the frames.
     [[nodiscard]] bool wantsHighs() const noexcept { return params.audible > 0.0 || !heardVoice.silent(); }
 
     /// All spans of one length: band-limited frames, full-band peaks and, where they are wanted and else none, samples
@@ -399,8 +399,8 @@ private:
         loudest = std::max(loudest, stage.process(out, gates, framesIntoHop));
     }
 
-    /// The pulse tops what the bands give the event up to what is to be felt of it. Sharp is what the range of touch
-    /// holds little of.
+    /// Raises an event from the level of the bands to its felt level with a pulse. An event is sharp if little of it
+    /// lies in the range of touch.
     void beginPulse(const HeardEvent& event, std::size_t at) noexcept
     {
         const double felt = std::clamp(heardPeak, leastShare * event.amplitude, brightShare * event.amplitude);

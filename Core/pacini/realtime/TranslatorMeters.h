@@ -25,11 +25,11 @@ struct TranslatorMeterReading
     double lastEventLevel = 0.0;      ///< linear
     double outputPeak = 0.0;          ///< linear, of the last call
     double gainReduction = 0.0;       ///< dB, of limiter or protection in the last call
-    double overThreshold = 0.0;       ///< dB of the drive above what is just felt; negative: below
+    double overThreshold = 0.0;       ///< dB of the drive above the touch threshold; negative: below
 };
 
-/// Meters of the translator. One writer, any number of readers, no locks: every number is an atomic of its own. Numbers
-/// of one reading may come from neighbouring blocks, which no eye sees.
+/// Meters of the translator. One writer, any number of readers, no locks: every number is a separate atomic. Numbers of
+/// one reading may come from neighbouring blocks; the difference is invisible.
 class TranslatorMeters
 {
 public:

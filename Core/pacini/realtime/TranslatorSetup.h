@@ -18,7 +18,7 @@ struct TranslatorSetup
 {
     std::optional<Profile> profile;     ///< valid; none: the drive signal as it is
     BandLayoutParams bands;             ///< six from 30 to 1000 Hz; at most maxTranslatorBands count
-    Decibels maxBoost{6.0};             ///< by which the drive may be raised to flatten a resonance, 0 to 40 dB
+    Decibels maxBoost{6.0};             ///< maximum boost of the drive to flatten a resonance, 0 to 40 dB
     double strength = standardStrength; ///< 0: as flat as can be; 1: as strong as can be (see fitActuator)
     bool operator==(const TranslatorSetup&) const = default;
 };

@@ -115,7 +115,7 @@ private:
         peak = std::max(peak, largest);
     }
 
-    /// What the filter removes, at one of the newest `ratio` inputs before `until`.
+    /// Samples the part that the filter removes, at one of the newest `ratio` inputs before `until`.
     float nextHigh(const float* until) noexcept
     {
         if (std::exchange(fresh, !fresh))

@@ -32,8 +32,8 @@ struct DenseSamples
     [[nodiscard]] bool weighted() const noexcept { return !weights.empty(); }
 };
 
-/// Concept of a dense curve, what the squared-error simplifiers ask of it: DenseSamples, or samples that are worked out
-/// when they are asked for and so take no memory; the same number every time.
+/// Concept of a dense curve for the squared-error simplifiers: DenseSamples, or samples computed on demand, which take
+/// no memory; repeated calls give the same number.
 template <typename S>
 concept Samples = requires(const S& samples, std::size_t i)
 {

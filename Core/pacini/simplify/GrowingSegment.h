@@ -28,7 +28,7 @@ public:
         return std::max(0.0, syy - slope * (2.0 * suy - slope * suu));
     }
 
-    /// Sample m lies within the segment from now on.
+    /// Adds sample m to the segment.
     void include(std::size_t m) noexcept
     {
         const double w = samples.weight(m);

@@ -71,7 +71,7 @@ public:
         ++count;
     }
 
-    /// Sets what it costs to reach the newest sample, for the segments that start there later on.
+    /// Sets the cost of reaching the newest sample, for segments that start there later.
     void setCost(double costOfNewest) noexcept
     {
         cost[local] = costOfNewest;
@@ -207,7 +207,7 @@ private:
         }
     }
 
-    /// Moves the last `history` starts to the front and sums anew around the last sample seen.
+    /// Moves the last `history` starts to the front and recomputes the sums around the last sample.
     void startAnew() noexcept
     {
         const std::size_t moved = capacity - history;
@@ -281,7 +281,7 @@ private:
 
     S curve;
     std::size_t window = 0;   ///< longest segment, a multiple of the block
-    std::size_t history = 0;  ///< starts kept when summing anew
+    std::size_t history = 0;  ///< starts kept when sums are recomputed
     std::size_t capacity = 0; ///< length of the columns
     std::size_t local = 0;    ///< column of the newest sample
     std::size_t count = 0;    ///< samples seen

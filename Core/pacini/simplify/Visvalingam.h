@@ -19,7 +19,7 @@ namespace pacini
 namespace detail
 {
 
-/// The area of the triangle a, b, c: what removing b changes.
+/// The area of the triangle a, b, c: the effect of removing b.
 [[nodiscard]] inline double triangleArea(const Breakpoint& a, const Breakpoint& b, const Breakpoint& c) noexcept
 {
     return 0.5 * std::abs((b.time - a.time) * (c.value - a.value) - (c.time - a.time) * (b.value - a.value));

@@ -23,8 +23,8 @@ namespace pacini
 class ActuatorOutput
 {
 public:
-    /// `protect`: keep within full drive and the limits of the profile; looks ahead by `lookAhead`. `filtered`: what
-    /// comes has passed the output filter already. Allocates.
+    /// `protect`: keeps the drive within full drive and the limits of the profile; looks ahead by `lookAhead`.
+    /// `filtered`: the input has passed the output filter already. Allocates.
     ActuatorOutput(const RenderPlan& plan, const ProcessSpec& spec, bool protect, Seconds lookAhead,
                    bool filtered = false)
     {
@@ -48,7 +48,7 @@ public:
         return protection ? protection->latencyFrames() : limiter ? limiter->latencyFrames() : 0;
     }
 
-    /// What the protection did in the last call of process(); null when nothing is protected. [audio]
+    /// Activity of the protection in the last call of process(); null without protection. [audio]
     [[nodiscard]] const ProtectionMeter* meter() const noexcept
     {
         return protection ? &protection->meter() : limiter ? &limiter->meter() : nullptr;

@@ -73,7 +73,7 @@ public:
         frame += frames;
     }
 
-    /// Goes on by `frames` without sound, in time that does not depend on their number but on that of breakpoints.
+    /// Skips `frames` without output. The time depends on the number of breakpoints, not of frames.
     void skip(std::int64_t frames) noexcept
     {
         for (std::size_t i = 0; i < carriers.size(); ++i)

@@ -26,7 +26,7 @@ namespace pacini
 struct AdaptedClip
 {
     Clip clip;
-    std::vector<std::string> changes; ///< what was done, in plain words
+    std::vector<std::string> changes; ///< the changes, in plain words
 };
 
 namespace detail
@@ -49,7 +49,8 @@ inline double meanFrequency(const Band& band)
     return sum > 0.0 ? std::exp(weighted / sum) : std::max(band.centreFrequency, 1.0);
 }
 
-/// Moves one band by the ratio in which its mean moves, so that its pitch keeps its shape, and clamps it to the range.
+/// Shifts one band by the ratio of its new mean to its old mean, so that its pitch keeps its shape, and clamps it to
+/// the range.
 inline bool moveBand(Band& band, const FrequencyMap& map, const ActuatorRange& range)
 {
     const double mean = meanFrequency(band);
@@ -104,8 +105,8 @@ inline double peakOf(const Clip& clip)
     return peak;
 }
 
-/// Strength over time for a motor: the envelope, topped by a burst for every event that lasts `burst`
-/// seconds. Sampled every `step` seconds: what follows it is not a straight line anyway.
+/// Returns the strength over time for a motor: the envelope, plus a burst of `burst` seconds for every event. Sampled
+/// every `step` seconds, because the resulting drive has no straight lines.
 inline std::vector<double> wantedStrength(const Clip& clip, double step, double burst)
 {
     std::vector<double> strength(static_cast<std::size_t>(std::ceil(clip.duration / step)) + 1, 0.0);
@@ -156,15 +157,14 @@ inline Curve curveThrough(const std::vector<double>& samples, double step, doubl
 }
 } // namespace detail
 
-/// Makes a valid clip fit a valid profile:
+/// Adapts a valid clip to a valid profile:
 ///
-/// - frequencies outside the range, as far as flattening extends it or strength draws it in (see fitActuator), are
-/// moved
-///   into it, each band as a whole (see FrequencyMap);
-/// - bands that have no voice of their own join their nearest neighbour that has one (see mergeVoices);
-/// - amplitudes are pressed into what the actuator can show (see DynamicRangeMap);
-/// - a motor gets its strength as the amplitude of one band, events as bursts as long as it needs to spin up:
-///   MotorDrive turns it into voltage.
+/// - Frequencies outside the range are moved into it, each band as a whole (see FrequencyMap). Flattening extends the
+///   range and strength narrows it (see fitActuator).
+/// - Bands without a voice join their nearest neighbour with one (see mergeVoices).
+/// - Amplitudes are compressed into the range of the actuator (see DynamicRangeMap).
+/// - A motor gets its strength as the amplitude of one band, with events as bursts of its spin-up time; MotorDrive
+///   turns it into voltage.
 [[nodiscard]] inline AdaptedClip adaptClip(Clip clip, const Profile& profile, const AdaptationParams& params = {})
 {
     AdaptedClip result{std::move(clip), {}};

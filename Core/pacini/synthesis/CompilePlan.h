@@ -82,8 +82,8 @@ inline void limitVoices(RenderPlan& plan, const Scene& scene, const Profile& pro
 
 inline constexpr std::size_t maxUnrolledPoints = 20'000'000;
 
-/// Makes energies those behind the limiter of the actuator, where it can come to act; a motor has none. Returns what a
-/// small change of the whole scene costs there, in energies of that change.
+/// Changes energies to those behind the limiter of the actuator, if it can act; a motor has none. Returns the error of
+/// a small change of the whole scene there, in energies of that change.
 inline double limitEnergies(const RenderPlan& plan, std::vector<PlayEnergy>& energies, const Profile* profile)
 {
     if (plan.motor)
@@ -96,7 +96,8 @@ inline double limitEnergies(const RenderPlan& plan, std::vector<PlayEnergy>& ene
     return LimitedScene::wholeScene;
 }
 
-/// How an actuator's own events are played, after the clip's method and the user; `range` is what is played of its own.
+/// Sets the playback of events by the clip's method, the user and the actuator; `range` is the range that the actuator
+/// plays.
 inline void fitPulses(DecoderParams& params, const Profile& profile, const ActuatorRange& range,
                       const DecoderChoice& choice)
 {
@@ -109,7 +110,7 @@ inline void fitPulses(DecoderParams& params, const Profile& profile, const Actua
     params.pulses.cycles = profile.transient.cycles;
 }
 
-/// Fits the clips of a scene to the plan's actuator and notes what was changed.
+/// Adapts the clips of a scene to the plan's actuator and records the changes.
 inline std::vector<Clip> adaptClips(RenderPlan& plan, const std::vector<Clip>& clips, const AdaptationParams& params)
 {
     std::vector<Clip> adapted;
@@ -174,7 +175,7 @@ inline std::string whyUnheard(const Clip& clip, const ScenePlay& play, const Pla
     return muted || roles ? "is muted" : "";
 }
 
-/// Tones and noise at levels of their own; what is silent throughout is left out, and noted.
+/// Sets separate levels of tones and noise. Roles that are silent throughout are left out and recorded.
 inline void planRoles(RenderPlan& plan, const Clip& clip, const PlayTimeline& timeline, const std::string& where,
                       bool leaveOut, DecoderParams& decoder)
 {
@@ -270,9 +271,9 @@ inline Result<void> planPlays(RenderPlan& plan, const Scene& scene, const std::v
 }
 } // namespace detail
 
-/// Works out what a scene needs on an actuator (none: the plain drive signal). What costs least is left out first,
-/// until the sum of the errors reaches the tolerance: plays that are silent, too weak to matter or after the end, bands
-/// of the others, sections of the equaliser that are flat. Errors: those of validate(); a rate that nothing plays at
+/// Compiles the plan of a scene for an actuator (none: the plain drive signal). Leaves out parts with the smallest
+/// errors first, until the sum of the errors reaches the tolerance: plays that are silent, too weak or after the end,
+/// bands of other plays, flat sections of the equalizer. Errors: those of validate(); a rate that nothing plays at
 /// (`sampleRate`, invalidArgument); loops that would unroll to more than 20 million breakpoints (`plays[i].loop`,
 /// tooLarge). [worker]
 [[nodiscard]] inline Result<RenderPlan> compilePlan(const Scene& scene, const Profile* profile = nullptr,

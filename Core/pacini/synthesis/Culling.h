@@ -24,8 +24,8 @@
 namespace pacini::detail
 {
 
-/// Adds up errors. Parts of one sound that start together add in amplitude, others in power; the sum is raised by 1.5
-/// dB for what different sounds may have in common by chance.
+/// Sum of errors. Parts of one sound that start together add in amplitude, others in power. The sum is raised by 1.5 dB
+/// for chance correlations between different sounds.
 class ErrorSum
 {
 public:
@@ -67,8 +67,8 @@ struct Dispensable
     std::optional<std::size_t> band; ///< none: the whole play
 };
 
-/// All plays of a plan and their bands, what costs least first. Whole plays come before bands: they save most, and
-/// their bands would count twice.
+/// Returns all plays of a plan and their bands, smallest error first. Whole plays come before bands: they save most,
+/// and their bands would count twice.
 inline std::vector<Dispensable> dispensables(const RenderPlan& plan, std::span<const PlayEnergy> energies)
 {
     std::vector<Dispensable> candidates;
@@ -106,8 +106,8 @@ inline void removeMarked(RenderPlan& plan, const std::vector<bool>& plays, const
     plan.plays = std::move(kept);
 }
 
-/// Leaves out plays and bands, what costs least first, as long as their errors together stay `tolerance` dB below
-/// `whole`, the scene's energy. Returns the energy of the error.
+/// Leaves out plays and bands, smallest error first, while the sum of the errors stays `tolerance` dB below `whole`,
+/// the scene's energy. Returns the energy of the error.
 inline double leaveOutWeak(RenderPlan& plan, const Scene& scene, std::span<const PlayEnergy> energies, double whole,
                            double tolerance)
 {

@@ -51,8 +51,8 @@ namespace pacini
 class Decoder
 {
 public:
-    /// `changes` happen while it plays, in order of time; those that are not finite do not. `designs` are shared with
-    /// decoders made before; null: it has a design of its own.
+    /// `changes` occur during playback, in order of time; changes that are not finite are ignored. `designs` are shared
+    /// with earlier decoders; null: the decoder makes its own.
     Decoder(const Clip& clip, const DecoderParams& wanted, std::vector<DecoderChange> changes = {},
             InterpolatorDesigns* designs = nullptr)
         : params(clamped(wanted)),
@@ -98,9 +98,9 @@ public:
         reset();
     }
 
-    /// From now on puts out what `filter` makes of the clip, which ends at frame `until` at the latest and then rings
-    /// on. For the price of a few more taps of the interpolator, where a filter at the output rate costs as much as all
-    /// the rest. An event's start is then decided up to a hop ahead. Allocates; before the first frame. [worker]
+    /// Outputs the clip through `filter` from now on. The clip ends at frame `until` at the latest; the filter then
+    /// rings on. This costs a few more taps of the interpolator; a filter at the output rate would cost as much as all
+    /// the rest. The start of an event is then decided up to a hop ahead. Allocates; before the first frame. [worker]
     void filterBy(const BiquadCascadeCoefficients& filter, std::int64_t until)
     {
         assert(!apart && !hollow);
@@ -134,10 +134,9 @@ public:
         return clock.clipAt(frame / static_cast<double>(ratio)) / (params.stretch * innerRate);
     }
 
-    /// From the next frame on the clip plays at another pitch and speed. What has been computed ahead stays, at most
-    /// one hop (64 inner frames, up to 16 ms) and the delay of the leveller; scheduled changes come on their sample.
-    /// Scheduled changes still to come are dropped. Clamped like the parameters; a change that is not finite is
-    /// ignored. [audio]
+    /// Plays the clip at another pitch and speed from the next frame on. Precomputed samples stay: at most one hop (64
+    /// inner frames, up to 16 ms) and the delay of the leveller; scheduled changes occur on their sample. Scheduled
+    /// changes in the future are dropped. Clamped like the parameters; a change that is not finite is ignored. [audio]
     void change(double transposition, double stretch) noexcept
     {
         if (!std::isfinite(transposition) || !std::isfinite(stretch))
@@ -266,9 +265,9 @@ public:
     /// How long after skip() the leveller and the interpolator have no past, s.
     static constexpr double settling = 0.03;
 
-    /// Goes on by `frames` unheard, in time that depends on the number of breakpoints and events and not on that of
-    /// frames. Within `settling` the output is again that of a decoder which has played all of them, but for noise,
-    /// which is another of the same kind, and pulses that have begun. Not with a filter. [audio]
+    /// Skips `frames` without output, in time that depends on the number of breakpoints and events, not of frames.
+    /// Within `settling`, the output equals that of a decoder that has played all of them, except for noise, which is
+    /// other noise of the same kind, and pulses that have begun. Not with a filter. [audio]
     void skip(std::int64_t frames) noexcept
     {
         assert(!filtering && frames >= 0);
@@ -345,7 +344,7 @@ private:
         setEnd();
     }
 
-    /// Where the clip ends, by what the clock knows.
+    /// The end of the clip, as far as the clock knows.
     void setEnd() noexcept
     {
         endFrame = !playable ? 0 : delayFrames + static_cast<std::int64_t>(std::floor(outputFrameOf(clipFrames) + 0.5));
@@ -358,7 +357,7 @@ private:
         return clock.untouched() ? clipFrame : clock.frameOf(clipFrame / r) * r;
     }
 
-    /// What is levelled together.
+    /// Roles that are levelled together.
     struct Part
     {
         CarrierBank carriers;
@@ -367,7 +366,7 @@ private:
         std::vector<double> share;  // of the noise in `im`, where it is kept apart
     };
 
-    /// What the parts and their sum, in this order, are levelled to; times in inner frames.
+    /// Target levels of the parts and their sum, in this order; times in inner frames.
     struct Levels
     {
         std::vector<Curve> envelopes;
@@ -382,8 +381,8 @@ private:
     };
     static constexpr std::int64_t longAgo = std::numeric_limits<std::int64_t>::min() / 4;
 
-    /// The parts of the clip in which something sounds, at least one, and the envelopes that they and their sum are
-    /// levelled to, times in inner frames.
+    /// The parts of the clip that sound, at least one, and the target envelopes of these and their sum; times in inner
+    /// frames.
     void makeParts(const Clip& clip)
     {
         auto carriers = makeCarriers(clip);
@@ -628,7 +627,7 @@ private:
         return frame - delayFrames + static_cast<std::int64_t>(allSkipped());
     }
 
-    /// Inner frames up to which a decoder has computed that has heard all of it.
+    /// Inner frames that a decoder with continuous output has computed.
     [[nodiscard]] std::int64_t framesMade() const noexcept
     {
         if (!stale)
@@ -638,7 +637,7 @@ private:
         return (raised + perHop - 1) / perHop * static_cast<std::int64_t>(hopFrames);
     }
 
-    /// The inner frame from which a hop that has been passed over is made again, so that it is what it would have been.
+    /// The inner frame from which a skipped hop is computed again, so that it equals continuous output.
     [[nodiscard]] std::int64_t warmFrom(std::int64_t frame) const noexcept
     {
         const std::int64_t hop = raisedAt(frame) / static_cast<std::int64_t>(ready.size());
@@ -727,7 +726,7 @@ private:
         makeHop();
     }
 
-    /// Makes the hop in which frame `from` of a block lies, after hops that were not heard.
+    /// Computes the hop with frame `from` of a block, after skipped hops.
     void warm(const RoleGains& gains, std::size_t from) noexcept
     {
         const std::int64_t frame = position + static_cast<std::int64_t>(from);
@@ -779,7 +778,7 @@ private:
         turn = innerFrame;
     }
 
-    /// Half of the time in which one envelope gives way to another, as the leveller's window moves over the change.
+    /// Half of the transition time between two envelopes, while the leveller's window moves over the change.
     [[nodiscard]] std::int64_t turnFrames() const noexcept
     {
         return leveller ? static_cast<std::int64_t>(leveller->delayOfPass(0)) : 0;
@@ -790,7 +789,7 @@ private:
         return awake[Role::tones] && awake[Role::noise] ? 0 : awake[Role::tones] ? 1 : 2;
     }
 
-    /// Fades in what is there again.
+    /// Fades in a role that has returned.
     [[nodiscard]] double presenceAt(Role role, std::int64_t frame) const noexcept
     {
         const Presence& of = presence[role];
@@ -799,7 +798,7 @@ private:
         return clampTo(static_cast<double>(frame - of.from) / static_cast<double>(presenceFrames), 0.0, 1.0);
     }
 
-    /// What is ready of the hop, at the levels of its roles.
+    /// The computed part of the hop, at the levels of its roles.
     void mixRoles(std::span<float> out, const RoleGains& gains, std::size_t from) const noexcept
     {
         const auto at = [](const std::vector<float>& signal, std::size_t n)

@@ -21,8 +21,8 @@ struct DecoderChoice
     bool operator==(const DecoderChoice&) const = default;
 };
 
-/// The decoder's parameters for a clip: those of the thesis for its clips, else Pacini's own, changed by what is
-/// chosen. `resonance` (Hz) is the actuator's.
+/// Returns the decoder's parameters for a clip: those of the thesis for its clips, else Pacini's own, with the given
+/// changes. `resonance` (Hz) is the actuator's.
 [[nodiscard]] inline DecoderParams decoderParamsFor(const Clip& clip, DecoderParams params, const DecoderChoice& choice,
                                                     double resonance)
 {

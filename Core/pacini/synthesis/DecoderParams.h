@@ -31,7 +31,7 @@ struct DecoderParams
     double sampleRate = 48000.0; ///< Hz, 2000 to 768000; a clip at any other rate has no frames
     CarrierMode carriers = CarrierMode::pitch;
     bool followEnvelope = true; ///< level the sum of the bands to the clip's total envelope
-    bool fullRate = false;      ///< compute carriers at the output rate instead of a quarter of what they need
+    bool fullRate = false;      ///< compute carriers at the output rate instead of a quarter of their required rate
     PulseParams pulses;
     EventGapParams gaps; ///< where the sum is levelled to the envelope
     VariationParams variation;
@@ -39,10 +39,10 @@ struct DecoderParams
     double stretch = 1.0;       ///< 2 = twice as long; pitches stay; 0.001 to 1000
     double gain = 1.0;          ///< linear, 0 to 1000
     double delay = 0.0;         ///< s of silence before the clip, 0 to 3600
-    double headroom = 0.0;      ///< semitones by which changes while playing may raise the transposition, 0 to 192
+    double headroom = 0.0;      ///< largest rise of the transposition by changes during playback, semitones, 0 to 192
     double reach = 0.0;         ///< Hz; the inner rate is made for the clip's frequencies and at least this
     bool apart = false;         ///< tones and noise may get levels of their own: see Decoder::process()
-    PerRole<bool> leftOut;      ///< roles that are not made; what is levelled with them keeps its share
+    PerRole<bool> leftOut;      ///< roles that are not computed; roles levelled together with them keep their share
     bool operator==(const DecoderParams&) const = default;
 };
 

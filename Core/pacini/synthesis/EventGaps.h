@@ -23,24 +23,24 @@ struct EventGapParams
     double rise = 22.0;   ///< dB by which the level is to rise from the gap to the event; softer events get it as far
                           ///< as the range below allows
     double enough = 17.0; ///< dB of rise within `reach` before an event that needs no gap
-    double range = 30.0;  ///< dB below the strongest moment of the clip; what is softer is not felt beside it
+    double range = 30.0;  ///< dB below the strongest moment of the clip; weaker parts are not felt beside it
     double hold = 0.003;  ///< s for which the gap is open
-    double fade = 0.002;  ///< s in which it opens before
+    double fade = 0.002;  ///< opening time before the gap, s
     double least = 4.0;   ///< dB by which an event rises by itself at least: softer ones are texture, such as rain, and
                           ///< gaps before each would be felt instead of it
     double strongShare = 0.6;   ///< of the clip's strongest moment: events of that amplitude are not taken for texture
     double strongLeast = 3.0;   ///< instead of `least`, for them
     double strongHold = 0.0035; ///< instead of `hold`, for them
     double reach = 0.012;       ///< s
-    double attack = 0.001;      ///< s in which the level is back after the event's time
-    /// Between events nearer to each other than this, s, which rise by at least that, dB, pulses carry what is felt:
-    /// the gap is silent and as long as their ringing leaves it.
+    double attack = 0.001;      ///< time in which the level returns after the event's time, s
+    /// Between events closer than `train` s that rise by at least `trainRise` dB, pulses carry the level: the gap is
+    /// silent and lasts as long as their ringing allows.
     double train = 0.045, trainRise = 10.0;
     double trainHold = 0.45; ///< of the time since the event before, instead of `hold`
     double trainFade = 0.2;  ///< instead of `fade`
-    /// What plays the clip rings on into the gap, which is then open for as long as takes the ringing of what is before
-    /// it `ringRise` dB below the event, but not longer than a part of the time since the event before.
-    double ring = 0.0;       ///< s of the clip in which the ringing falls to 1/e; 0: nothing rings
+    /// The actuator rings on into the gap. The gap then stays open until the ringing is `ringRise` dB below the event,
+    /// but at most for a share of the time since the event before.
+    double ring = 0.0;       ///< time in which the ringing falls to 1/e, s; 0: no ringing
     double ringRise = 18.0;  ///< dB
     double ringShare = 0.35; ///< of the time since the event before
     bool operator==(const EventGapParams&) const = default;
@@ -49,7 +49,7 @@ struct EventGapParams
 namespace detail
 {
 
-inline constexpr double peakOfMean = 2.0; ///< what bands reach over a mean over 10 ms
+inline constexpr double peakOfMean = 2.0; ///< peak of the bands relative to a mean over 10 ms
 
 /// The largest value of a curve from `first` to `last` s.
 inline double largestWithin(const Curve& curve, double first, double last) noexcept
@@ -87,9 +87,9 @@ inline double ringingOut(const Curve& envelope, const Transient& event, double f
 
 } // namespace detail
 
-/// `envelope` (means over 10 ms; bands peak at twice its value) with a gap before each of `events`, which are in order
-/// of time, unless it rises there enough by itself. In a gap the level is low enough for the event, as strong as its
-/// amplitude or what the envelope reaches within 10 ms after it, to rise by `rise` dB. O(points + events log points).
+/// Returns `envelope` (means over 10 ms; bands peak at twice its value) with a gap before each of `events`, which are
+/// in order of time, except where the envelope rises enough. The level in a gap lets the event rise by `rise` dB, with
+/// the strength of its amplitude or of the envelope within 10 ms after it. O(points + events log points).
 [[nodiscard]] inline Curve withEventGaps(const Curve& envelope, std::span<const Transient> events,
                                          const EventGapParams& params = {})
 {

@@ -114,7 +114,7 @@ public:
         extent = end > planned.start ? cells.at(end) - cells.at(planned.start) + reach + 1 : 0;
     }
 
-    /// The power of an actuator's gain: what the squares below are scaled by.
+    /// The power of an actuator's gain, the scale of the squares below.
     [[nodiscard]] CellTrack ofGain(const Curve& gain) const
     {
         CellTrack track = squares(gain, [](double time) { return time; });
@@ -362,7 +362,7 @@ public:
             energy.bands[b] += bands[b];
     }
 
-    /// What a change of the whole scene by a factor near 1 costs: the energy of its error by this factor.
+    /// Returns the error of a change of the whole scene by a factor close to 1: the energy of its error by this factor.
     static constexpr double wholeScene = 2.0;
 
 private:

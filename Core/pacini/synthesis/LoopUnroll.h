@@ -14,7 +14,7 @@ namespace pacini
 
 namespace detail
 {
-/// Appends the first `length` seconds of `pass`, moved by `at`; a step joins it to what is there.
+/// Appends the first `length` seconds of `pass`, shifted by `at`; a step joins it to the existing points.
 inline void appendPass(Curve& curve, const Curve& pass, double length, double at)
 {
     if (pass.empty())

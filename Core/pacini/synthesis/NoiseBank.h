@@ -86,8 +86,8 @@ public:
         frame += static_cast<std::int64_t>(re.size());
     }
 
-    /// Goes on by `frames` without sound. The random numbers do not: what follows is other noise of the same kind.
-    /// [audio]
+    /// Skips `frames` without output. The random numbers do not advance: the following noise is other noise of the same
+    /// kind. [audio]
     void skip(std::int64_t frames) noexcept
     {
         for (std::size_t i = 0; i < bands.size(); ++i)

@@ -100,7 +100,7 @@ public:
     /// Whether no send changes. [audio]
     [[nodiscard]] bool resting() const noexcept { return chordLeft == forever; }
 
-    /// Goes on by `frames`, at most straightFrames(). [audio]
+    /// Advances by `frames`, at most straightFrames(). [audio]
     void advance(std::size_t frames) noexcept
     {
         if (chordLeft == forever)
@@ -116,7 +116,7 @@ public:
             startChord();
     }
 
-    /// Goes on by any number of frames, unheard. [audio]
+    /// Advances by any number of frames without output. [audio]
     void jump(std::size_t frames) noexcept
     {
         if (chordLeft == forever)

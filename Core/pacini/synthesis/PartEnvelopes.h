@@ -15,21 +15,21 @@
 namespace pacini
 {
 
-/// Parts of a clip: what lies below and above 200 Hz, where the fibres that feel flutter hand over to the Pacinian ones
-/// (S. Bolanowski et al., "Four channels mediate the mechanical aspects of touch", 1988: from 40 Hz on both, alike
-/// strong up to some 200 Hz in a small contact). Beats within a part are felt there even where the other part fills
-/// the gaps of the sum.
+/// Parts of a clip: below and above 200 Hz, where the fibres that feel flutter hand over to the Pacinian ones (S.
+/// Bolanowski et al., "Four channels mediate the mechanical aspects of touch", 1988: both act from 40 Hz on, with equal
+/// strength up to about 200 Hz for a small contact). Beats within a part are felt, even if the other part fills the
+/// gaps of the sum.
 constexpr std::size_t clipParts = 2;
 
-/// The part of what stands at `frequency`, Hz.
+/// Returns the part that contains `frequency`, Hz.
 [[nodiscard]] constexpr std::size_t clipPartOf(double frequency) noexcept
 {
     return frequency < 200.0 ? 0 : 1;
 }
 
-/// The clip's envelope shared by the powers that the bands and the noise of each part have, the root of the share being
-/// that of the amplitude. Points stand where a level bends, at least 1 ms apart; empty for a part in which nothing
-/// sounds, the clip's own envelope for the only one in which something does.
+/// Divides the clip's envelope between the parts by the powers of their bands and noise; the amplitude share is the
+/// root of the power share. Points lie at the points of the levels, at least 1 ms apart. Empty for a silent part; the
+/// clip's own envelope for the only part that sounds.
 [[nodiscard]] inline std::array<Curve, clipParts> partEnvelopes(const Clip& clip)
 {
     struct Level
@@ -110,8 +110,8 @@ constexpr std::size_t clipParts = 2;
     return product;
 }
 
-/// The share of tones or noise in the amplitude of a clip, over its time: the root of that of their power. First what
-/// they have of all in each part, empty where nothing of them sounds, then what they have of all in the whole.
+/// Returns the amplitude share of tones or noise over the time of a clip: the root of the share of their power. First
+/// the share in each part, empty if the role is silent there, then the share in the whole.
 [[nodiscard]] inline std::array<Curve, clipParts + 1> roleShares(const Clip& clip, Role role)
 {
     struct Level

@@ -104,7 +104,7 @@ private:
         return static_cast<std::size_t>(next - pieces.begin());
     }
 
-    /// The piece at `frame`; the first one for what lies before it.
+    /// Returns the piece at `frame`; the first one for earlier frames.
     [[nodiscard]] std::size_t indexAt(double frame) const noexcept
     {
         return std::max<std::size_t>(countUntil(&ClockPiece::from, frame), 1) - 1;

@@ -231,7 +231,7 @@ private:
         }
     }
 
-    /// The bands are levelled to the envelope, which tells their energy.
+    /// The bands are levelled to the envelope, so the envelope determines their energy.
     void level()
     {
         const double wanted = 0.5 * energyBy(clip.envelope, timeline.gains);
@@ -286,10 +286,10 @@ private:
 };
 } // namespace detail
 
-/// The energy that a play's clip (as it will be decoded) brings into a scene of `duration` seconds, after the output
-/// filter `cascade`, which is one for the rate of `params`. Sinusoids carry half their squared amplitude. Where the
-/// bands are levelled to the envelope, the envelope tells the energy, and a band that is missing is made up for by the
-/// others: that costs at most its amplitude twice.
+/// Returns the energy that a play's clip (as it will be decoded) adds to a scene of `duration` seconds, after the
+/// output filter `cascade`, designed for the rate of `params`. Sinusoids carry half their squared amplitude. If the
+/// bands are levelled to the envelope, the envelope determines the energy, and the other bands make up for a missing
+/// band: that costs at most its amplitude twice.
 [[nodiscard]] inline PlayEnergy playEnergy(const Clip& clip, const DecoderParams& params, const PlayTimeline& timeline,
                                            double start, double duration, const BiquadCascadeCoefficients& cascade)
 {

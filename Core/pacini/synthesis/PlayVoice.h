@@ -112,7 +112,7 @@ struct VoiceParams
     std::int64_t until = 0;                            ///< frame at which the scene ends, for that filter
     const ActuatorRow* row = nullptr;                  ///< of live pans; null = none
     Seconds liveDelay{0.0};                            ///< the longest live delay
-    InterpolatorDesigns* designs = nullptr;            ///< shared with other voices; null = one of its own
+    InterpolatorDesigns* designs = nullptr;            ///< shared with other voices; null = its own
 };
 
 /// Voice of one play. Made without a decoder: prepare() and release() bound the memory of long scenes. Every call gets
@@ -187,7 +187,7 @@ public:
             delay->reset();
     }
 
-    /// The same, but its decoder, which has played `played` frames already, goes on. [audio]
+    /// The same, but continues with its decoder, which has played `played` frames already. [audio]
     void goOnAt(std::int64_t frame, std::int64_t played) noexcept { moveTo(frame - played); }
 
     /// It was not played for `frames`. [audio]
@@ -214,7 +214,7 @@ public:
         reached = now;
     }
 
-    /// Goes on at frame `now`, unheard since it was mixed last: see Decoder::skip(). [audio]
+    /// Continues at frame `now` after frames without output since the last mix: see Decoder::skip(). [audio]
     void catchUp(std::int64_t now) noexcept
     {
         passGlides(now);
@@ -276,7 +276,7 @@ public:
             decoder->change(transposition, stretch);
     }
 
-    /// Adds what sounds in the block. A voice that is `lone` in a block that has been cleared may overwrite it. [audio]
+    /// Adds the sound of the block. A voice that is `lone` in a cleared block may overwrite it. [audio]
     void mix(const PlannedPlay& play, const MixTarget& target, bool lone, MixBuffers& buffers) noexcept
     {
         const std::size_t from = sizeInMemory(start - target.now);

@@ -10,9 +10,9 @@
 namespace pacini
 {
 
-/// The amplitude of an event's pulse where bands are levelled to `envelope`: it tops what they reach up to the event's
-/// own amplitude, so that no energy is played twice. 0 when they reach it by themselves. The envelope is a mean over 10
-/// ms: bands peak at up to twice its value.
+/// Returns the amplitude of an event's pulse if bands are levelled to `envelope`. The pulse raises the level of the
+/// bands to the event's own amplitude, so that no energy is played twice. 0 if the bands reach it by themselves. The
+/// envelope is a mean over 10 ms: bands peak at up to twice its value.
 [[nodiscard]] inline double pulseLevel(const Curve& envelope, const Transient& event) noexcept
 {
     double reached = 0.0;

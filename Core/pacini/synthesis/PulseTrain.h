@@ -70,7 +70,7 @@ public:
              });
     }
 
-    /// Goes on at frame `position`: pulses that began before are cut off. [audio]
+    /// Continues at frame `position`: pulses that began before are cut off. [audio]
     template <typename StartOf>
     void skipTo(std::int64_t position, StartOf&& startOf) noexcept
     {
@@ -86,7 +86,7 @@ private:
         PulseVoice voice;
     };
 
-    /// add(voice, to, from) adds what sounds of an event from frame `from` on.
+    /// add(voice, to, from) adds an event from frame `from` on.
     template <typename StartOf, typename Add>
     void play(std::span<float> out, std::int64_t position, StartOf&& startOf, Add&& add) noexcept
     {

@@ -32,12 +32,12 @@ struct RenderParams
 {
     CompileParams compile; ///< with the sample rate of the output
     SceneAdjustment adjustment;
-    double from = 0.0;              ///< s of what comes of it: where the output starts
+    double from = 0.0;              ///< start of the output, s of the scene
     std::optional<double> to;       ///< s, where it ends; none: at the end
     bool protect = true;            ///< keep within full drive and the limits of the profile
-    std::optional<FeltParams> felt; ///< render what is felt instead of the drive signal
-    bool measure = false;           ///< also play everything, to measure what leaving out costs
-    bool describe = false;          ///< report what each decoder plays
+    std::optional<FeltParams> felt; ///< render the felt acceleration instead of the drive signal
+    bool measure = false;           ///< also play everything, to measure the error of leaving out
+    bool describe = false;          ///< report the content of each decoder
     std::size_t blockFrames = 4096; ///< the most that a sink gets at a time
 };
 
@@ -46,7 +46,7 @@ inline constexpr std::array<std::string_view, 3> carrierModeNames{"fixed", "pitc
 inline constexpr std::array<std::string_view, 3> transientShapeNames{"adaptive", "square", "sine"};
 inline constexpr std::array<std::string_view, 3> frequencyMappingNames{"clamp", "rescale", "fold"};
 
-/// What users can set of RenderParams as numbers and choices.
+/// Descriptions of the user settings of RenderParams that are numbers and choices.
 inline constexpr std::array renderParameters{
     described<&RenderParams::compile, &CompileParams::sampleRate>({.name = "sampleRate",
                                                                    .option = "rate",
@@ -161,9 +161,9 @@ struct RenderReport
     std::size_t maxSounding = 0; ///< decoders at a time
     double reduction = 0.0;      ///< dB, the most that was taken to keep within full drive and the profile's limits
     double predictedError = 0.0; ///< dB, of all that is left out; -infinity: nothing is lost
-    std::optional<double> measuredError; ///< dB, what leaving out really cost; where it was to be measured
+    std::optional<double> measuredError; ///< measured error of leaving out, dB, if requested
     std::vector<Adaptation> adaptations;
-    std::vector<LeftOut> leftOut;       ///< in order of what it costs
+    std::vector<LeftOut> leftOut;       ///< in order of error
     std::vector<DecodedPlay> decoded;   ///< in order of start; where they were to be described
     std::vector<std::string> playNames; ///< of all plays of the scene then, or of their clips
 };

@@ -35,7 +35,7 @@ struct LeftOut
 {
     std::string where;  ///< such as `plays[3]` or `plays[3].bands[2]`
     std::string reason; ///< in plain words
-    double error = 0.0; ///< what it costs at most, in dB below the whole scene's energy; -infinity = nothing
+    double error = 0.0; ///< largest error of leaving it out, dB below the whole scene's energy; -infinity = none
     bool operator==(const LeftOut&) const = default;
 };
 

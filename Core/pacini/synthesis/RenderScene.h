@@ -48,7 +48,7 @@ public:
 
     [[nodiscard]] virtual Result<void> take(const RenderBlock& block) = 0;
 
-    /// Called now and then with the share that is done, also while what comes before the output is played unheard.
+    /// Called repeatedly with the share that is done, also while content before the output is skipped.
     [[nodiscard]] virtual Result<void> progress(double /*share*/) { return {}; }
 };
 
@@ -97,7 +97,7 @@ private:
     std::vector<std::span<float>> spans;
 };
 
-/// The part of a rendering that comes out, in frames.
+/// The part of a rendering that is output, in frames.
 struct RenderPart
 {
     std::uint64_t first = 0, last = 0;
@@ -121,7 +121,7 @@ inline Result<RenderPart> renderPart(const RenderParams& params, std::uint64_t t
 }
 } // namespace detail
 
-/// The first half of renderScene(): what becomes of `scene`, adjusted, on an actuator. Errors: as there.
+/// First half of renderScene(): adjusts `scene` and compiles its plan for an actuator. Errors: as there.
 [[nodiscard]] inline Result<RenderPlan> planScene(Scene scene, const Profile* profile, const RenderParams& params)
 {
     scene = adjusted(std::move(scene), params.adjustment);
@@ -138,8 +138,9 @@ inline Result<RenderPart> renderPart(const RenderParams& params, std::uint64_t t
     return compilePlan(scene, profile, params.compile);
 }
 
-/// The second half of renderScene(): plays a plan into `sink`. `felt` is what is rendered instead of the drive signal;
-/// `everything` the plan of the same scene with nothing left out, to compare with. Errors: as there.
+/// Second half of renderScene(): plays a plan into `sink`. `felt` is the model of the felt acceleration to render
+/// instead of the drive signal; `everything` is the plan of the same scene with nothing left out, for comparison.
+/// Errors: as there.
 [[nodiscard]] inline Result<RenderReport> renderPlan(RenderPlan plan, const RenderParams& params, RenderSink& sink,
                                                      const std::optional<FeltSettings>& felt = {},
                                                      std::optional<RenderPlan> everything = {})
@@ -199,10 +200,10 @@ inline Result<RenderPart> renderPart(const RenderParams& params, std::uint64_t t
     return report;
 }
 
-/// Renders a scene for an actuator (null: the plain drive signal) into `sink`: its drive signals, or what is felt of
-/// them. Errors: those of compilePlan() and of the sink; invalidArgument where the part to render is empty, and at
-/// `profile` where one is missing to know what is felt; invalidData at `body` where it has none; tooLarge for more than
-/// 24 hours. [worker]
+/// Renders a scene for an actuator (null: the plain drive signal) into `sink`: its drive signals, or the accelerations
+/// felt from them. Errors: those of compilePlan() and of the sink; invalidArgument if the part to render is empty, and
+/// at `profile` if felt accelerations are requested without a profile; invalidData at `body` if it has no body model;
+/// tooLarge for more than 24 hours. [worker]
 [[nodiscard]] inline Result<RenderReport> renderScene(Scene scene, const Profile* profile, const RenderParams& params,
                                                       RenderSink& sink)
 {

@@ -13,8 +13,8 @@
 namespace pacini
 {
 
-/// What sounds in a clip. A clip as it is decoded is the sum of its roles; their levels are the faders of that sum, so
-/// that one role never moves another: what is levelled to the envelope is levelled before.
+/// The parts of a clip that sound. A decoded clip is the sum of its roles, and their levels are the faders of that sum.
+/// Levelling to the envelope comes before, so the level of one role does not affect another.
 enum class Role
 {
     tones,  ///< the bands
@@ -69,7 +69,7 @@ private:
 };
 using RoleGains = PerRole<RoleGain>;
 
-/// What users call it.
+/// Returns the user-visible name of a role.
 [[nodiscard]] constexpr const char* nameOf(Role role) noexcept
 {
     return role == Role::tones ? "tones" : role == Role::events ? "events" : "noise";

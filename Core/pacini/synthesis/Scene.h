@@ -42,8 +42,8 @@ struct ScenePlay
     double transposition = 0.0;                    ///< semitones
     double stretch = 1.0;                          ///< 2 = twice as long
     int priority = 0;                              ///< 0 is kept longest when voices run out
-    VariationParams variation;                     ///< every pass of a loop varies anew
-    double delay = 0.0;                            ///< s, 0 to 1, by which it comes later than its start
+    VariationParams variation;                     ///< every pass of a loop has a new variation
+    double delay = 0.0;                            ///< delay after its start, s, 0 to 1
     double tones = 0.0, events = 0.0, noise = 0.0; ///< dB, levels of the roles of its clip; silent at -120 and below
     bool operator==(const ScenePlay&) const = default;
 };
@@ -82,7 +82,7 @@ enum class SceneParameter
     return {};
 }
 
-/// The level of a role with which a play begins, dB.
+/// The initial level of a role in a play, dB.
 [[nodiscard]] inline double roleLevel(const ScenePlay& play, Role role) noexcept
 {
     return role == Role::tones ? play.tones : role == Role::events ? play.events : play.noise;
@@ -108,14 +108,14 @@ struct Scene
     double gain = 0.0;     ///< dB
     int actuators = 1;     ///< 1-16 channels of output
     PanLaw panLaw = PanLaw::constantPower;
-    double panDelay = 0.01; ///< s by which an actuator at the other end comes later, for delay panning
+    double panDelay = 0.01; ///< delay of an actuator at the other end, s, for delay panning
     std::vector<Clip> clips;
     std::vector<ScenePlay> plays;
     std::vector<SceneChange> changes; ///< in order of time
     bool operator==(const Scene&) const = default;
 };
 
-/// A scene in which a clip plays once, as it is.
+/// Returns a scene that plays a clip once, unchanged.
 [[nodiscard]] inline Scene sceneOf(Clip clip)
 {
     Scene scene;
@@ -168,7 +168,7 @@ inline constexpr std::array<ParameterRange, 8> parameterRanges{
 
 namespace detail
 {
-/// Checks what a play can change, as it begins and as it changes.
+/// Checks the variable values of a play, at its start and in its changes.
 inline Result<void> checkParameters(const Scene& scene)
 {
     const auto outside = [](std::size_t parameter, const std::string& where)

@@ -37,11 +37,11 @@ struct ScenePlayerParams
     bool protect = true;        ///< keep within full drive and the limits of the profile
     Seconds lookAhead{0.001};   ///< of that, 0 to 1 ms; taken out of the output
     Seconds liveDelay{0.0};     ///< the longest of setDelay(); memory for it costs a little time
-    bool takeLatencyOut = true; ///< false: what is mixed comes out latencyFrames() later
-    bool filtered = false; ///< what plays beside the scene has passed the output filter, and the scene has no plays
+    bool takeLatencyOut = true; ///< false: the output is delayed by latencyFrames()
+    bool filtered = false;      ///< signals beside the scene have passed the output filter, and the scene has no plays
 };
 
-/// What plays beside a scene: nothing.
+/// No signals beside a scene.
 struct NoLivePlays
 {
     void mix(std::span<const std::span<float>>, std::size_t, std::size_t, std::int64_t) noexcept {}
@@ -85,7 +85,7 @@ public:
     [[nodiscard]] std::int64_t totalFrames() const noexcept { return endFrame; }
     [[nodiscard]] std::size_t actuators() const noexcept { return plan.actuators; }
 
-    /// Frames by which the protection looks ahead.
+    /// Look-ahead of the protection, frames.
     [[nodiscard]] std::size_t latencyFrames() const noexcept
     {
         return outputs.empty() ? 0 : outputs.front().latencyFrames();
@@ -122,7 +122,7 @@ public:
         process(out, nothing);
     }
 
-    /// The same, with what plays beside the scene: live.mix(out, at, n, now) adds frames [at, at + n) to `out`, the
+    /// The same, with live signals beside the scene: live.mix(out, at, n, now) adds frames [at, at + n) to `out`, the
     /// first of which is frame `now` of the scene. [audio]
     template <typename Live>
     void process(std::span<const std::span<float>> out, Live& live) noexcept
@@ -147,8 +147,8 @@ public:
         }
     }
 
-    /// What the protection of an actuator did in the last call of process(), or in the last 1024 frames of a longer
-    /// one; null when nothing is protected. [audio]
+    /// Activity of an actuator's protection in the last call of process(), or in the last 1024 frames of a longer one;
+    /// null without protection. [audio]
     [[nodiscard]] const ProtectionMeter* protectionMeter(std::size_t actuator = 0) const noexcept
     {
         return actuator < outputs.size() ? outputs[actuator].meter() : nullptr;
@@ -236,7 +236,7 @@ private:
         position += static_cast<std::int64_t>(n);
     }
 
-    /// What plays beside the one voice that is filtered itself has a filter of its own.
+    /// Separate filter for signals beside the one voice that is filtered itself.
     template <typename Live>
     void addFiltered(std::span<const std::span<float>> out, std::size_t at, std::size_t n, Live& live) noexcept
     {

@@ -29,7 +29,7 @@ struct FeltSettings
     double fullScale = 100.0; ///< m/s^2 at a sample of 1
 };
 
-/// What `profile` makes `wearer` (see bodyOn) feel; nothing when it has no body.
+/// Returns the model of the acceleration that `wearer` (see bodyOn) feels from `profile`; none without a body.
 [[nodiscard]] inline std::optional<FeltSettings> feltSettingsOf(const Profile& profile, unsigned wearer,
                                                                 double fullScale)
 {
@@ -67,7 +67,8 @@ public:
     [[nodiscard]] double maxReduction() const noexcept { return player.maxReduction(); }
     [[nodiscard]] const ProtectionMeter* protectionMeter() const noexcept { return player.protectionMeter(); }
 
-    /// What the decoder of every play plays, in order of start. Those that have not sounded yet are made for it.
+    /// Returns the content of the decoder of every play, in order of start. Creates decoders of plays that have not
+    /// sounded yet.
     [[nodiscard]] const std::vector<DecodedPlay>& decodedPlays()
     {
         player.build(Seconds(std::numeric_limits<double>::infinity()));

@@ -144,9 +144,9 @@ public:
     {
     }
 
-    /// The strongest of `bands` (as read last), `none` before any sounds. Bands less than a sixth of an octave apart
-    /// count together: they share what lies between them. Another one has to be 1 dB stronger, the difference that is
-    /// just noticed, so that equals do not take turns.
+    /// Returns the strongest of `bands` (as read last), `none` before any sounds. Bands less than a sixth of an octave
+    /// apart count together, because they share the content between them. A new band must be 1 dB stronger, the just
+    /// noticeable difference, so that bands of equal strength do not alternate.
     std::size_t of(const std::vector<BandReader>& bands) noexcept
     {
         constexpr double together = 1.0 / 6.0, oneDecibel = 1.2589;

@@ -82,7 +82,7 @@ public:
         }
     }
 
-    /// Adds the next frames, scaled by `gain`, to `out`; what lies after the pulse's end is left alone. [audio]
+    /// Adds the next frames, scaled by `gain`, to `out`; frames after the pulse's end stay unchanged. [audio]
     void addTo(std::span<float> out, double gain) noexcept
     {
         addTo(out, [gain](std::size_t) { return gain; });
@@ -107,7 +107,7 @@ public:
         }
     }
 
-    /// Goes on by `frames` unheard, for nothing until it is heard again. [audio]
+    /// Skips `frames` without output, in constant time. [audio]
     void pass(std::size_t frames) noexcept { frame += std::min(pulse.frames - frame, frames); }
 
     [[nodiscard]] bool finished() const noexcept { return frame >= pulse.frames; }

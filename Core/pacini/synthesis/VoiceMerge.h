@@ -58,8 +58,8 @@ inline Band mergedBand(const Band& a, const Band& b)
 }
 } // namespace detail
 
-/// Leaves at most `voices` (1 or more) bands: again and again the least of them (the highest priority number, then the
-/// least energy) joins its neighbour in frequency. What has no voice of its own is thus heard in another's, which loses
+/// Leaves at most `voices` (1 or more) bands. The least important band (the highest priority number, then the least
+/// energy) repeatedly joins its neighbour in frequency. A band without a voice is thus heard in another's, which loses
 /// less than leaving it out.
 inline void mergeVoices(Clip& clip, std::size_t voices)
 {

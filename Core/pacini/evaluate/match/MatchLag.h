@@ -36,9 +36,10 @@ namespace detail
 }
 } // namespace detail
 
-/// Frames (1/500 s) by which what is felt is late, within +-100 ms; negative when it is early. That at which the rises
-/// of both correlate best, but 0 unless that is at least .5 and better by .2 than where they are: steady sounds have no
-/// lag that could be told, trains of pulses many. Sounds of less than .2 s have 0.
+/// Returns the delay of the felt signal, in frames (1/500 s), within +-100 ms; negative if it is early. It is the lag
+/// with the best correlation of the rises of both. It is 0 unless that correlation is at least .5 and exceeds the
+/// correlation without a lag by .2: steady sounds have no definite lag, trains of pulses have many. Sounds of less than
+/// .2 s have 0.
 [[nodiscard]] inline int matchLag(const HeardTrack& heard, const TouchTrack& felt)
 {
     constexpr std::ptrdiff_t reach = 50;
@@ -73,7 +74,7 @@ namespace detail
     return static_cast<int>(best);
 }
 
-/// What is felt, `frames` (1/500 s) earlier; frequencies to the nearest of their frames.
+/// The felt signal, `frames` (1/500 s) earlier; frequencies by the nearest of their frames.
 [[nodiscard]] inline TouchTrack earlier(TouchTrack felt, int frames)
 {
     const auto move = [](auto& values, int count)

@@ -20,7 +20,7 @@ namespace pacini::detail
     return HannKernel(seconds / 0.3615 * TouchTrack::rate);
 }
 
-/// Before the first and after the last value counts what they are: where a recording is cut, nothing rises or falls.
+/// Values before the first and after the last equal these: nothing rises or falls at the cuts of a recording.
 [[nodiscard]] inline std::vector<float> smoothed(std::span<const float> x, const HannKernel& kernel)
 {
     const std::size_t reach = kernel.reachFrames();
@@ -33,7 +33,7 @@ namespace pacini::detail
     return y;
 }
 
-/// What rises, frame by frame.
+/// The rises, frame by frame.
 [[nodiscard]] inline std::vector<float> rises(std::span<const float> x)
 {
     std::vector<float> y;
@@ -42,8 +42,8 @@ namespace pacini::detail
     return y;
 }
 
-/// Pearson's correlation with weights. `steadyX` and `steadyY` are variances that count as noise: what hardly moves
-/// correlates with nothing. 0 when either stands still.
+/// Pearson's correlation with weights. `steadyX` and `steadyY` are variances that count as noise, so that nearly
+/// constant values correlate with nothing. 0 if either is constant.
 [[nodiscard]] inline double correlation(std::span<const float> x, std::span<const float> y,
                                         std::span<const float> weights = {}, double steadyX = 0.0, double steadyY = 0.0)
 {
@@ -78,7 +78,7 @@ namespace pacini::detail
     const double power = (xx / total + steadyX) * (yy / total + steadyY);
     return power > 0.0 ? xy / total / std::sqrt(power) : 0.0;
 }
-/// Variance of what is not noticed: 10 % of the mean of an amplitude, of whose square root `x` is.
+/// Variance of unnoticeable changes: 10 % of the mean of an amplitude whose square root is `x`.
 [[nodiscard]] inline double unnoticed(std::span<const float> x) noexcept
 {
     double sum = 0.0;
