@@ -91,7 +91,7 @@ private:
     TestSignal test;
     juce::AudioBuffer<float> buffer{2 + static_cast<int>(plugin::maxHapticChannels), pieceFrames};
     juce::MidiBuffer midi;
-    /// Where a channel of the device lies among those that are switched on; -1: it is off.
+    /// Index of each device channel among the enabled channels; -1 if it is disabled.
     std::array<int, maxChannels> inputPlaces{}, outputPlaces{};
 };
 

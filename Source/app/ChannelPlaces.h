@@ -14,7 +14,7 @@ namespace pacini::app
 
 inline constexpr int mostDeviceChannels = 256;
 
-/// Where each channel lies in the callback; -1: it is off.
+/// The index of each channel in the callback; -1 if it is disabled.
 [[nodiscard]] inline std::array<int, mostDeviceChannels> channelPlaces(const juce::BigInteger& active)
 {
     std::array<int, mostDeviceChannels> places{};

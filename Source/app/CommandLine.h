@@ -14,8 +14,8 @@
 namespace pacini::app
 {
 
-/// Sets what `options` describes. Where the user asked for help or the version, or made a mistake, that is told on the
-/// terminal, and the program is to end with the code that is returned: 0, or 2 for wrong usage. [message]
+/// Sets the values described by `options`. Returns an exit code if the program has to end: 0 after help or the version,
+/// 2 after wrong usage, both with a text on the terminal. [message]
 [[nodiscard]] inline std::optional<int> readCommandLine(CLI::App& options, const std::string& version,
                                                         const juce::StringArray& arguments)
 {

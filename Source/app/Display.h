@@ -10,8 +10,8 @@
 namespace pacini::app
 {
 
-/// Whether there is a screen. Where not, JUCE could make no window: that is told on the terminal, and the program is to
-/// end with code 1, before it has written anything. [message]
+/// Whether there is a screen. Without one JUCE cannot create a window: prints an error; the program then has to end
+/// with code 1, before it has written anything. [message]
 [[nodiscard]] inline bool hasDisplay(const char* program)
 {
     if (!juce::Desktop::getInstance().isHeadless())

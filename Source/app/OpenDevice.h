@@ -8,8 +8,8 @@
 namespace pacini::app
 {
 
-/// Opens the default device of a kind such as "JACK"; without one the saved device, or else the system's. An error
-/// text, empty when all is well. [message]
+/// Opens the default device of a kind such as "JACK"; without a kind the saved device, or else the system's. Returns an
+/// error text, empty on success. [message]
 inline juce::String openDevice(juce::AudioDeviceManager& manager, int maxInputs, int maxOutputs,
                                const juce::XmlElement* saved, const juce::String& deviceType)
 {

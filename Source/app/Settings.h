@@ -27,7 +27,7 @@ struct CommandLineChoices
 /// Returns the code to end with where the program is not to start: see readCommandLine().
 [[nodiscard]] std::optional<int> readCommandLine(CommandLineChoices& choices, const juce::StringArray& arguments);
 
-/// Reads what was remembered; defaults where nothing was.
+/// Reads the stored routing; defaults for missing settings.
 [[nodiscard]] Routing routingOf(juce::PropertiesFile& settings);
 void remember(juce::PropertiesFile& settings, const Routing& routing);
 

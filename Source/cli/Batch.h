@@ -23,8 +23,8 @@ namespace pacini::cli
 struct BatchFile
 {
     std::filesystem::path input;
-    std::string key;   ///< what the manifest calls it
-    bool left = false; ///< is not worked on, as -n says: has no entry
+    std::string key;   ///< name in the manifest
+    bool left = false; ///< skipped, as -n requires: has no entry
 };
 
 /// Result of a run for one file.
@@ -33,26 +33,26 @@ struct BatchOutcome
 {
     std::vector<std::filesystem::path> outputs;
     double duration = 0.0; ///< s
-    nlohmann::json report; ///< what the command says of it with --json
-    std::string error;     ///< empty where all went well
+    nlohmann::json report; ///< report of the command with --json
+    std::string error;     ///< empty on success
     bool upToDate = false;
 };
 
 /// Adds --shard to a command.
 CLI::Option* addShard(CLI::App& command, std::string& text);
 
-/// Which of the inputs are in the shard that `text` names; all of them where it is empty. Errors: invalidArgument.
+/// Returns for each input whether it is in the shard named by `text`; all are if it is empty. Errors: invalidArgument.
 [[nodiscard]] Result<std::vector<bool>> inputsOfShard(const std::vector<std::filesystem::path>& inputs,
                                                       const std::string& text);
 
-/// What a manifest says of the shard that `text` names, with the files that are in it; nothing where `text` is empty.
+/// Returns the manifest's record of the shard named by `text`, with the number of its files; none if `text` is empty.
 [[nodiscard]] std::vector<ManifestShard> manifestShards(const std::vector<bool>& inShard, const std::string& text);
 
-/// The manifest of the shard that `text` names, beside those of the others: run.manifest.2-of-8.json. `manifest` itself
-/// where `text` is empty or no shard.
+/// Returns the path of the manifest for the shard named by `text`, beside those of the others:
+/// run.manifest.2-of-8.json. Returns `manifest` itself if `text` is empty or no shard.
 [[nodiscard]] std::filesystem::path manifestOfShard(const std::filesystem::path& manifest, const std::string& text);
 
-/// The tasks that were chosen.
+/// Keeps the chosen tasks.
 template <typename TaskType>
 void keepChosen(std::vector<TaskType>& tasks, const std::vector<bool>& chosen)
 {
@@ -69,8 +69,8 @@ class Batch
 public:
     void declare(CLI::App& command);
 
-    /// Which of the files this run works on; starts the manifest unless nothing is to be written. Errors:
-    /// invalidArgument for the options, invalidData for a manifest that is none, io.
+    /// Returns for each file whether this run processes it. Starts the manifest unless nothing is to be written.
+    /// Errors: invalidArgument for the options, invalidData for an invalid manifest, io.
     [[nodiscard]] Result<std::vector<bool>> start(const std::vector<BatchFile>& files, bool dryRun);
 
     /// The same for tasks: those of other runs are removed.
@@ -87,10 +87,10 @@ public:
         return {};
     }
 
-    /// Adds what was done to a file. From any thread.
+    /// Adds the result of a file. From any thread.
     void add(const std::string& key, const BatchOutcome& outcome);
 
-    /// The same for a task, of which `toJson(task)` is the report; those that were skipped have no entry.
+    /// The same for a task, with the report `toJson(task)`; skipped tasks have no entry.
     template <typename ResultType, typename ToJson>
     void add(const Task<ResultType>& task, ToJson&& toJson)
     {
@@ -103,7 +103,7 @@ public:
                 {{task.output}, task.result->duration, nlohmann::json(toJson(task)), {}, task.result->upToDate});
     }
 
-    /// Completes the manifest; a failure is said on the console.
+    /// Completes the manifest; prints a failure on the console.
     [[nodiscard]] bool finish(Console& console);
 
 private:
@@ -118,8 +118,7 @@ private:
     GrowingManifest growing;
 };
 
-/// What was given to `command` and decides what comes out: not how many files at a time, which shard or how much is
-/// said.
+/// Returns the options of `command` that affect its outputs: not the number of jobs, the shard or the verbosity.
 [[nodiscard]] std::vector<std::string> lastingArguments(const CLI::App& command);
 
 } // namespace pacini::cli

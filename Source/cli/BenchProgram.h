@@ -10,8 +10,8 @@
 namespace pacini::cli
 {
 
-/// Runs pacini-bench, beside this program, in its place, with `words`, all that the user typed. Fails where there is no
-/// such program.
+/// Replaces this process by pacini-bench, from the folder of this program, with the command line `words`. Fails if
+/// there is no such program.
 [[nodiscard]] Exit runBenchProgram(const std::vector<std::string>& words, Console& console);
 
 } // namespace pacini::cli

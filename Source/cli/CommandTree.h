@@ -14,7 +14,7 @@ namespace pacini::cli
 struct OptionText
 {
     std::vector<std::string> names;   ///< such as "-o" and "--output"; none for an argument
-    std::string value;                ///< what to put for its value, such as "HZ"; empty for a flag
+    std::string value;                ///< placeholder of its value, such as "HZ"; empty for a flag
     std::string description;          ///< one line
     std::string range;                ///< such as "1 to 32"; empty when it has none or choices
     std::vector<std::string> choices; ///< the only values, if they are few
@@ -28,15 +28,15 @@ struct OptionText
 /// A command, or a step of one.
 struct CommandText
 {
-    std::string name; ///< as the user calls it after "pacini", such as "measure fit"; empty for the program
+    std::string name; ///< as typed after "pacini", such as "measure fit"; empty for the program
     std::string summary;
-    std::string notes; ///< what follows the options: explanations and examples, in lines
+    std::string notes; ///< text after the options: explanations and examples, in lines
     std::vector<OptionText> arguments;
     std::vector<OptionText> options;
     std::vector<CommandText> commands;
 };
 
-/// What is said of one option.
+/// The help text of one option.
 [[nodiscard]] OptionText optionText(const CLI::Option& option);
 
 /// All that is below `app`.
@@ -45,7 +45,7 @@ struct CommandText
 /// The part of `tree` with that name; nothing when there is none.
 [[nodiscard]] const CommandText* commandNamed(const CommandText& tree, const std::string& name);
 
-/// How the command is called, such as "pacini encode [OPTIONS] [IN...]".
+/// The usage line, such as "pacini encode [OPTIONS] [IN...]".
 [[nodiscard]] std::string synopsis(const CommandText& command);
 
 /// The description with range, choices and preset, in one line.

@@ -36,10 +36,10 @@ struct ComparePairs
     std::vector<std::filesystem::path> leftOver; ///< candidates without a reference
 };
 
-/// Two files are a pair. Of two folders (with all below them) the files whose paths agree but for their extensions are;
-/// `events` is then a folder of clips, matched alike, else one clip, or empty. A candidate is a sound, or
-/// else a clip. ErrorCode::invalidArgument for a folder
-/// with a file.
+/// Returns the pairs to compare. Two files are a pair. Two folders (with all subfolders) give a pair for each two files
+/// whose paths agree except for their extensions; `events` is then a folder of clips, matched in the same way.
+/// Otherwise `events` is one clip, or empty. A candidate is a sound, or else a clip. ErrorCode::invalidArgument for a
+/// folder with a file.
 [[nodiscard]] Result<ComparePairs> pairFiles(const std::string& reference, const std::string& candidate,
                                              const std::string& events);
 

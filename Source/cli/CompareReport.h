@@ -28,8 +28,8 @@ struct CompareTask
 /// All measures of one pair that has a result.
 [[nodiscard]] nlohmann::ordered_json pairJson(const CompareTask& task);
 
-/// {"files": [...], "mean": {...}, "events": {...}, "seconds", "timesRealTime"}: the same figures and more. What says
-/// nothing is null and not in the means; "events" counts over all files.
+/// {"files": [...], "mean": {...}, "events": {...}, "seconds", "timesRealTime"}: the figures of the table and more.
+/// Undefined figures are null and not in the means; "events" counts over all files.
 [[nodiscard]] nlohmann::ordered_json compareJson(const std::vector<CompareTask>& tasks);
 
 /// One line about the whole work.

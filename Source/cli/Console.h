@@ -57,7 +57,7 @@ public:
     /// A result for people: a line on stdout.
     void print(std::string_view line);
 
-    /// A line on stdout about what was done, for people.
+    /// Prints a line on stdout about finished work, for people.
     void note(std::string_view line);
 
     /// Notes that the file at `path` was written, and `details` of it.
@@ -69,7 +69,7 @@ public:
     /// The same as the last thing that a command does: gives `exit`.
     [[nodiscard]] Exit fail(std::string_view file, const Error& reason, Exit exit = Exit::failed);
 
-    /// An error that was told before for another file: only a report names this one too.
+    /// Reports an error that was already printed for another file: only the JSON report names this file too.
     void repeatedError(std::string_view file, const Error& error);
 
     /// `pacini: FILE: warning: what` on stderr, always one line.
@@ -111,7 +111,7 @@ private:
 /// `text` on one line of a terminal: control characters, which a file's name may hold, as \n or \x1b.
 [[nodiscard]] std::string printable(std::string_view text);
 
-/// decimalText() with a plus before what is above zero: a difference.
+/// decimalText() with a plus sign for numbers above zero: a difference.
 [[nodiscard]] std::string signedText(double value, int decimals);
 
 /// A size such as "412 B" or "1.3 kB".

@@ -32,9 +32,9 @@ namespace pacini::cli
 /// The controller of one of those names; of any other, the first.
 [[nodiscard]] devices::ControllerModel modelNamed(std::string_view name);
 
-/// The one of `connected` that is meant: by its number from 1 on, its path, or a part of its name, upper and lower case
-/// alike. When nothing is named it is the only game controller, or without any the only device: a notebook's touchpad
-/// is always there. Nothing when it is not there. Errors: `invalidArgument` when several could be meant.
+/// Returns the named device of `connected`: by its number from 1 on, its path, or a part of its name, ignoring case.
+/// Without a name, returns the only game controller, or the only device if there is no game controller (a notebook's
+/// touchpad is always connected). None if it is not connected. Errors: `invalidArgument` if several match.
 [[nodiscard]] Result<std::optional<devices::Controller>>
 chosenController(const std::vector<devices::Controller>& connected, const std::string& named);
 

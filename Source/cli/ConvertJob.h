@@ -17,7 +17,7 @@ struct ConvertSettings
     const ClipFormat* format = nullptr; ///< never null
     ExportParams params;
     int quantise = 0;             ///< bits of the values of a packed clip; 0: as the clip says
-    std::string record;           ///< what of the settings the outputs depend on
+    std::string record;           ///< the settings that affect the outputs
     std::filesystem::path folder; ///< the outputs' names in the entry count from here
     bool force = false;
     bool dryRun = false; ///< write nothing
@@ -33,10 +33,9 @@ struct ConvertResult
     bool upToDate = false;          ///< nothing was done
 };
 
-/// Converts `input` to `output` and whatever further files the format needs. Does nothing when `before` says that the
-/// same input with the same settings became these outputs, and they are still what was written then. Errors: those of
-/// readClip, ClipFormat::write and writeExport; io when what is at an output is not to be replaced: neither the same
-/// nor what `before` says was written.
+/// Converts `input` to `output` and any further files of the format. Does nothing if `before` records the same input,
+/// settings and outputs, and these outputs are unchanged. Errors: those of readClip, ClipFormat::write and writeExport;
+/// io if an existing output must not be replaced, because it is neither equal nor recorded in `before`.
 [[nodiscard]] Result<ConvertResult> convertClip(const std::filesystem::path& input, const std::filesystem::path& output,
                                                 Replaceable replaceable, const ConvertSettings& settings,
                                                 const ManifestEntry* before);

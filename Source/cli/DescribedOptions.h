@@ -29,7 +29,7 @@ public:
     /// Adds the values of the options that were given on the command line.
     void addGiven(GivenParameters& given) const;
 
-    /// Sets what was given in a struct that `table` describes.
+    /// Sets the given options in a struct described by `table`.
     template <typename Table, typename Params>
     void apply(const Table& table, Params& params) const
     {

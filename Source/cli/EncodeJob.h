@@ -52,9 +52,9 @@ class EncodeJob
 public:
     explicit EncodeJob(const EncodeSettings& settings);
 
-    /// `progress(share)` is called now and then. Errors: those of AudioReader, writeClip and AudioWriter, without the
-    /// file's name; tooLarge beyond 24 hours; io when what is at `output` is not to be replaced. An own clip that was
-    /// edited since it was encoded, or may have been, is replaced only when any file may be.
+    /// Encodes a file. `progress(share)` is called repeatedly. Errors: those of AudioReader, writeClip and AudioWriter,
+    /// without the file's name; tooLarge beyond 24 hours; io if the file at `output` must not be replaced. One of
+    /// Pacini's clips that was or may have been edited since its encoding is replaced only if any file may be.
     [[nodiscard]] Result<EncodeResult> run(const std::filesystem::path& input, const std::filesystem::path& output,
                                            Replaceable replaceable, const std::function<void(double)>& progress);
 
@@ -74,13 +74,13 @@ private:
         FileOrigin origin; ///< of a signal
     };
 
-    /// How the clip may be written, unless what is there is up to date, as `result` says then.
+    /// Returns how the clip may be written, unless the existing one is up to date, which `result` then records.
     [[nodiscard]] Result<Existing> lookAt(const Path& input, const Target& target, EncodeResult& result) const;
 
     /// Whether a clip was made by this version in this way.
     [[nodiscard]] bool isMadeSo(const Clip& clip) const;
 
-    /// What a clip made now would say of its encoder, without what depends on the sound.
+    /// Returns the encoder record of a new clip, without the parts that depend on the sound.
     [[nodiscard]] std::vector<EncoderParameter> expectedRecord(const Clip& clip) const;
 
     /// Write a clip, or a signal, and return the size of the file or files.

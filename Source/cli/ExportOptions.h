@@ -27,7 +27,7 @@ public:
     [[nodiscard]] std::optional<ExportParams> params(Console& console, const ClipFormat& format,
                                                      const GivenParameters& settings = {}) const;
 
-    /// Errors: invalidArgument for a given option that changes nothing in `format`, with the formats in which it does.
+    /// Errors: invalidArgument for a given option without effect in `format`, with the formats in which it has one.
     [[nodiscard]] Result<void> checkFor(const ClipFormat& format) const;
 
     /// The first option that was given; empty: none.

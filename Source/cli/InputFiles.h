@@ -61,8 +61,8 @@ struct OutputPlace
 [[nodiscard]] Result<OutputPlace> outputFor(const InputFile& input, const OutputNames& names, bool several,
                                             bool makeFolders = true);
 
-/// Whether `output` can be where the results for these inputs go, with a report in JSON on standard output or without.
-/// Errors: invalidArgument, with what to do.
+/// Checks that `output` can receive the results for these inputs, with or without a JSON report on standard output.
+/// Errors: invalidArgument, with advice.
 [[nodiscard]] Result<void> checkOutput(const InputFiles& inputs, const std::string& output, bool json);
 
 } // namespace pacini::cli

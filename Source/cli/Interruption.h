@@ -7,10 +7,10 @@
 namespace pacini::cli
 {
 
-/// While it lives, the first SIGINT, SIGTERM or SIGHUP does not end the program but waits to be taken in; at the end of
-/// its life, that signal does what it would have done. A second one ends the program at once. Signals that the program
-/// was started to ignore stay ignored; threads that are started meanwhile leave them all alone. On systems other than
-/// Linux there is one of these at a time; Windows has no SIGHUP.
+/// Catches interruptions during its lifetime. The first SIGINT, SIGTERM or SIGHUP is recorded instead of ending the
+/// program; it takes effect when this is destroyed. A second one ends the program at once. Signals that the program was
+/// started to ignore stay ignored; threads started meanwhile block all of them. On systems other than Linux, only one
+/// of these may exist at a time; Windows has no SIGHUP.
 class Interruption
 {
 public:

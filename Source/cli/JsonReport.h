@@ -24,7 +24,7 @@ public:
     /// Version of the shape: it changes when a program that reads reports would have to.
     static constexpr int version = 1;
 
-    /// `command` as the user calls it, such as "measure fit"; empty when none was chosen.
+    /// `command` is the command as typed, such as "measure fit"; empty if none was given.
     explicit JsonReport(std::string commandToReport) : command(std::move(commandToReport)) {}
 
     /// Adds members of the command's own; none may be called like one of every report.

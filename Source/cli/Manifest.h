@@ -20,10 +20,10 @@
 namespace pacini::cli
 {
 
-/// What a manifest is called unless the user names it.
+/// Default name of a manifest.
 inline constexpr const char* manifestName = "pacini.manifest.json";
 
-/// Whether a file in a folder is called like a manifest, which no command takes for an input.
+/// Whether a file name is that of a manifest. No command takes such files of a folder for inputs.
 [[nodiscard]] bool isManifestName(const std::filesystem::path& path);
 
 /// One output of a run.
@@ -39,14 +39,14 @@ struct ManifestOutput
 // NOLINTNEXTLINE(bugprone-exception-escape): moving a json does not throw, which clang-tidy does not see.
 struct ManifestEntry
 {
-    std::string inputSha256; ///< empty where a run does not go by it
-    std::string settings;    ///< all that the outputs depend on besides the input; empty likewise
+    std::string inputSha256; ///< empty if the run does not compare it
+    std::string settings;    ///< everything that affects the outputs besides the input; empty likewise
     std::vector<ManifestOutput> outputs;
     double duration = 0.0; ///< s of the clip
     std::vector<std::string> warnings;
     std::vector<FormatLoss> losses; ///< one per kind: the first place, the largest error, and how many as the message
-    std::string error;              ///< empty where all went well
-    nlohmann::json report;          ///< what the command says of it with --json; null for nothing
+    std::string error;              ///< empty on success
+    nlohmann::json report;          ///< report of the command with --json; null for none
     bool operator==(const ManifestEntry&) const = default;
 };
 
@@ -64,13 +64,13 @@ struct Manifest
 {
     std::string command;                          ///< such as "encode"; empty for a conversion
     std::vector<std::string> arguments;           ///< of the command, for another run over the same files
-    std::vector<ManifestShard> shards;            ///< that it is of; empty for all of a run
-    std::map<std::string, ManifestEntry> entries; ///< by the input's path below the folder that was named, with /
+    std::vector<ManifestShard> shards;            ///< of this manifest; empty for a whole run
+    std::map<std::string, ManifestEntry> entries; ///< by the input's path relative to the given folder, with /
 
     /// The entry of an input; null when there is none.
     [[nodiscard]] const ManifestEntry* find(const std::string& input) const;
 
-    /// Gives an input that has no entry one with an error, which stands until the input is done.
+    /// Adds an entry with an error for an input without an entry. The error remains until the input is done.
     void expect(const std::string& input);
 
     bool operator==(const Manifest&) const = default;
@@ -83,36 +83,35 @@ struct MissingShards
     std::size_t files = 0; ///< that they have
 };
 
-/// The shards of a run that several manifests are of together.
+/// The shards of a run that several manifests cover together.
 struct ShardUnion
 {
     std::vector<ManifestShard> shards;
-    bool whole = false; ///< one of them is of all of the run
+    bool whole = false; ///< one manifest covers the whole run
 
-    /// Adds those of a manifest.
+    /// Adds the shards of a manifest.
     void add(const std::vector<ManifestShard>& more);
 
-    /// Shards of several divisions make the run whole if those of any one do; otherwise the one that lacks the fewest
-    /// files counts.
+    /// Returns the missing shards. If the manifests have shards of several divisions, one complete division suffices;
+    /// otherwise the division with the fewest missing files counts.
     [[nodiscard]] MissingShards missing() const;
 };
 
-/// The manifest in a file, as far as it goes: a run that was killed left one without an end. None when the file is
-/// there and no manifest, empty when it is not there.
+/// Reads a manifest as far as it goes: that of a killed run has no end. None if the file is not a manifest, empty if it
+/// does not exist.
 [[nodiscard]] std::optional<Manifest> readManifest(const std::filesystem::path& path);
 
-/// What a manifest calls an output: its path from the manifest's folder, with /.
+/// The name of an output in a manifest: its path relative to the manifest's folder, with /.
 [[nodiscard]] std::string pathFromManifest(const std::filesystem::path& manifest, const std::filesystem::path& output);
 
-/// Its text, a line for each entry: the same for the same entries, whoever made them and when.
+/// The text of a manifest, with a line for each entry. It depends on the entries only.
 [[nodiscard]] std::string manifestText(const Manifest& manifest);
 
-/// A manifest that grows by a line with each file that is done, so that a run that is killed is taken up where it was.
-/// From any thread.
+/// A manifest that grows by a line with each finished file, so that a killed run can continue. From any thread.
 class GrowingManifest
 {
 public:
-    /// Starts `newFile` with the entries of runs before; an empty path keeps no record. Errors: as in AtomicFile.
+    /// Starts `newFile` with the entries of earlier runs; an empty path keeps no record. Errors: as in AtomicFile.
     [[nodiscard]] Result<void> start(const std::filesystem::path& newFile, const Manifest& before);
 
     /// Sets an entry, and adds its line to the file.

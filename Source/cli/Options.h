@@ -20,7 +20,8 @@
 namespace pacini::cli
 {
 
-/// A number from `lowest` to `highest`; never NaN. `comment` is said of the range, such as "24 h" of 86400 seconds.
+/// Accepts a number from `lowest` to `highest`; never NaN. `comment` explains the range, such as "24 h" for 86400
+/// seconds.
 [[nodiscard]] inline CLI::Validator numberFrom(double lowest, double highest, const std::string& comment = "")
 {
     const auto range = fmt::format("{} to {}{}", lowest, highest, comment.empty() ? "" : " = " + comment);

@@ -34,10 +34,10 @@ private:
     bool replace = false;
 };
 
-/// Why the file at `output` is not replaced: "exists and `reason`; ...", with what to do.
+/// Returns the reason why the file at `output` is not replaced: "exists and `reason`; ...", with advice.
 [[nodiscard]] Error notReplaced(const std::filesystem::path& output, const std::string& reason);
 
-/// That a stream such as standard output gets one file at most. Errors: invalidArgument, with what to do.
+/// Checks that a stream such as standard output gets at most one file. Errors: invalidArgument, with advice.
 [[nodiscard]] Result<void> checkStream(const std::filesystem::path& output, const ExportedClip& exported);
 
 /// See mayOverwrite(); the error also suggests a remedy.

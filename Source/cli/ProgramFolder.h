@@ -7,7 +7,7 @@
 namespace pacini::cli
 {
 
-/// The folder that the running program lies in; the current one where the system does not tell.
+/// Returns the folder of the running program; the current folder if the system does not state it.
 [[nodiscard]] std::filesystem::path programFolder();
 
 } // namespace pacini::cli

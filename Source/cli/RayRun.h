@@ -10,8 +10,8 @@
 namespace pacini::cli
 {
 
-/// Lets Python's pacini.ray take the place of this program, with these arguments. Comes back only with the error that
-/// kept it from that: io, or invalidArgument where a program cannot be replaced.
+/// Replaces this process by Python's pacini.ray, with these arguments. Returns only on failure, with the error: io, or
+/// invalidArgument on systems without process replacement.
 [[nodiscard]] Error runOnRay(const std::vector<std::string>& arguments);
 
 } // namespace pacini::cli

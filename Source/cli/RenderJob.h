@@ -25,7 +25,7 @@ struct RenderSettings : RenderParams
     std::optional<Profile> profile;
     ClipReadParams reading;
     SampleEncoding encoding = SampleEncoding::float32;
-    std::string record;  ///< all that the output depends on besides the input
+    std::string record;  ///< everything that affects the output besides the input
     bool resume = true;  ///< do nothing where an output that was not named is up to date
     bool dryRun = false; ///< only read, write nothing
 };
@@ -40,11 +40,11 @@ struct RenderResult : RenderReport
     bool upToDate = false; ///< nothing was done; only bytes and duration are known
     bool isScene = false;
     std::vector<std::string> warnings; ///< of reading
-    std::string protection;            ///< what becomes of the profile's limits; empty: no profile
+    std::string protection;            ///< protection by the profile's limits; empty without a profile
 };
 
-/// Errors: those of readClipOrScene, renderScene and AudioWriter, without the file's name; io when what is at `output`
-/// is not to be replaced.
+/// Errors: those of readClipOrScene, renderScene and AudioWriter, without the file's name; io if the file at `output`
+/// must not be replaced.
 [[nodiscard]] Result<RenderResult> render(const std::filesystem::path& input, const std::filesystem::path& output,
                                           Replaceable replaceable, const RenderSettings& settings,
                                           const std::function<void(double)>& progress);

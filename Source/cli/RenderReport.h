@@ -15,8 +15,8 @@ namespace pacini::cli
 /// lost.
 [[nodiscard]] nlohmann::ordered_json planJson(const RenderResult& result, const CompileParams& params);
 
-/// {"plays": [...], "adaptations": [...], "leftOut": [...]}: every play that was described, what was fitted to the
-/// actuator and what is left out.
+/// {"plays": [...], "adaptations": [...], "leftOut": [...]}: every described play, all adaptations to the actuator and
+/// all skipped parts.
 [[nodiscard]] nlohmann::ordered_json planLists(const RenderResult& result);
 
 /// All of it in lines of text without the last line's end; of long lists the first entries and how many more there are.

@@ -9,9 +9,9 @@
 namespace pacini::cli
 {
 
-/// What to run instead of `words`, all that the user typed: the command and the arguments that the manifest records,
-/// with --retry and the further options that were given. Nothing when `words` are another command, or no manifest with
-/// a command is named; `manifest retry` itself then says what is wrong.
+/// Returns the command line to run instead of `words`, the one typed: the recorded command and arguments of the
+/// manifest, with --retry and the further given options. None if `words` are another command, or name no manifest with
+/// a command; `manifest retry` itself then reports the error.
 [[nodiscard]] std::optional<std::vector<std::string>> retriedCommand(const std::vector<std::string>& words);
 
 } // namespace pacini::cli

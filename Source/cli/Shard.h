@@ -28,10 +28,10 @@ inline constexpr unsigned mostShards = 1'000'000;
 /// The shard that "2/8" names. Errors: invalidArgument.
 [[nodiscard]] Result<Shard> parseShard(std::string_view text);
 
-/// For each of the files, in their order, whether it is in the shard, by their sizes in bytes: the largest first, each
-/// goes to the shard with the least until then (R. L. Graham, "Bounds on Multiprocessing Timing Anomalies", 1969: the
-/// fullest shard holds at most 4/3 of what the best division leaves in its fullest). The same sizes in the same order
-/// give the same shards on every machine; each file is in exactly one of them.
+/// Returns for each of the files, in their order, whether it is in the shard. Files are divided by size, largest first;
+/// each goes to the shard with the smallest sum so far (R. L. Graham, "Bounds on Multiprocessing Timing Anomalies",
+/// 1969: the fullest shard is at most 4/3 of the optimum). The same sizes in the same order give the same shards on
+/// every machine; each file is in exactly one of them.
 [[nodiscard]] std::vector<bool> filesOfShard(const std::vector<std::uint64_t>& sizes, Shard shard);
 
 } // namespace pacini::cli

@@ -31,7 +31,7 @@ struct Task
 {
     std::filesystem::path input;
     std::filesystem::path output;
-    std::string key; ///< what a manifest calls the input: its path below the folder that was named, with /
+    std::string key; ///< the manifest's name of the input: its path relative to the given folder, with /
     std::optional<ResultType> result;
     std::optional<Error> error;
     Replaceable replaceable = Replaceable::own;

@@ -15,7 +15,7 @@ namespace pacini::cli::terminal
 /// The width of the terminal in characters; 80 when it does not tell.
 [[nodiscard]] std::size_t columns();
 
-/// How wide lines of text are best: as the terminal is, within what reads well.
+/// Returns the best width of text lines: that of the terminal, within readable limits.
 [[nodiscard]] std::size_t textWidth();
 
 /// The start of the UTF-8 `text` that surely fits into `columns`; characters beyond ASCII count twice, as wide ones do.

@@ -9,10 +9,10 @@
 namespace pacini::cli
 {
 
-/// The command that was chosen, such as "measure fit"; empty when none was.
+/// The chosen command, such as "measure fit"; empty if none was given.
 [[nodiscard]] std::string commandPath(const CLI::App& app);
 
-/// One line: what is wrong, what was probably meant, and where to read on.
+/// Returns one line: the error, the probably intended word, and the help to read.
 [[nodiscard]] std::string usageText(const CLI::ParseError& error, const CLI::App& app);
 
 } // namespace pacini::cli

@@ -32,8 +32,8 @@ enum class Existing
 class AtomicFile
 {
 public:
-    /// Creates the temporary for `target`. Errors (code io or diskFull): no such folder, no right to write, the target
-    /// is a folder or is marked read-only, or it exists and is to be kept.
+    /// Creates the temporary for `target`. Errors (code io or diskFull): no such folder, no permission, the target is a
+    /// folder or read-only, or it exists and must be kept.
     [[nodiscard]] static Result<AtomicFile> create(const std::filesystem::path& target,
                                                    Existing existing = Existing::replace);
 
@@ -52,7 +52,7 @@ public:
     /// Reads at the current place, after a seek(); how many bytes came.
     std::size_t read(std::span<std::byte> bytes) noexcept;
 
-    /// What a container that writes its header last needs; offsets from the start in bytes, -1 when it cannot be told.
+    /// Seeks, for containers that write their header last; offsets from the start in bytes, -1 if unknown.
     bool seek(std::int64_t offset, int origin) noexcept;
     [[nodiscard]] std::int64_t tell() const noexcept;
     [[nodiscard]] std::int64_t size() noexcept;
@@ -86,8 +86,8 @@ private:
 /// Whether `path` stands for standard output: `-` or a name that the system has for it.
 [[nodiscard]] bool isStandardOutput(const std::filesystem::path& path);
 
-/// Whether `path` is written as a stream: standard output, a pipe or a device. It has no content of its own to lose or
-/// to look at.
+/// Whether `path` is written as a stream: standard output, a pipe or a device. A stream has no content to lose or to
+/// read.
 [[nodiscard]] bool isStream(const std::filesystem::path& path);
 
 } // namespace pacini

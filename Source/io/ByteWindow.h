@@ -12,7 +12,7 @@
 namespace pacini
 {
 
-/// What lies where in a file that another owns. Moves the stream's position.
+/// Reads bytes at any place of a file owned by the caller. Moves the stream's position.
 class ByteWindow
 {
 public:

@@ -23,13 +23,12 @@ struct ReadClip
     Clip clip;
     const ClipFormat* format = nullptr; ///< never null
     std::vector<std::string> warnings;
-    std::string bytes; ///< what was read: the file, then its companion if it has one
+    std::string bytes; ///< the files read: the clip, then its companion if it has one
 };
 
-/// Reads a clip; content and extension decide the format. The events of a companion (see ClipFormat) are added to it.
-/// Keys of Pacini's formats that are not known are warnings, or errors if it is `strict`. Errors: io as in
-/// readWholeFile, tooLarge beyond 512 MB, those of the format's reader, and invalidData for what is in no format that
-/// is read, and for a scene.
+/// Reads a clip; content and extension determine the format. Adds the events of a companion (see ClipFormat). Unknown
+/// keys in Pacini's formats are warnings, or errors if `strict`. Errors: io as in readWholeFile, tooLarge beyond 512
+/// MB, those of the format's reader, and invalidData for unknown formats and for scenes.
 [[nodiscard]] Result<ReadClip> readClip(const std::filesystem::path& path, bool strict = false);
 
 /// A clip or a scene and where it came from.
@@ -49,7 +48,7 @@ struct ClipReadParams
     bool strict = false;              ///< as in readClip()
 };
 
-/// Reads what plays: a scene when the file's "format" says so, else a clip of any format. The file is read once.
+/// Reads a clip or a scene: a scene if the file's "format" says so, else a clip of any format. The file is read once.
 /// Errors: those of readClip() and readScene().
 [[nodiscard]] Result<ClipOrScene> readClipOrScene(const std::filesystem::path& path, const ClipReadParams& params = {});
 
@@ -80,8 +79,8 @@ writeExport(const std::filesystem::path& main, const ExportedClip& exported, Exi
 /// The file that `path` is the companion of, if that is there; else empty.
 [[nodiscard]] std::filesystem::path companionOf(const std::filesystem::path& path);
 
-/// The file beside `main` that is no part of this export but would be read with it: a companion (see ClipFormat) that
-/// is left from an earlier one, or somebody else's. It stays where it is; empty when there is none.
+/// Returns the companion (see ClipFormat) beside `main` that does not belong to this export but would be read with it:
+/// from an earlier export, or another program. It is not removed. Empty if there is none.
 [[nodiscard]] std::filesystem::path strayCompanion(const std::filesystem::path& main, const ClipFormat& format,
                                                    const ExportedClip& exported);
 

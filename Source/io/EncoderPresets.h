@@ -20,7 +20,7 @@ struct EncoderPreset
     EncoderParams params;
 };
 
-/// The first is what sounds are analysed with when nothing is said.
+/// The first preset is the default of the analysis.
 [[nodiscard]] std::span<const EncoderPreset> encoderPresets();
 
 /// The preset with just these settings, or null.

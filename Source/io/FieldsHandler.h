@@ -292,7 +292,7 @@ public:
     bool number(double value) override { return scalar(value); }
     bool text(std::string& value) override { return scalar(&value); }
     bool truth(bool value) override { return scalar(value); }
-    /// What may be missing may have null.
+    /// Optional entries may be null.
     bool null() override { return (mayBeNull && !inList() && !ignores()) || scalar(std::monostate()); }
 
 private:

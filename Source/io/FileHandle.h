@@ -20,13 +20,13 @@ struct FileCloser
 /// An open stream, closed at the end of its life. To check for errors on closing, release it and close it manually.
 using FileHandle = std::unique_ptr<std::FILE, FileCloser>;
 
-/// The Error (code diskFull or io) behind an errno value: a plain sentence that says what to do.
+/// Returns the Error (code diskFull or io) for an errno value: a plain sentence with advice.
 [[nodiscard]] Error fileError(int errnoValue);
 
 /// fopen for paths of any alphabet; null and errno on failure. `mode` as in fopen; "x" fails when the file exists.
 [[nodiscard]] FileHandle openStream(const std::filesystem::path& path, const char* mode);
 
-/// Waits until what was written is on the disk, so that it outlives a power cut; whether it is, else errno.
+/// Waits until all written data is on the disk, so that it survives a power failure. Returns success, else errno.
 bool syncStream(std::FILE* file) noexcept;
 
 /// fseek and ftell with 64-bit offsets. seekStream returns whether it worked, tellStream -1 on failure.

@@ -33,7 +33,7 @@ public:
     FileLock(const FileLock&) = delete;
     FileLock& operator=(const FileLock&) = delete;
 
-    /// Tries to take `file`, without waiting; what was held before is released.
+    /// Tries to lock `file`, without waiting. Releases an earlier lock.
     [[nodiscard]] Outcome take(const std::filesystem::path& file, IfMissing ifMissing);
 
     void release() noexcept;

@@ -17,7 +17,7 @@ struct ClipNames
     std::string sound; ///< empty: the sound came from no file
 };
 
-/// What a clip calls its sound; nothing when that came from standard input.
+/// Returns the name of the source in a clip; empty for standard input.
 [[nodiscard]] std::string sourceNameOf(const std::filesystem::path& input);
 
 /// The names of the clip that is made of the sound file `input`.

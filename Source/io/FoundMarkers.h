@@ -28,8 +28,8 @@ struct FoundMarkers
 /// Adds all of `found` to `all`.
 void appendFound(FoundMarkers& all, FoundMarkers found);
 
-/// Adds what was found of a sound that begins at `offset` s of the file. What has the name and, within a millisecond,
-/// the time of a marker that is there already is the same one, and is left out.
+/// Adds the markers of a sound that begins at `offset` s of the file. A marker with the name and, within a millisecond,
+/// the time of an existing one is the same and is left out.
 void addMarkers(FoundMarkers& all, FoundMarkers found, double offset);
 
 } // namespace pacini

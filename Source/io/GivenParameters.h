@@ -27,7 +27,7 @@ struct GivenValue
 class GivenParameters
 {
 public:
-    /// Replaces what was given before.
+    /// Replaces the values given before.
     void set(const ParameterInfo& parameter, double value);
 
     [[nodiscard]] auto begin() const noexcept { return given.begin(); }
@@ -41,8 +41,8 @@ private:
     std::vector<GivenValue> given;
 };
 
-/// Takes those of `parameters` that the reader's current object has. Numbers, true or false, and names of choices are
-/// checked; what is wrong stands in the reader.
+/// Takes the values of `parameters` from the reader's current object. Checks numbers, booleans, and names of choices;
+/// errors are stored in the reader.
 void readParameters(FieldsReader& reader, std::span<const ParameterInfo* const> parameters, GivenParameters& given);
 
 /// The same into a struct that `table` describes.

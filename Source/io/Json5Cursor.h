@@ -114,7 +114,7 @@ public:
         }
     }
 
-    /// What follows a backslash.
+    /// Reads the rest of an escape sequence, after the backslash.
     bool escape(std::string& letters)
     {
         const std::size_t start = at;

@@ -25,7 +25,7 @@ public:
     [[nodiscard]] std::size_t passed() const noexcept { return next; }
     /// The last character passed is a NUL, which nlohmann's lexer takes for the end.
     [[nodiscard]] bool endedByNul() const noexcept { return next > 0 && text[next - 1] == '\0'; }
-    /// Whether what is still to come starts with `start`.
+    /// Whether the remaining text starts with `start`.
     [[nodiscard]] bool startsWith(std::string_view start) const { return text.substr(next).starts_with(start); }
 
     /// `line L, column C` of the character before `position`, counted from the start of the text; columns count

@@ -36,7 +36,7 @@ public:
     /// The object that passOn() gave to another handler is complete.
     virtual bool passedOn() { return true; }
 
-    /// Who gets the object that was just opened, if another.
+    /// Returns the handler of the object that was just opened, if it is another one.
     [[nodiscard]] JsonHandler* takeNext() noexcept { return std::exchange(next, nullptr); }
 
     /// Why stop() was called; its `where` still lacks the path of the value.
@@ -45,7 +45,7 @@ public:
     /// Where warnings go; null: nowhere, which takes no time.
     void setWarnings(ReadWarnings* collector) noexcept { warnings = collector; }
 
-    /// What there is to be said against the key that was given last, if anything.
+    /// Returns the objection to the last key, if any.
     [[nodiscard]] std::optional<std::string> takeDoubt() { return std::exchange(doubt, std::nullopt); }
 
 protected:
@@ -64,7 +64,7 @@ protected:
         return true;
     }
 
-    /// The last key is none of those that `known()` gives, and what it stands for is passed over.
+    /// Reports that the last key is not one of `known()`; its value is skipped.
     template <typename Known>
     void doubtKey(std::string_view name, Known known)
     {

@@ -20,7 +20,7 @@ struct MpegRun
     std::uint64_t samples = 0;                 ///< of each channel in all of them
     int sampleRate = 0;                        ///< Hz
     std::uint64_t countField = 0;              ///< where a Xing header counts the frames; 0: nowhere
-    std::optional<std::uint64_t> statedFrames; ///< what a header says
+    std::optional<std::uint64_t> statedFrames; ///< content of a header
     std::uint64_t skipped = 0;                 ///< bytes before `begin` that are no frames and no tags
     std::uint64_t rest = 0;                    ///< bytes of a frame behind `end` that is cut off
 };

@@ -15,8 +15,8 @@
 namespace pacini
 {
 
-/// How many characters must be put in, left out, replaced or swapped with their neighbour to make `b` of `a`, upper and
-/// lower case alike: the optimal string alignment distance (Damerau, Communications of the ACM 7(3), 1964).
+/// Returns the number of characters to insert, delete, replace or swap with their neighbour to turn `a` into `b`,
+/// ignoring case: the optimal string alignment distance (Damerau, Communications of the ACM 7(3), 1964).
 [[nodiscard]] inline std::size_t typingDistance(std::string_view a, std::string_view b)
 {
     const auto at = [](std::string_view text, std::size_t i)

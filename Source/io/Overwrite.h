@@ -22,7 +22,7 @@ namespace pacini
 /// Permission to replace an existing file by a result.
 enum class Replaceable
 {
-    own,   ///< what Pacini made from the same input
+    own,   ///< a file that Pacini made from the same input
     named, ///< the file that the user named, and was asked about where there is a window
     any,   ///< everything
 };
@@ -34,7 +34,7 @@ enum class Replaceable
 [[nodiscard]] Result<Existing> mayOverwrite(const std::filesystem::path& output, const FileOrigin& origin,
                                             Replaceable allowed);
 
-/// The same for a file of a format that has no room for its origin: what is there already must be the same `bytes`.
+/// The same for a file of a format without a place for its origin: the existing file must have the same `bytes`.
 [[nodiscard]] Result<Existing> mayOverwrite(const std::filesystem::path& output, std::string_view bytes,
                                             Replaceable allowed);
 

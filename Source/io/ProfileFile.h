@@ -14,7 +14,8 @@ namespace pacini
 /// `.acf`, must be converted first.
 [[nodiscard]] Result<Profile> readProfile(const std::filesystem::path& path, ReadWarnings* warnings = nullptr);
 
-/// Whether the file's content says that it is a profile, valid or not. False for what cannot be read or is no JSON.
+/// Whether the file's content claims to be a profile, valid or not. False for unreadable files and other content than
+/// JSON.
 [[nodiscard]] bool isProfile(const std::filesystem::path& path);
 
 /// Writes a profile and returns the size of the file in bytes. Errors: those of validate(), then nothing is written; io

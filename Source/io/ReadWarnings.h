@@ -19,7 +19,7 @@ public:
     ReadWarnings() = default;
     explicit ReadWarnings(bool beStrict) : strict(beStrict) {}
 
-    /// Whether what would be a warning is an error, at which the reader stops.
+    /// Whether warnings are errors, at which the reader stops.
     [[nodiscard]] bool isStrict() const noexcept { return strict; }
 
     /// Whether one more is kept; else count() is enough.
@@ -28,7 +28,7 @@ public:
     void add(std::string_view where, std::string_view message);
     void count() noexcept { ++notKept; }
 
-    /// Each as `plays[2].gian: is not known; did you mean "gain"?`, and how many there are besides.
+    /// Returns each warning as `plays[2].gian: is not known; did you mean "gain"?`, and the number of further ones.
     [[nodiscard]] std::vector<std::string> texts() const;
 
 private:
@@ -41,10 +41,10 @@ private:
 /// pen away; empty when there is none.
 [[nodiscard]] std::string_view nearestKey(std::string_view given, const std::vector<std::string_view>& known);
 
-/// Whether a key is meant for people or other programs: `$schema`, `_comment`, `//`. Nobody is warned of these.
+/// Whether a key is meant for people or other programs: `$schema`, `_comment`, `//`. Such keys cause no warnings.
 [[nodiscard]] bool isRemark(std::string_view key) noexcept;
 
-/// What is wrong with a key that is none of `known`, with the nearest one.
+/// Returns the warning for a key that is not one of `known`, with the nearest one.
 [[nodiscard]] std::string unknownKeyText(std::string_view given, const std::vector<std::string_view>& known);
 
 } // namespace pacini

@@ -152,13 +152,13 @@ inline constexpr auto variationFields = [](auto& variation, auto& visitor)
     visitSeed(variation.seed, visitor);
 };
 
-/// A variation of which only the amount is given.
+/// Reads a variation that is given by its amount only.
 inline constexpr auto takeAmount = [](auto& variation, JsonScalar& value)
 {
     return takeAny<double>(variation.amount, value);
 };
 
-/// What can change while a play plays. Of projects too.
+/// Parameters of a play that can change while it plays. For projects too.
 inline constexpr auto levelFields = [](auto& play, auto& visitor)
 {
     visitor.number("gain", play.gain, Need::usual);

@@ -32,7 +32,7 @@ struct Settings
 /// The method of this name, a2vt where it is empty. Errors: invalidArgument, with the nearest name.
 [[nodiscard]] Result<Method> chosenMethod(std::string_view name);
 
-/// Sets all that presets differ in to what the preset of this name has; values that are set later override it. Errors:
+/// Sets all values that presets set to those of the preset of this name; values that are set later override it. Errors:
 /// those of presetNamed().
 [[nodiscard]] Result<void> usePreset(Settings& settings, std::string_view name);
 
@@ -46,7 +46,7 @@ void readEncodeSettings(FieldsReader& reader, Settings& settings);
 /// Longer texts are refused.
 inline constexpr std::size_t largestSettingsText = 1'000'000;
 
-/// The entries of a document of settings; what is wrong stands in the reader.
+/// The entries of a settings document; errors are stored in the reader.
 void readSettingsFields(FieldsReader& reader, Settings& settings);
 
 /// Reads a document of settings; unknown keys are passed over with a warning each. Errors: those of FieldsReader, and
@@ -57,7 +57,7 @@ void readSettingsFields(FieldsReader& reader, Settings& settings);
 /// nothing else is chosen. readSettings() gives the same translation.
 [[nodiscard]] nlohmann::ordered_json settingsJson(const TranslationParams& translation, const MethodChoices& usual);
 
-/// All presets, each with what is not the default in it.
+/// Returns all presets, each with its values that are not defaults.
 [[nodiscard]] nlohmann::ordered_json presetsJson();
 
 /// Descriptions of all parameters of translations, each with its methods.

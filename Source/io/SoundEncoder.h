@@ -170,7 +170,7 @@ private:
         sealClip(clip);
     }
 
-    /// Sounds that are worth being read twice, so that what is found in them need not be kept.
+    /// Whether a sound is long enough to be read twice, so that its analysis need not be kept.
     [[nodiscard]] static bool isLong(const AudioReader& reader)
     {
         constexpr double seconds = 1200.0;

@@ -14,8 +14,8 @@
 namespace pacini
 {
 
-/// One part of a file as libsndfile reads it. It never sees the file's name, so content alone decides the format, and a
-/// failing disk can be told from a damaged file.
+/// One part of a file for libsndfile. It has no file name, so content alone determines the format, and a failing disk
+/// can be distinguished from a damaged file.
 struct SoundPartView
 {
     std::FILE* file = nullptr;

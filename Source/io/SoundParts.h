@@ -29,11 +29,11 @@ struct SoundPart
     std::optional<std::uint64_t> promisedBytes; ///< of audio, where a header is wrong about them
     std::uint64_t presentBytes = 0;             ///< of audio; 0 where it is not known
     bool isWhole = true;                        ///< fewer than promised are there, but nothing is missing
-    std::uint64_t leftOutBytes = 0;             ///< of what follows the sound and is not read
+    std::uint64_t leftOutBytes = 0;             ///< unread bytes after the sound
     std::uint64_t skippedBytes = 0;             ///< before it, that are no sound and no tag
 
-    std::optional<std::uint64_t> promisedFrames; ///< what a header says, where it may be wrong
-    std::optional<std::uint64_t> countedFrames;  ///< what is there
+    std::optional<std::uint64_t> promisedFrames; ///< length stated by a header, if it may be wrong
+    std::optional<std::uint64_t> countedFrames;  ///< actual length
     std::uint64_t firstTime = 0;                 ///< of an Ogg stream: the earliest and latest of its pages' times, in
     std::uint64_t lastTime = 0;                  ///< frames, those of Opus at 48 kHz
     std::uint64_t lostPages = 0;                 ///< of an Ogg stream, which counts them

@@ -19,7 +19,7 @@ public:
         total += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     }
 
-    /// Takes off what was measured inside of the work.
+    /// Subtracts the time of nested work.
     void leaveOut(const Stopwatch& inside) { total -= inside.total; }
 
     [[nodiscard]] double seconds() const { return total; }

@@ -31,15 +31,15 @@ private:
     Name* place = nullptr;
 };
 
-/// What the names of temporaries end with: `.pacini-XXXXXXXX.tmp`, from this computer's name and `number`.
+/// Returns the end of temporary names: `.pacini-XXXXXXXX.tmp`, from this computer's name and `number`.
 [[nodiscard]] std::string temporaryEnding(unsigned number);
 
 /// Marks an open temporary as in use until it is closed or the process ends, however that happens. False when it has
 /// been removed already.
 [[nodiscard]] bool keepTemporary(std::FILE* temporary) noexcept;
 
-/// Keeps the mark of a temporary for its life, also while the stream is closed: between that and the renaming, who
-/// looks for stale ones would take it for one. Nothing on Windows, where open files cannot be renamed.
+/// Keeps the mark of a temporary during its lifetime, also between closing the stream and renaming, so that a search
+/// for stale temporaries does not take it for one. Does nothing on Windows, where open files cannot be renamed.
 class TemporaryMark
 {
 public:

@@ -40,7 +40,8 @@ namespace pacini
     return true;
 }
 
-/// The UTF-8 of a text in Windows-1252, which holds ISO 8859-1 (Latin-1): what spreadsheets of western Europe save.
+/// Returns the UTF-8 of a text in Windows-1252, which contains ISO 8859-1 (Latin-1): the encoding of spreadsheets in
+/// western Europe.
 [[nodiscard]] inline std::string utf8OfWindows1252(std::string_view text)
 {
     // Its bytes 0x80 to 0x9F, as the WHATWG encoding standard has them.

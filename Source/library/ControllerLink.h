@@ -18,8 +18,8 @@
 namespace pacini::library
 {
 
-/// Plays until it is destroyed. When the controller does not take reports any more, the drive signals are pulled and
-/// not played: whoever waits for the end of a play does not wait for ever.
+/// Plays on a controller until it is destroyed. If the controller stops taking reports, the drive signals are still
+/// pulled but not sent, so that plays end as usual.
 class ControllerLink
 {
 public:
@@ -28,7 +28,7 @@ public:
         devices::ControllerModel model;
         std::size_t channels = 1;
         double sampleRate = 48000.0;
-        bool stopOnCrash = false; ///< installs handlers of signals: see devices::EmergencyStop
+        bool stopOnCrash = false; ///< installs signal handlers: see devices::EmergencyStop
     };
 
     /// Starts. [any, may wait]

@@ -69,7 +69,7 @@ class HandleTable
 public:
     explicit HandleTable(HandleKind kindOfAll, std::size_t most) : kind(kindOfAll), limit(most) {}
 
-    /// A handle for it; 0 when there are too many. Allocates.
+    /// Returns a new handle for the object; 0 if there are too many. Allocates.
     [[nodiscard]] std::uint64_t add(T object)
     {
         if (free.empty())
@@ -122,7 +122,7 @@ private:
     std::vector<std::uint32_t> free;
 };
 
-/// A few objects by handle that the audio thread finds without a lock, and that are not taken away while it uses them.
+/// A few objects by handle. The audio thread finds them without a lock, and they are not destroyed while it uses them.
 template <typename T, std::size_t Count>
 class SharedSlots
 {
@@ -177,7 +177,7 @@ public:
         return {static_cast<std::uint32_t>(Count), 0};
     }
 
-    /// Takes it away and waits until nobody uses it; null when it is not there. One thread at a time.
+    /// Removes the object and waits until nobody uses it; null if there is none. One thread at a time.
     [[nodiscard]] T* remove(std::uint32_t at, std::uint32_t generation) noexcept
     {
         if (at >= Count || generation % 2 == 0)

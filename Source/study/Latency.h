@@ -20,27 +20,27 @@ struct LatencyProbe
     double level = -12.0;     ///< dB re full scale, at most 0
 };
 
-/// Errors: invalidArgument with the name of what is outside its range.
+/// Errors: invalidArgument with the name of the value outside its range.
 [[nodiscard]] Result<void> validate(const LatencyProbe& probe);
 
-/// A second of what both outputs play, again and again: a burst of five periods with a raised-cosine envelope in its
-/// middle. Precondition: valid.
+/// Returns a second of the signal that both outputs repeat: a burst of five periods with a raised-cosine envelope in
+/// its middle. Precondition: valid.
 [[nodiscard]] std::vector<float> latencyBurst(const LatencyProbe& probe);
 
-/// How much later the touch comes. A burst comes when most of its energy does: an actuator that starts slowly counts
-/// with its slowness, as it does for whoever wears it.
+/// Delay of the touch against the sound. A burst arrives when most of its energy has arrived, so the slow start of an
+/// actuator is included, as for its wearer.
 struct Latency
 {
     double delay = 0.0;                        ///< s, median; negative: the touch comes first
     double deviation = 0.0;                    ///< s, standard deviation of the single ones
     double largest = 0.0;                      ///< s, of a single one from the median
     double drift = 0.0;                        ///< s in an hour: two clocks that run apart
-    int bursts = 0;                            ///< that came back on both
-    int missed = 0;                            ///< that came back on one alone
+    int bursts = 0;                            ///< received on both inputs
+    int missed = 0;                            ///< received on one input only
     double soundLevel = 0.0, touchLevel = 0.0; ///< dB re full scale, of the bursts (median)
 };
 
-/// Hears the bursts in two recorded channels, of any length in constant memory but 24 kB for each second.
+/// Detects the bursts in two recorded channels of any length, in constant memory except for 24 kB per second.
 class LatencyMeter
 {
 public:

@@ -20,24 +20,24 @@ struct Trial
     std::vector<std::size_t> stimuli;
     int right = -1;        ///< index of the right choice, -1 where there is none
     bool training = false; ///< does not count
-    bool adaptive = false; ///< the interval `right` has the value that the staircase of its stimulus asks for
+    bool adaptive = false; ///< the interval `right` has the value that the staircase of its stimulus requests
     bool afterBreak = false;
 };
 
-/// The group of the participant in a slot from 0 on: every run of as many slots as the study has participants fills all
-/// groups, in an order of its own.
+/// Returns the group of the participant in a slot from 0 on. Each run of as many slots as the study has participants
+/// fills all groups, in a random order.
 [[nodiscard]] std::size_t groupOfSlot(const Study& study, std::size_t slot);
 
 /// Which row of a Latin square the slot gets: its number within its group.
 [[nodiscard]] std::size_t rowOfSlot(const Study& study, std::size_t slot);
 
-/// Row `row` of a square of `count` in which each comes once at each place and, over 2 * count rows (count, of an even
-/// one), equally often after each other (E. J. Williams, "Experimental designs balanced for the estimation of residual
-/// effects of treatments", 1949).
+/// Returns row `row` of a square of `count` elements. Each element comes once at each place and, over 2 * count rows
+/// (count rows if it is even), equally often after each other (E. J. Williams, "Experimental designs balanced for the
+/// estimation of residual effects of treatments", 1949).
 [[nodiscard]] std::vector<std::size_t> williamsRow(std::size_t count, std::size_t row);
 
-/// The trials of a block for the participant in `slot`. Of a staircase as many as it may take at most, its stimuli by
-/// turns; who runs it leaves out those of a stimulus that is done.
+/// Returns the trials of a block for the participant in `slot`. A staircase has its maximum number of trials, its
+/// stimuli by turns; the caller leaves out those of a finished stimulus.
 [[nodiscard]] std::vector<Trial> trialsOf(const Study& study, std::size_t block, std::size_t slot);
 
 /// A seed that differs for each participant, block and purpose.

@@ -31,12 +31,12 @@ struct GroupRatings
 struct GroupComparison
 {
     std::string first, second;
-    bool combined = false; ///< one of them is a union, whose tests repeat what its groups have shown
-    std::optional<TTest> byParticipant, byParticipantWelch; ///< of a mean for each participant: people are the sample
+    bool combined = false; ///< one of them is a union, whose tests repeat those of its groups
+    std::optional<TTest> byParticipant, byParticipantWelch; ///< by one mean for each participant
     std::optional<MannWhitney> byParticipantRanks;
     double effect = 0.0;             ///< Hedges' g of the participants' means
     double holm = 1.0;               ///< of byParticipant, over the comparisons that are shown
-    std::optional<TTest> byStimulus; ///< of a mean for each stimulus: what holds for more stimuli of their kind
+    std::optional<TTest> byStimulus; ///< by one mean for each stimulus: valid for more stimuli of their kind
     bool stimuliArePaired = false;   ///< byStimulus is of the differences: both groups have rated the same stimuli
     double byStimulusEqualVarianceP = 1.0; ///< where they are not paired
     struct OfStimulus
@@ -50,7 +50,7 @@ struct GroupComparison
     std::vector<OfStimulus> stimuli;
 };
 
-/// Two stimuli, by the people who have rated both.
+/// Comparison of two stimuli, over the people who rated both.
 struct StimulusComparison
 {
     std::size_t first = 0, second = 0;
@@ -67,7 +67,7 @@ enum class AnswerKind
     places
 };
 
-/// Groups that are put together, such as {"A", "B"}.
+/// A union of groups, such as {"A", "B"}.
 using GroupUnion = std::vector<std::string>;
 
 struct RatingAnalysisParams
@@ -91,11 +91,11 @@ struct RatingAnalysis
     std::vector<StimulusComparison> pairs; ///< of stimuli, over everybody; none of more than mostPairedStimuli
     IntraclassCorrelation agreement;       ///< of all participants who have rated everything
     Friedman order;
-    std::vector<std::string> doubts; ///< sentences about the sample: what is missing, and who may be one person
+    std::vector<std::string> doubts; ///< sentences about missing data and participants who may be one person
 };
 
-/// Of ratings of one block. A participant who has rated a stimulus several times counts once, with the mean.
-/// Participants are those of a group: the same name in two groups is two people, which `doubts` says.
+/// Analyses the ratings of one block. A participant who rated a stimulus several times counts once, with the mean.
+/// Participants belong to a group: the same name in two groups is two people, which `doubts` reports.
 [[nodiscard]] RatingAnalysis analyseRatings(const std::vector<Rating>& ratings,
                                             const RatingAnalysisParams& params = {});
 

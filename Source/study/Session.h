@@ -21,7 +21,7 @@ namespace pacini::study
 struct SessionStart
 {
     std::string language = "en";
-    std::string consent; ///< text that was agreed to
+    std::string consent; ///< text of the consent
     std::string program;
 };
 
@@ -34,28 +34,28 @@ public:
     [[nodiscard]] static Result<std::unique_ptr<Session>> begin(const Study& study, const std::filesystem::path& folder,
                                                                 const SessionStart& start);
 
-    /// Goes on where the session in a log was. Errors: those of readSession(); invalidArgument where the study has
-    /// changed since; io.
+    /// Continues the session in a log. Errors: those of readSession(); invalidArgument if the study has changed since;
+    /// io.
     [[nodiscard]] static Result<std::unique_ptr<Session>> resume(const Study& study, const std::filesystem::path& log);
 
-    /// The trial that waits for an answer; null when all are done.
+    /// The trial that waits for an answer; null after the last one.
     [[nodiscard]] const Trial* trial() const noexcept;
 
-    /// What the adaptive trial's staircase asks for, in the unit of its variable; nothing for other trials.
+    /// The value that the adaptive trial's staircase requests, in the unit of its variable; none for other trials.
     [[nodiscard]] std::optional<double> level() const;
 
-    /// Keeps the answer on the disk, then goes on to the next trial; the same again where something dropped out, three
-    /// times at most. Whether the choice was right, where one can be. Errors: those of SessionLog, then nothing has
-    /// changed.
+    /// Stores the answer on the disk, then moves to the next trial; after a drop-out it repeats the trial, at most
+    /// three times. Returns whether the choice was right, if there is a right one. Errors: those of SessionLog; the
+    /// session is then unchanged.
     [[nodiscard]] Result<std::optional<bool>> answer(const Answer& answer);
 
-    /// Something else worth keeping, such as "stopped".
+    /// Stores another occurrence, such as "stopped".
     [[nodiscard]] Result<void> note(std::string_view event, double exposure = 0.0);
 
     [[nodiscard]] const SessionHead& head() const noexcept { return first; }
     [[nodiscard]] const std::filesystem::path& path() const noexcept { return file; }
 
-    /// Answers so far and, as far as can be told, in all.
+    /// Number of answers so far and, if known, in total.
     [[nodiscard]] std::size_t answered() const noexcept { return count; }
     [[nodiscard]] std::size_t planned() const noexcept { return trials.size(); }
 
@@ -87,10 +87,10 @@ private:
 /// The logs in `folder/sessions`, by name.
 [[nodiscard]] std::vector<std::filesystem::path> sessionLogs(const std::filesystem::path& folder);
 
-/// The stimulus of an adaptive or comparing trial that is held against the reference.
+/// Returns the stimulus of an adaptive or comparing trial that is compared with the reference.
 [[nodiscard]] std::size_t testedStimulus(const Trial& trial);
 
-/// SHA-256 of a study, by which its sessions know it.
+/// Returns the SHA-256 of a study, by which its sessions identify it.
 [[nodiscard]] std::string hashOf(const Study& study);
 
 } // namespace pacini::study

@@ -33,7 +33,7 @@ struct SessionHead
     std::string group;
     std::string language;
     std::string started; ///< UTC, ISO 8601
-    std::string consent; ///< the text that was agreed to; empty: none was asked
+    std::string consent; ///< the text of the consent; empty: not requested
     std::string program; ///< name and version
 };
 
@@ -47,7 +47,7 @@ struct Answer
     double seconds = 0.0; ///< from the end of the presentation to the answer
     int replays = 0;
     std::optional<double> soundOnset, touchOnset; ///< s of the device's clock
-    int dropouts = 0;                             ///< of the device while something played; such a trial is repeated
+    int dropouts = 0;                             ///< drop-outs of the device during playback; the trial is repeated
 };
 
 /// A line of a log: an answer with its trial.
@@ -71,12 +71,12 @@ struct LoggedSession
     std::vector<Record> records;
     bool finished = false;
     double exposure = 0.0;           ///< m2/s4 s: weighted acceleration, squared, over time
-    std::vector<std::string> events; ///< what else happened, such as "stopped"
-    std::uint64_t goodBytes = 0;     ///< of whole lines; what follows was being written when the program ended
+    std::vector<std::string> events; ///< other occurrences, such as "stopped"
+    std::uint64_t goodBytes = 0;     ///< of whole lines; an incomplete last line does not count
 };
 
-/// Reads the text of a log. A last line that is not whole is left out. Errors: invalidData at `line 3` for what is no
-/// log, unsupportedVersion.
+/// Reads the text of a log. An incomplete last line is left out. Errors: invalidData at `line 3` for other content,
+/// unsupportedVersion.
 [[nodiscard]] Result<LoggedSession> sessionOfText(std::string_view text);
 
 /// Reads the log in a file. Errors also as in readWholeFile.
@@ -90,12 +90,12 @@ public:
     /// Begins a log, whose file must not exist. Errors: io, diskFull.
     [[nodiscard]] static Result<SessionLog> create(const std::filesystem::path& path, const SessionHead& head);
 
-    /// Goes on with one that readSession() has read. Errors: io, also when another program has it open.
+    /// Continues a log that readSession() has read. Errors: io, also if another program has it open.
     [[nodiscard]] static Result<SessionLog> resume(const std::filesystem::path& path, std::uint64_t goodBytes);
 
     [[nodiscard]] Result<void> add(const Record& record);
 
-    /// `exposure` is what came about since the last call, m2/s4 s.
+    /// `exposure` is the exposure since the last call, m2/s4 s.
     [[nodiscard]] Result<void> addEvent(std::string_view name, double exposure = 0.0);
     [[nodiscard]] Result<void> finish();
 

@@ -23,8 +23,8 @@ struct StimulusParams
 {
     int sampleRate = 48000;         ///< Hz, of the device
     std::optional<Profile> profile; ///< of the actuator; without it full drive is the one limit
-    std::filesystem::path folder;   ///< that the study's files count from
-    double touchLatency = 0.0; ///< s by which the set-up plays the touch later than the sound: trials make up for it
+    std::filesystem::path folder;   ///< base folder of the study's files
+    double touchLatency = 0.0;      ///< delay of the touch against the sound in the set-up, s; trials compensate for it
 };
 
 /// A stimulus on the device's clock.
@@ -48,8 +48,8 @@ class StimulusMaker
 public:
     StimulusMaker(const Study& study, StimulusParams params) : whole(study), settings(std::move(params)) {}
 
-    /// Sound and touch of a stimulus as it is, or varied. A delay is left to the trial. Errors: those of reading and of
-    /// translating its files, with the stimulus in front.
+    /// Returns sound and touch of a stimulus, unchanged or varied. A delay is left to the trial. Errors: those of
+    /// reading and translating its files, with the stimulus as prefix.
     [[nodiscard]] Result<PreparedStimulus> make(std::size_t stimulus, const std::optional<Variation>& variation = {});
 
     [[nodiscard]] const Study& study() const noexcept { return whole; }
@@ -68,12 +68,11 @@ private:
     std::map<std::size_t, PreparedStimulus> kept;
 };
 
-/// `samples` of a drive signal as the actuator may get them: within full drive and the limits of the profile, not
-/// equalised. In place.
+/// Limits `samples` of a drive signal to full drive and the limits of the profile, without equalising. In place.
 void protectDrive(std::vector<float>& samples, const std::optional<Profile>& profile, int sampleRate);
 
-/// The acceleration that is felt of a drive signal, m/s2. Of a profile without a body, or none, it is taken to be
-/// `assumedAcceleration` at full drive, more than wristbands reach.
+/// Returns the felt acceleration of a drive signal, m/s2. Without a body model, `assumedAcceleration` at full drive is
+/// assumed, more than wristbands reach.
 [[nodiscard]] std::vector<float> feltOf(const std::vector<float>& drive, const std::optional<Profile>& profile,
                                         int sampleRate);
 inline constexpr double assumedAcceleration = 50.0;

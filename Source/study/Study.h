@@ -29,7 +29,7 @@ enum class Task
     staircase,     ///< the same, with differences that follow the answers
     multiStimulus, ///< MUSHRA: several at once on a scale, with hidden reference and anchors
     ranking,       ///< all in order
-    similarity,    ///< how alike two are, on a scale
+    similarity,    ///< similarity of two, on a scale
     sorting        ///< into as many heaps as there are kinds
 };
 
@@ -44,8 +44,8 @@ enum class Presentation
 
 enum class Order
 {
-    random,      ///< of its own for each participant, by the seed
-    latinSquare, ///< balanced for what comes before (Williams 1949)
+    random,      ///< a random order for each participant, by the seed
+    latinSquare, ///< balanced for carry-over (Williams 1949)
     fixed        ///< as listed
 };
 
@@ -73,7 +73,7 @@ struct Stimulus
     std::optional<double> bands, breakpoints, bits; ///< of translation by a2vt
     double soundLevel = 0.0;                        ///< dB
     double touchLevel = 0.0;                        ///< dB
-    /// Where one of these is given, the peak of the touch is there, and touchLevel (not the study's) counts from it.
+    /// If one of these is given, it sets the peak of the touch, and touchLevel (not the study's) is relative to it.
     std::optional<double> sensationLevel; ///< dB above the weakest drive that is felt, by the actuator's profile
     std::optional<double> acceleration;   ///< m/s2 that are felt, by the actuator's profile
     bool operator==(const Stimulus&) const = default;
@@ -115,8 +115,8 @@ enum class Procedure
     questPlus ///< Bayesian, the most informative value next (Watson 2017)
 };
 
-/// Staircase that finds a threshold of its variable. Steps are in dB: of the level, or 20 log10 of what the variable
-/// counts in.
+/// Staircase that finds a threshold of its variable. Steps are in dB: of the level, or 20 log10 of the value of another
+/// variable.
 struct Adaptive
 {
     Procedure procedure = Procedure::questPlus;
@@ -132,8 +132,8 @@ struct Adaptive
     bool operator==(const Adaptive&) const = default;
 };
 
-/// What a value of the variable is on the scale on which a larger strength is easier: dB of level, or 20 log10 of the
-/// value, negated where smaller ones are easier.
+/// Returns the strength, dB, of a value of the variable: larger strengths are easier. It is the level, or 20 log10 of
+/// the value, negated if smaller values are easier.
 [[nodiscard]] double strengthOf(Variable variable, double value) noexcept;
 
 /// The value of that strength.
@@ -146,10 +146,10 @@ struct Block
     Task task = Task::rating;
     Presentation presentation = Presentation::simultaneous;
     Order order = Order::random;
-    std::vector<std::string> groups;   ///< who does it; none: everybody
+    std::vector<std::string> groups;   ///< groups that do this block; none: all
     std::vector<std::string> stimuli;  ///< none: all
     std::vector<std::string> training; ///< first, without counting
-    std::string reference; ///< of abx, forcedChoice, staircase and multiStimulus: what others are held against
+    std::string reference;            ///< of abx, forcedChoice, staircase and multiStimulus: the stimulus of comparison
     std::vector<std::string> anchors; ///< of multiStimulus
     Text question;
     RatingScale scale;
@@ -158,7 +158,7 @@ struct Block
     int repeats = 1;       ///< how often each stimulus comes
     int replays = -1;      ///< how often one may be played again; -1: any number
     double delay = 0.0;    ///< s of touch after sound, negative: before
-    double pause = 0.5;    ///< s between what comes one after the other
+    double pause = 0.5;    ///< pause between consecutive presentations, s
     bool masking = false;  ///< noise on the headphones while something is felt alone
     int breakAfter = 0;    ///< trials; 0: none
     bool feedback = false; ///< whether an answer was right

@@ -13,7 +13,7 @@ namespace pacini::study
 
 struct Finding
 {
-    bool spoils = false; ///< the study cannot be run so; otherwise something to think about
+    bool spoils = false; ///< the study cannot run; otherwise advice
     std::string where;   ///< such as `blocks[1]`
     std::string message;
 };
@@ -31,16 +31,16 @@ struct StudyCheck
 {
     std::vector<Finding> findings;
     std::vector<GroupLoad> loads;
-    bool exposureIsAssumed = false; ///< the profile does not tell what is felt
+    bool exposureIsAssumed = false; ///< the profile has no body model
 };
 
-/// Makes all stimuli and looks for what is missing, too long, too much, uneven, or cannot be told apart.
-/// `progress(share)` is called now and then.
+/// Makes all stimuli and checks the study for missing, too long, excessive, uneven and indistinguishable content.
+/// `progress(share)` is called repeatedly.
 [[nodiscard]] StudyCheck checkStudy(const Study& study, const StimulusParams& params,
                                     const std::function<void(double)>& progress);
 
-/// Energy of the difference of two signals in dB re the mean of theirs; what is longer counts against silence.
-/// -infinity for equal ones.
+/// Returns the energy of the difference of two signals in dB re the mean of theirs; the excess of a longer one is
+/// compared with silence. -infinity for equal ones.
 [[nodiscard]] double differenceDecibels(const std::vector<float>& a, const std::vector<float>& b);
 
 } // namespace pacini::study

@@ -19,8 +19,8 @@ inline constexpr std::string_view studyFormatName = "pacini.study";
 inline constexpr int studyFormatVersion = 1;
 inline constexpr std::size_t largestStudyText = 16'000'000; // bytes
 
-/// Whether a study can be run: ranges, names that are unique and lead somewhere, tasks that have what they need. Files
-/// are not looked at. Errors: invalidArgument at a place such as `blocks[1].stimuli[0]`.
+/// Checks that a study can run: ranges, unique names and valid references, complete tasks. Does not read files. Errors:
+/// invalidArgument at a place such as `blocks[1].stimuli[0]`.
 [[nodiscard]] Result<void> validate(const Study& study);
 
 /// Reads a study that validate() takes. Keys that are not known go to `warnings`. Errors: invalidData,

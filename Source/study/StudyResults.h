@@ -66,11 +66,11 @@ struct StudyResults
 /// The name of a study's file in its folder.
 inline constexpr const char* studyFileName = "study.json";
 
-/// The file of a study that was named by its folder or by itself.
+/// Returns the file of a study, given by its folder or its file.
 [[nodiscard]] std::filesystem::path studyFileOf(const std::filesystem::path& named);
 
-/// Reads a study, named by its folder or file, and the sessions beside it. What was training or dropped out does not
-/// count. Errors: those of readStudy(); io where there is no session.
+/// Reads a study, given by its folder or file, and its sessions. Training and trials with drop-outs do not count.
+/// Errors: those of readStudy(); io if there is no session.
 [[nodiscard]] Result<StudyResults> readResults(const std::filesystem::path& named);
 
 /// The study with the paths of its files from another folder.

@@ -63,7 +63,7 @@ public:
     PlayRefusal tryOut(std::size_t stimulus);
     void stop() { player.stop(); }
 
-    /// To be called often: whether something is played, and of which part (interval).
+    /// State of playback: whether something plays, and its part (interval). Call poll() often.
     struct Playing
     {
         bool now = false;

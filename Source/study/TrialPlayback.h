@@ -29,10 +29,10 @@ struct PlaybackReport
 class TrialPlayback
 {
 public:
-    /// Before the device starts: its clock begins anew.
+    /// Prepares for the start of the device; its clock starts at 0.
     void prepare(double sampleRate) noexcept;
 
-    /// Starts a trial at the next block. What still plays is cut off.
+    /// Starts a trial at the next block and stops the present one.
     void play(TrialSound trial);
 
     /// Fades out within 5 ms.
@@ -40,7 +40,7 @@ public:
 
     [[nodiscard]] PlaybackReport report() const noexcept;
 
-    /// Fills what both ears and the actuator get in this block; all of the same length, and not null. [audio]
+    /// Fills the block for both ears and the actuator; all of the same length, and not null. [audio]
     void process(std::span<float> left, std::span<float> right, std::span<float> touch) noexcept;
 
     /// Something dropped out: the device reported it, or stopped. [audio]

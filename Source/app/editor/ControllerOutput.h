@@ -26,7 +26,7 @@ public:
     ControllerOutput(const editor::EditorModel& project, const editor::ClipSelection& selected,
                      const editor::Transport& playing);
 
-    /// What is connected now. Errors as in connectedControllers().
+    /// Returns the connected controllers. Errors as in connectedControllers().
     [[nodiscard]] static Result<std::vector<devices::Controller>> connected()
     {
         return devices::connectedControllers();
@@ -37,7 +37,7 @@ public:
     Result<void> choose(const std::optional<devices::Controller>& wanted);
     [[nodiscard]] const std::optional<devices::Controller>& chosen() const noexcept { return controller; }
 
-    /// Whether the chosen one has nothing by which it could play more than events.
+    /// Whether the chosen controller can play only events.
     [[nodiscard]] bool playsOnlyEvents() const noexcept
     {
         return controller && model.haptics == devices::ControllerHaptics::waveforms && !model.trigger.lasts();
@@ -55,7 +55,7 @@ private:
     std::optional<devices::Controller> controller;
     devices::ControllerModel model; ///< of the controller
     juce::uint32 restartAt = 0;     ///< ms, 0: no restart is due
-    bool loops = false;             ///< what plays comes back to the start of the loop by itself
+    bool loops = false;             ///< playback returns to the start of the loop by itself
     double lastPlayhead = 0.0;
     std::unique_ptr<devices::OpenController> target;
     std::unique_ptr<devices::SteadyClock> clock;

@@ -20,7 +20,7 @@ namespace pacini::app
 class EditorWindow final : public juce::DocumentWindow
 {
 public:
-    /// `around` without what the window itself has: a way out, devices, a rig for measuring.
+    /// `around` without the parts that the window provides: a way to quit, devices, a measuring rig.
     EditorWindow(editor::Session& session, PreviewDevices& rig, editor::HostServices around);
     ~EditorWindow() override;
 

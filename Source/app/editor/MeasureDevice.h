@@ -20,8 +20,8 @@ namespace pacini::app
 class MeasureDevice final : public MeasureRig, private juce::AudioIODeviceCallback
 {
 public:
-    /// `wanted` outlives this, and `hapticOutputs`, the first of which is expected to have the actuator; null: nobody
-    /// knows.
+    /// `wanted` and `hapticOutputs` outlive this. The actuator is expected on the first of `hapticOutputs`; null:
+    /// unknown.
     explicit MeasureDevice(juce::AudioDeviceManager& wanted, const editor::HapticOutputs* hapticOutputs = nullptr);
     ~MeasureDevice() override;
 

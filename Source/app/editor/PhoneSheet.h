@@ -25,7 +25,7 @@ private:
     void timerCallback() override;
     void paintOverChildren(juce::Graphics& g) override;
     void refresh();
-    /// What to say of phones that were refused since the last call; empty: none was.
+    /// Returns a message about phones that were refused since the last call; empty if none was.
     [[nodiscard]] juce::String newRefusal(const phone::PhoneServer& server);
 
     PhoneOutput& output;

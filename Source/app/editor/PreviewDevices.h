@@ -31,7 +31,7 @@ public:
     ~PreviewDevices() override;
 
     std::function<void()> onLost;  ///< the device has gone, or the user has chosen none
-    std::function<void()> onFound; ///< it has come back, or another one
+    std::function<void()> onFound; ///< the device has returned, or another one was opened
     [[nodiscard]] bool isLookingForDevice() const noexcept { return !there && !chosenNone; }
 
     /// Opens a device; an error text, empty when all is well. [message]
@@ -87,7 +87,7 @@ private:
     bool chosenNone = false;                              ///< by the user: nothing is looked for
     juce::AudioDeviceManager::AudioDeviceSetup lastSetup; ///< of the device that ran
     juce::String lastType;
-    std::unique_ptr<juce::XmlElement> savedState; ///< what open() was called with
+    std::unique_ptr<juce::XmlElement> savedState; ///< passed to open()
     juce::String wantedType;
     juce::uint32 lastSearch = 0, searchInterval = 0, lastSilence = 0; ///< ms
     editor::Subscriptions subscriptions;

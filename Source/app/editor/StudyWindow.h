@@ -46,7 +46,7 @@ private:
     std::unique_ptr<editor::StudyPage> content;
     std::unique_ptr<Monitor> monitor; ///< null while it is not shown
     std::function<void()> closed;
-    std::mutex mutex; ///< of what waits
+    std::mutex mutex; ///< guards waiting items
     std::vector<editor::Control> waiting;
     std::unique_ptr<JoystickReader> joysticks;
 };

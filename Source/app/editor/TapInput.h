@@ -39,7 +39,7 @@ private:
 
     editor::Tapping& tapping;
     const editor::Transport& transport;
-    std::mutex mutex; ///< of what waits
+    std::mutex mutex; ///< guards waiting items
     std::vector<double> waiting;
     std::vector<std::unique_ptr<juce::MidiInput>> inputs;
     std::unique_ptr<JoystickReader> joysticks;

@@ -24,7 +24,7 @@ struct BenchFigure
     std::string title;
     std::string series;
     std::string x, y;        ///< columns
-    std::string label;       ///< column that tells the points of a line apart
+    std::string label;       ///< column that distinguishes the points of a line
     std::string filter = {}; ///< column, may be empty
     std::string value = {};  ///< only rows with this text in that column
     bool joined = true;      ///< points of a line are joined

@@ -37,7 +37,7 @@ struct BenchSound
     [[nodiscard]] std::span<const float> beginning(double seconds) const;
 };
 
-/// Reads a sound, and what `onsets.json` and `onsets_ambiguous.json` in its folder say of it: objects whose keys are
+/// Reads a sound and its entries in `onsets.json` and `onsets_ambiguous.json` of its folder: objects whose keys are
 /// file names and whose values are lists of seconds. Errors: those of readAudio; invalidData for a sound without frames
 /// and for an onsets.json that is not such an object.
 [[nodiscard]] Result<BenchSound> readBenchSound(const std::filesystem::path& path);

@@ -36,7 +36,7 @@ struct BenchColumn
     bool printed = true;          ///< false: only in CSV and JSON
 };
 
-/// A sum that only CSV and JSON show: what ratios are made of.
+/// A sum that only CSV and JSON show, as a basis of ratios.
 [[nodiscard]] inline BenchColumn summed(std::string name, std::string unit = {})
 {
     return {std::move(name), std::move(unit), Reduction::sum, {}, {}, 1.0, false};

@@ -47,7 +47,7 @@ struct AnalysedRecordings
     PlacementAverage average; ///< of their responses
 };
 
-/// Analyses all recordings. Warnings and errors have gone to the console when nothing comes back.
+/// Analyses all recordings. Prints warnings and errors on the console; returns none after an error.
 [[nodiscard]] std::optional<AnalysedRecordings> analyseRecordings(Console& console, const RecordingOptions& options);
 
 } // namespace pacini::cli

@@ -32,8 +32,8 @@ struct Axis
     std::vector<Tick> fixedTicks; ///< instead of those of the scale, where not empty
 };
 
-/// Where `value` lies: 0 at the low end, 1 at the high end, beyond them outside that. On a logarithmic scale what has
-/// no logarithm lies far below 0.
+/// Returns the place of `value` on the axis: 0 at the low end, 1 at the high end, outside of 0 to 1 beyond them. On a
+/// logarithmic scale, values without a logarithm lie well below 0.
 [[nodiscard]] double positionOn(const Axis& axis, double value) noexcept;
 
 /// The ticks between the ends of the axis in rising order, at most `most` (1 or more) of them labelled.

@@ -61,8 +61,8 @@ public:
     /// Pixels from the start of the text to its end.
     [[nodiscard]] virtual double textWidth(std::string_view what, const TextStyle& style) const = 0;
 
-    /// What follows until endGroup() belongs together and is cut off at the edge of `clip`, where one is given. Formats
-    /// that can keep the name. Groups may contain groups.
+    /// Starts a group, up to endGroup(), clipped to `clip` if given. Formats that support it keep the name. Groups may
+    /// contain groups.
     virtual void beginGroup(std::string_view name, const std::optional<Rectangle>& clip = {}) = 0;
     virtual void endGroup() = 0;
 
@@ -70,7 +70,7 @@ public:
     [[nodiscard]] virtual Result<std::string> finish() = 0;
 };
 
-/// `text` as it can be shown and stored: what is not UTF-8 and control characters become U+FFFD.
+/// Returns `text` in a form that can be shown and stored: invalid UTF-8 and control characters become U+FFFD.
 [[nodiscard]] std::string printable(std::string_view text);
 
 /// `text`, or as much of its start as fits into `width` pixels with an ellipsis.

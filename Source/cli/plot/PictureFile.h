@@ -29,8 +29,8 @@ struct PictureSize
 /// The format that the extension of `path` names (.png, .svg, .pdf in any case).
 [[nodiscard]] std::optional<PictureFormat> pictureFormatOf(const std::filesystem::path& path);
 
-/// Calls `draw`, then puts the picture at `path`, complete or not at all; returns its size in bytes. Errors:
-/// invalidArgument for another extension, tooLarge, io as in AtomicFile and when what is there is not to be replaced.
+/// Calls `draw`, then writes the picture to `path`, completely or not at all; returns its size in bytes. Errors:
+/// invalidArgument for another extension, tooLarge, io as in AtomicFile and if an existing file must not be replaced.
 [[nodiscard]] Result<std::size_t> writePicture(const std::filesystem::path& path, PictureSize size,
                                                const std::string& title, const std::function<void(Canvas&)>& draw,
                                                Replaceable replaceable = Replaceable::named);

@@ -12,7 +12,7 @@
 namespace pacini::cli
 {
 
-/// A study and where it lies.
+/// A study and its folder.
 struct OpenedStudy
 {
     study::Study study;

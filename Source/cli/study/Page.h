@@ -51,7 +51,7 @@ struct Page
 /// With pictures as files beside it.
 [[nodiscard]] std::string markdownOf(const Page& page);
 
-/// `text` (HTML, Markdown or SVG) with a comment below by which isAsWritten() knows it.
+/// Returns `text` (HTML, Markdown or SVG) with a comment by which isAsWritten() recognises it.
 [[nodiscard]] std::string stamped(std::string text);
 
 /// Whether a file was written by Pacini and not changed since.

@@ -25,14 +25,14 @@ enum class LossKind
     bands,     ///< bands became fewer
     points,    ///< breakpoints were left out
     length,    ///< the clip is longer or shorter than the format plays
-    frequency, ///< a frequency lies outside of what the format can say
+    frequency, ///< a frequency is outside the format's range
     timeStep,  ///< times were moved to the format's grid
-    amplitude, ///< an amplitude lies outside of what the format can say
-    crowding,  ///< events are nearer to each other than the format plays
-    event,     ///< an event or a property of it cannot be said
-    noise,     ///< residual noise cannot be said
-    empty,     ///< nothing is left here
-    text,      ///< names, markers or sources cannot be said
+    amplitude, ///< an amplitude is outside the format's range
+    crowding,  ///< events are closer than the format allows
+    event,     ///< the format cannot represent an event or a property of it
+    noise,     ///< the format cannot represent residual noise
+    empty,     ///< the result is silent here
+    text,      ///< the format cannot represent names, markers or sources
     transient  ///< an event is none of the format's transients; one loss for each
 };
 
@@ -45,14 +45,14 @@ struct FormatLoss
     double error = 0.0;    ///< largest error of the amplitude there (1 = full drive), of the frequency in octaves for
                            ///< `frequency`, of the time in s for `timeStep` and `length`; the event's amplitude for
                            ///< `transient`
-    std::string message;   ///< what happens, for people
+    std::string message;   ///< the change, in words
     bool operator==(const FormatLoss&) const = default;
 };
 
 struct ImportedClip
 {
     Clip clip;
-    std::vector<std::string> warnings; ///< what was let pass, with the place first
+    std::vector<std::string> warnings; ///< tolerated problems, with the place first
 };
 
 /// One file that a format needs; most need one.
@@ -75,7 +75,7 @@ enum class EventExport
     merged      ///< events that the voice reaches by itself are left to it
 };
 
-/// What formats with such a choice do unless something else is asked for; HJIF has an own (hjifEvents).
+/// The default of formats with this choice; HJIF has its own (hjifEvents).
 inline constexpr EventExport usualEvents = EventExport::transients;
 
 /// Limits of a device for envelopes of control points; the defaults suit every Android device.
@@ -92,10 +92,10 @@ struct ExportParams
     std::string name;                       ///< of the clip, for formats that carry one; empty: the clip's own
     std::optional<double> amplitudePoints;  ///< per second; none: what the format is used with
     std::optional<double> frequencyPoints;  ///< per second; likewise
-    std::optional<Profile> profile;         ///< where a format leaves open what its frequencies mean, and for rendering
+    std::optional<Profile> profile;         ///< for formats that do not define their frequencies, and for rendering
     std::optional<int> sampleRate;          ///< Hz, of formats that are samples
-    bool split = false;                     ///< formats that can be one file or several: several
-    bool quick = false;                     ///< formats whose best file is searched for: one that is mostly good
+    bool split = false;                     ///< write several files, in formats that allow one or several
+    bool quick = false;                     ///< skip the search for the best file; the result is usually good
     std::optional<EventExport> events;      ///< none: as usual for the format, see ClipFormat::events
     std::optional<EnvelopeLimits> envelope; ///< none: as usual for the format
     double strength = standardStrength;     ///< of drive signals for `profile`, 0 to 1, see fitActuator
@@ -123,12 +123,12 @@ struct ClipFormat
     std::string_view name;      ///< on the command line, such as `haptic`
     std::string_view title;     ///< for people
     std::string_view extension; ///< with dot, lower case
-    std::string_view keeps;     ///< what it keeps of a clip, a sentence for people
+    std::string_view keeps;     ///< the preserved content of a clip, as a sentence
 
     /// Whether a file's content is of this format; null: only the extension tells.
     bool (*recognises)(std::string_view bytes) = nullptr;
-    Result<ImportedClip> (*reader)(std::string_view bytes, bool strict) = nullptr;          ///< null: is not read
-    Result<ExportedClip> (*writer)(const Clip& clip, const ExportParams& params) = nullptr; ///< null: is not written
+    Result<ImportedClip> (*reader)(std::string_view bytes, bool strict) = nullptr;          ///< null: no import
+    Result<ExportedClip> (*writer)(const Clip& clip, const ExportParams& params) = nullptr; ///< null: no export
     std::string_view companion = {}; ///< suffix of a second file whose events belong to the clip, if there can be one
     ExportChoices choices = {};
     bool isSamples = false;                 ///< the drive signal, at a rate and for an actuator that can be chosen
@@ -150,8 +150,8 @@ struct ClipFormat
         return reader(bytes, strict);
     }
 
-    /// The files that a clip becomes, and what is lost; what quantising a packed clip costs is not counted. Errors:
-    /// those of validate() and of the format's writer.
+    /// Returns the files of a clip, and the losses; those of quantising a packed clip are not counted. Errors: those of
+    /// validate() and of the format's writer.
     [[nodiscard]] Result<ExportedClip> write(const Clip& clip, const ExportParams& params = {}) const
     {
         return writer(clip, params);
@@ -170,29 +170,31 @@ struct FormatDescription
     bool isSamples = false;
 };
 
-/// Of all formats that there are, also where clipFormats() leaves some out, in the same order.
+/// Descriptions of all existing formats, in the order of clipFormats(), including those that it leaves out.
 [[nodiscard]] std::span<const FormatDescription> formatDescriptions();
 
-/// The format of this name; null when there is none.
+/// Returns the format of this name; null if there is none.
 [[nodiscard]] const ClipFormat* clipFormatNamed(std::string_view name);
 
 /// Pacini's own: JSON to read and edit, and packed, which is small.
 [[nodiscard]] const ClipFormat& jsonFormat();
 [[nodiscard]] const ClipFormat& packedFormat();
 
-/// The format that is written to files of this extension (with dot, lower case): the first; null when there is none.
+/// Returns the format written to files of this extension (with dot, lower case), the first if there are several; null
+/// if there is none.
 [[nodiscard]] const ClipFormat* clipFormatWrittenTo(std::string_view extension);
 
-/// Whether that is one of Pacini's own.
+/// Whether this extension is one of Pacini's own.
 [[nodiscard]] bool isOwnExtension(std::string_view extension);
 
-/// Whether files of this extension (with dot, lower case) are clips of other programs, whatever they hold.
+/// Whether files of this extension (with dot, lower case) are clips of other programs, whatever their content.
 [[nodiscard]] bool isForeignExtension(std::string_view extension);
 
-/// The format of a file with this extension (with dot, lower case) and content; null when it is none. A clip that says
-/// that it is Pacini's is that. Of several others that recognise the content the one with the extension counts. What
-/// none recognises is of the format with the extension, whose reader then says what is wrong with it; but any program's
-/// file can be called .json, which is then none. Formats that are only written are found too, by their content.
+/// Returns the format of a file with this extension (with dot, lower case) and content; null if there is none. A clip
+/// that claims to be Pacini's is Pacini's. If several others recognise the content, the one with the extension counts.
+/// If none does, the format with the extension counts, and its reader reports the error; an exception is .json, the
+/// extension of any program, which is then no format. Formats that are only written are also recognised by their
+/// content.
 [[nodiscard]] const ClipFormat* clipFormatOf(std::string_view extension, std::string_view bytes);
 
 /// A kind of loss in one word, such as `points`.

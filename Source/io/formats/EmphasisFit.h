@@ -12,8 +12,8 @@
 namespace pacini
 {
 
-/// Playback of events by a player: by an oscillator of its own, which goes from a sine (sharpness 0) to a square (1),
-/// while the voice is weaker.
+/// Playback of events by a player: with its own oscillator, from a sine (sharpness 0) to a square (1), while the voice
+/// is attenuated.
 struct EmphasisPlayer
 {
     NormalisedRange range = {}; ///< Hz of the dullest and the crispest
@@ -50,7 +50,8 @@ inline constexpr EmphasisPlayer questPlayer{{55.0, 165.0}, 0.0364, 0.0121, 0.5, 
 [[nodiscard]] std::vector<Transient> emphasisOfEach(std::vector<Transient> events, const std::vector<double>& beyond,
                                                     const Curve& amplitude, const EmphasisPlayer& player);
 
-/// Indices of the events, in order, of which none is nearer than `separation` s to another: the stronger ones stay.
+/// Returns the indices of events, in order, that are at least `separation` s apart; of closer events the stronger ones
+/// stay.
 [[nodiscard]] std::vector<std::size_t> separated(const std::vector<Transient>& events, double separation);
 
 } // namespace pacini

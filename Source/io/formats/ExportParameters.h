@@ -32,7 +32,7 @@ struct ExportParameter : Parameter<ExportParams>
 
 inline constexpr std::array<std::string_view, 2> eventExportNames{"transients", "merged"};
 
-/// What users can set of ExportParams, beside the profile.
+/// Descriptions of the user settings of ExportParams, except for the profile.
 inline constexpr std::array exportParameters{
     ExportParameter{
         described<&ExportParams::amplitudePoints>(

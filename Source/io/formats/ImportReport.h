@@ -33,8 +33,8 @@ private:
 class ImportLanes
 {
 public:
-    /// The first band that is free from `start` on, now taken until `end`; null where `most` bands are taken. Starts
-    /// only move forward.
+    /// Returns the first band that is free from `start` on, and reserves it until `end`; null if `most` bands are
+    /// taken. Starts only move forward.
     [[nodiscard]] Band* take(double start, double end, std::size_t most);
 
     std::vector<Band> bands;
@@ -43,19 +43,19 @@ private:
     std::vector<double> ends;
 };
 
-/// Lets the clip last until `duration`, if that is later than its end; what sounds until its end stops there as before.
+/// Extends the clip to `duration`, if that is later than its end; sound up to its end stops there as before.
 void lengthen(Clip& clip, double duration);
 
-/// Lets the clip last until the pulses have passed that the decoder makes of its events (see makePulse), as far as 24
-/// hours allow: other programs' clips may end with an event, which would never sound. Ends within half a millisecond,
-/// to which formats round times, are left as they are, so that clips do not grow from one format to the next.
+/// Extends the clip to the end of the pulses that the decoder makes of its events (see makePulse), within 24 hours:
+/// clips of other programs may end with an event, which would never sound. Ends within half a millisecond, the rounding
+/// of formats, stay unchanged, so that clips do not grow from one format to the next.
 void lastUntilSounded(Clip& clip);
 
-/// Puts events in order of time, lets the last of them sound unless the file states where the clip ends, and gives
-/// Brings events into the order of their times; those of the same time stay as they are.
+/// Sorts events by time; events of the same time keep their order.
 void sortByTime(std::span<Transient> events);
 
-/// bands their priorities by energy.
+/// Sorts the events, extends the clip to the end of its last event unless the file states the clip's end, and sets the
+/// priorities of bands by energy.
 void finishImported(Clip& clip, bool endIsStated = false);
 
 } // namespace pacini

@@ -15,8 +15,8 @@ namespace pacini
 
 struct SingleVoice;
 
-/// Amplitudes below one step of 8 bits are not told from silence, nor errors below it from none: that is the finest
-/// that players of these formats show.
+/// Amplitudes below one step of 8 bits count as silence, errors below it as none: this is the finest resolution of
+/// players of these formats.
 inline constexpr double leastAmplitude = 1.0 / 255.0;
 
 /// Joins adjacent losses; times must not decrease.
@@ -25,8 +25,8 @@ class LossTrack
 public:
     LossTrack(LossKind lossKind, std::string lossMessage) : kind(lossKind), message(std::move(lossMessage)) {}
 
-    /// An error of `error` at `time`, or none where it is not above 0. What follows a loss without a place in between
-    /// where all is well, or less than 0.1 s after it, is part of it.
+    /// Adds an error of `error` at `time`, or none if it is not above 0. A loss that follows another without a place
+    /// free of loss between them, or within 0.1 s, is part of it.
     void add(double time, double error)
     {
         constexpr double nearest = 0.1; // s
@@ -42,7 +42,7 @@ public:
         well = false;
     }
 
-    /// Moves what was found to the end of `all`.
+    /// Moves all losses found to the end of `all`.
     void appendTo(std::vector<FormatLoss>& all)
     {
         all.insert(all.end(), std::make_move_iterator(losses.begin()), std::make_move_iterator(losses.end()));
@@ -64,21 +64,21 @@ public:
     /// One loss over `duration` from `time`.
     void add(LossKind kind, double time, double duration, double error, std::string message);
 
-    /// What was found place by place.
+    /// Adds losses that were found place by place.
     void append(LossTrack& track) { track.appendTo(losses); }
 
-    /// Residual noise where it sounds: left out, or what `message` says of it.
+    /// Adds residual noise where it sounds: left out, or as in `message`.
     void addNoise(const Clip& clip, const std::string& message = {});
 
     void addMarkers(const Clip& clip);
 
-    /// Words that have no place, markers too; `keepsName`: the clip's name has one.
+    /// Adds texts that the format cannot represent, and markers. `keepsName`: the format stores the clip's name.
     void addText(const Clip& clip, bool keepsName);
 
-    /// Where a curve (not empty) was left with too few points to show.
+    /// Adds places where a curve (not empty) has too few points to show.
     void addThinned(const Curve& before, const Curve& after);
 
-    /// Cuts amplitudes at `most` and says where.
+    /// Limits amplitudes to `most` and adds the places.
     void limit(Curve& curve, double most);
     void limit(std::vector<Transient>& events, double most);
 
@@ -89,21 +89,22 @@ public:
     /// Events that follow one another faster than `gap` s.
     void addCrowding(const std::vector<Transient>& events, double gap);
 
-    /// All of them by time; those of one kind and message that touch are one, but for events that are no transients.
+    /// Returns all losses by time; adjacent ones of one kind and message are joined, except for events that are no
+    /// transients.
     [[nodiscard]] std::vector<FormatLoss> sorted() &&;
 
 private:
     std::vector<FormatLoss> losses;
 };
 
-/// What a clip loses on one voice but words: frequencies of others than the strongest band, noise, parts that are too
-/// weak to be there.
+/// Adds the losses of a clip on one voice, without texts: frequencies of other bands than the strongest, noise, parts
+/// that are too weak to be represented.
 void addVoiceLosses(LossList& losses, const Clip& clip, const SingleVoice& voice);
 
-/// What a clip loses as a strength, words not.
+/// Adds the losses of a clip as a strength, without texts.
 void addStrengthLosses(LossList& losses, const Clip& clip, const SingleVoice& voice);
 
-/// Parts of a quarter of a second or more in which all that sounds is below leastAmplitude, and clips that are silent.
+/// Adds parts of a quarter of a second or more that stay below leastAmplitude, and clips that are silent.
 void addEmptyParts(LossList& losses, const SingleVoice& voice);
 
 /// An export of one file.

@@ -25,10 +25,10 @@ struct NormalisedRange
     }
 };
 
-/// What the players of Quest controllers make of the frequencies of .haptic files, which say nothing of it themselves.
+/// The frequency range that the players of Quest controllers use for .haptic files, which do not state one.
 inline constexpr NormalisedRange questRange{55.0, 200.0};
 
-/// What MPEG's reference software takes the sharpness of Core Haptics for; Apple declines to say.
+/// The frequency range that MPEG's reference software uses for the sharpness of Core Haptics; Apple does not state one.
 inline constexpr NormalisedRange sharpnessRange{65.0, 300.0};
 
 /// The range of the actuator, or without one that of the format's usual player, so that a frequency is played as itself

@@ -28,8 +28,8 @@ public:
         share.jump(0.0);
     }
 
-    /// Fetches what the clips play in the next `frames`, `pieceFrames` at most. False: they rest, and process() would
-    /// change nothing. [audio]
+    /// Fetches the clips' output for the next `frames`, at most `pieceFrames`. Returns false if they rest and process()
+    /// would change nothing. [audio]
     [[nodiscard]] bool take(HostedProject& clips, std::size_t frames) noexcept
     {
         const std::array<std::span<float>, 2> beside{std::span(left).first(frames), std::span(right).first(frames)};
@@ -38,7 +38,7 @@ public:
         return plays || !share.resting();
     }
 
-    /// Mixes what take() has fetched; all of that length. [audio]
+    /// Mixes the output that take() fetched; all of that length. [audio]
     void process(std::span<float> drive, std::span<const std::span<float>> others,
                  std::span<const std::span<float>> main) noexcept
     {

@@ -17,9 +17,9 @@
 namespace pacini::plugin
 {
 
-/// Writes the drives to the haptic output and, as the output mode says, into the main output: that of the first
-/// channel, or all of them where they take the place of the sound. Bypass silences the drives. Every change is a fade
-/// of 10 ms from what went out before to what goes out then.
+/// Writes the drives to the haptic output and, by the output mode, into the main output: the drive of the first
+/// channel, or all drives if they replace the sound. Bypass silences the drives. Every change of the routing is a
+/// cross-fade of 10 ms.
 class DriveRouting
 {
 public:
@@ -33,7 +33,7 @@ public:
     }
     void reset() noexcept { begun = false; }
 
-    /// `channel` and how many from there on the drives are added to.
+    /// Sets the routing. In addToChannel, `count` drives are added to the channels from `channel` on.
     void aim(OutputMode mode, std::size_t channel, std::size_t count, bool bypassed) noexcept
     {
         const bool adds = mode == OutputMode::addToChannel;
@@ -46,14 +46,14 @@ public:
         begun = true;
     }
 
-    /// How many drives the main output is made of, or may be during the next piece.
+    /// Returns the largest number of drives in the main output, now or during the next piece.
     [[nodiscard]] std::size_t drivesInMain(std::size_t mainChannels) const noexcept
     {
         return std::max({wanted.drives(mainChannels), now.drives(mainChannels), before.drives(mainChannels)});
     }
 
-    /// `main` holds the sound, as late as the drives; all of one length, with a drive for each of `haptic` and one at
-    /// least. `drives` are afterwards what goes out: faded, and silent where nothing plays them.
+    /// `main` contains the sound, delayed like the drives. All spans have one length, with a drive for each of `haptic`
+    /// and at least one. Afterwards `drives` contain the output: faded, and silent where none is played.
     void process(std::span<const std::span<float>> main, std::span<const std::span<float>> haptic,
                  std::span<const std::span<float>> drives) noexcept
     {

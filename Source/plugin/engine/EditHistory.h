@@ -39,17 +39,17 @@ struct EditStep
     bool instant = false;           ///< begun and ended at once: a notch of the wheel, a key
 };
 
-/// The steps that can be undone, and those that can be done again.
+/// The steps to undo and to redo.
 class StepList
 {
 public:
     static constexpr std::size_t mostSteps = 200; ///< the oldest ones are forgotten
 
-    /// Forgets what could be done again. A step that changes nothing is left out, and one notch of the wheel after the
-    /// other is one step.
+    /// Adds a step and clears the steps to redo. A step without changes is left out; consecutive notches of the wheel
+    /// are one step.
     void add(EditStep step);
-    /// The step to take back or to do again, which is then on the other side; null: there is none. Valid until the
-    /// next call.
+    /// Returns the step to undo or to redo and moves it to the other list; null if there is none. Valid until the next
+    /// call.
     [[nodiscard]] const EditStep* undo();
     [[nodiscard]] const EditStep* redo();
     [[nodiscard]] bool canUndo() const noexcept { return done > 0; }
@@ -63,9 +63,9 @@ private:
     std::size_t done = 0;
 };
 
-/// Makes one step of each gesture of the window's controls. Hosts change parameters without gestures of the plugin, so
-/// that automation makes no steps. The audio thread never comes here but by JUCE's call for a changed value, which is
-/// empty. [message]
+/// Records one step for each gesture of the window's controls. Hosts change parameters without gestures of the plugin,
+/// so automation makes no steps. On the audio thread, only JUCE's callback for a changed value runs, which is empty.
+/// [message]
 class EditHistory final : private juce::AudioProcessorParameter::Listener
 {
 public:
@@ -76,7 +76,7 @@ public:
                 std::function<void(EditStep)> onStep);
     ~EditHistory() override;
 
-    /// While it lives gestures make no steps: they are part of a larger one.
+    /// During its lifetime, gestures record no steps: they are part of a larger one.
     class Pause
     {
     public:
@@ -89,7 +89,7 @@ public:
         EditHistory& history;
     };
 
-    /// What differs, as a step without presets.
+    /// Returns the differences as a step without presets.
     [[nodiscard]] static EditStep stepBetween(const ParameterValues& before, const ParameterValues& after);
 
 private:

@@ -23,8 +23,8 @@
 namespace pacini::plugin
 {
 
-/// A delay on its way: by a tenth of the time that passes at most, which bends pitches by less than two semitones, and
-/// without a sudden change of its pace, which would be heard as a click.
+/// Smoothed delay. It changes by at most a tenth of the elapsed time, which bends pitches by less than two semitones,
+/// and without a sudden change of speed, which would be heard as a click.
 class DelayGlide
 {
 public:
@@ -39,7 +39,7 @@ public:
     void aim(double frames) noexcept { goal = frames; }
     [[nodiscard]] bool restsAt(double frames) const noexcept { return now == frames && goal == frames; }
 
-    /// What it is or will be, rounded up.
+    /// The present or target delay, whichever is longer, rounded up.
     [[nodiscard]] std::size_t longest() const noexcept
     {
         return static_cast<std::size_t>(std::ceil(std::max(now, goal)));

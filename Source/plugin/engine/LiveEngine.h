@@ -57,12 +57,12 @@ public:
     /// Allocates. [message], while no block is processed
     void prepare(double sampleRate, std::size_t mainChannels, std::size_t hapticChannels);
 
-    /// Whose clips are heard in the place of the drive while they play; null: nobody's. [message], before prepare()
+    /// Sets the preview whose clips replace the drive while they play; null: none. [message], before prepare()
     void setClips(HostedProject* wanted) noexcept { clips = wanted; }
 
-    /// Whether it may rest in silence, as it does. [message], while no block is processed
+    /// Sets whether the engine may rest in silence (default: yes). [message], while no block is processed
     void setRests(bool wanted) noexcept { mayRest = wanted; }
-    /// Whether it rests now. [audio]
+    /// Whether the engine rests now. [audio]
     [[nodiscard]] bool resting() const noexcept { return watch.resting(); }
 
     /// As freshly prepared. [audio]
@@ -71,15 +71,15 @@ public:
     /// Any number of frames. [audio]
     void process(const EngineBlock& block, const ParameterValues& values, bool bypassed) noexcept;
 
-    /// Frames by which the outputs are later than the inputs. The same at 44.1 and 48 kHz: hosts load plugins at the
-    /// one and play at the other, and compensate the first blocks by what they read before.
+    /// Latency in frames. It is the same at 44.1 and 48 kHz: hosts load plugins at one rate and play at the other, and
+    /// compensate the first blocks by the earlier value.
     [[nodiscard]] std::size_t latencyFrames() const noexcept { return latency; }
     [[nodiscard]] double sampleRate() const noexcept { return fs.load(std::memory_order_relaxed); }
 
-    /// The actuator of a channel: one thread at a time, and not while prepare() runs. The channel has a translation of
-    /// its own from then on. [message]
+    /// Sets the actuator of a channel, which then has its own translation. One thread at a time, and not during
+    /// prepare(). [message]
     void setSetup(std::size_t channel, const TranslatorSetup& setup);
-    /// A channel plays what is translated for one before it, which has a set-up. [message]
+    /// Lets a channel play the translation of an earlier channel with a set-up. [message]
     void share(std::size_t channel, std::size_t other) noexcept
     {
         sources[channel].store(other, std::memory_order_release);
@@ -88,9 +88,10 @@ public:
 
     /// Of the translation that a channel plays.
     [[nodiscard]] TranslatorMeterReading readMeters(std::size_t channel = 0) const noexcept;
-    /// Which haptic channels lead to an output, a bit for each; at first all: a host does not tell. [any]
+    /// Sets the haptic channels that are connected to an output, one bit each; all at first, since a host does not
+    /// tell. [any]
     void setConnected(unsigned haptics) noexcept { connected.store(haptics, std::memory_order_relaxed); }
-    /// The largest sample of a channel that went out since the last call, 0 where there is no such channel. [message]
+    /// Returns the largest output sample of a channel since the last call, 0 if there is no such channel. [message]
     [[nodiscard]] float takePeak(std::size_t channel) noexcept
     {
         return peaks[channel].exchange(0.0f, std::memory_order_relaxed);

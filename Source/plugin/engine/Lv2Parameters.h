@@ -11,8 +11,8 @@
 namespace pacini::plugin
 {
 
-/// The description of the plugin that JUCE's generator wrote (dsp.ttl), with its parameters described anew: JUCE puts
-/// the choices of each on 0 to 1, whatever its range is. Error where it has no parameter of the table, or others.
+/// Returns the plugin description of JUCE's generator (dsp.ttl) with new descriptions of its parameters: JUCE maps the
+/// choices of each to 0 to 1, whatever its range. Errors if a parameter is missing in it, or unknown.
 [[nodiscard]] Result<std::string> describeLv2Parameters(std::string_view turtle);
 
 } // namespace pacini::plugin

@@ -11,7 +11,7 @@
 namespace pacini::plugin
 {
 
-/// Delays channels by a whole number of frames, bit by bit as they are.
+/// Delays channels by a whole number of frames, bit by bit unchanged.
 class MainDelay
 {
 public:

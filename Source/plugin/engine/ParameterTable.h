@@ -118,7 +118,7 @@ inline constexpr std::array<std::string_view, 3> sourceChoices{"Main", "Sidechai
 inline constexpr std::array<std::string_view, 5> outputModeChoices{
     "Sound (haptic output separate)", "Haptic replaces sound", "Sound left, haptic right",
     "Mono sound left, haptic right", "Haptic added to one channel"};
-/// What hosts show for a slot without a profile, which plays as flat as slot 0. Lists of ours leave them out.
+/// The host's text for a slot without a profile, which plays as flat as slot 0. The plugin's own lists hide such slots.
 inline constexpr std::string_view noActuator = "No actuator (flat)";
 [[nodiscard]] constexpr bool hasNoActuator(std::string_view choice) noexcept
 {

@@ -18,11 +18,12 @@ namespace pacini::plugin
 /// The value at a place; whole where only whole ones count. normalOf(valueAt(n)) is n within rounding.
 [[nodiscard]] double valueAt(const ParameterRow& row, double normal) noexcept;
 
-/// Such as `-12.5 dB`, `8.0 ms`, `50 %`, `On`. The same in every language: a dot, no thousands.
+/// Returns a text such as `-12.5 dB`, `8.0 ms`, `50 %`, `On`. The same in every language: a decimal point, no thousands
+/// separators.
 [[nodiscard]] std::string textOf(const ParameterRow& row, double value);
 
-/// What was typed: with or without unit, with dot or comma, `1.5 s` for 1500 ms, a choice by its name or the beginning
-/// of it. None when it is no value or one beyond the range.
+/// Parses typed text: with or without unit, with point or comma, `1.5 s` for 1500 ms, a choice by its name or the
+/// beginning of it. None for invalid text or values out of range.
 [[nodiscard]] std::optional<double> valueOf(const ParameterRow& row, std::string_view text);
 
 } // namespace pacini::plugin

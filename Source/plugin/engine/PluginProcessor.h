@@ -49,12 +49,13 @@ public:
         return *table[static_cast<std::size_t>(wanted)];
     }
     [[nodiscard]] ParameterValues values() const noexcept;
-    /// None in LV2, whose wrapper would write the host's switch over it in every block: there it is a second switch.
+    /// None in LV2, whose wrapper would overwrite it with the host's switch in every block: there it is a second
+    /// switch.
     juce::AudioProcessorParameter* getBypassParameter() const override
     {
         return wrapperType == wrapperType_LV2 ? nullptr : &parameter(ParameterId::bypass);
     }
-    /// Whether the host bypasses the plugin by a switch of its own. [any]
+    /// Whether the host bypasses the plugin with its own switch. [any]
     [[nodiscard]] bool isBypassedByHost() const noexcept { return bypassedByHost.load(std::memory_order_relaxed); }
     void getStateInformation(juce::MemoryBlock& block) override;
     void setStateInformation(const void* data, int size) override;
@@ -71,7 +72,7 @@ public:
     void chooseProgram(int index);
     /// A preset of the user.
     void choosePreset(const UserPreset& preset);
-    /// The preset of the present values was saved under this name.
+    /// Records that the present values were saved as a preset of this name.
     void noteSavedPreset(const std::string& name);
     [[nodiscard]] PresetChoice presetChoice() const;
     [[nodiscard]] bool canUndo() const;
@@ -81,7 +82,7 @@ public:
     /// The sides A and B: each has all settings but bypass, and its own steps.
     [[nodiscard]] Side side() const;
     void chooseSide(Side wanted);
-    /// The settings in use also become those of the other side; there it is a step.
+    /// Copies the settings in use to the other side, as a step there.
     void copyToOtherSide();
 
     // Window
@@ -90,7 +91,7 @@ public:
     /// Whether captured clips keep their sound, in the session. [any]
     [[nodiscard]] bool keepsCaptures() const noexcept { return keepsSounds.load(); }
     void setKeepsCaptures(bool wanted) noexcept { keepsSounds.store(wanted); }
-    /// The size that a session wants; 0 if it does not say.
+    /// The window size stored in the session; 0 if there is none.
     [[nodiscard]] juce::Point<int> windowSize() const noexcept { return {windowWidth.load(), windowHeight.load()}; }
     void setWindowSize(int width, int height) noexcept;
 
@@ -102,7 +103,7 @@ public:
     /// The largest sample of the source since the last call, linear.
     [[nodiscard]] float takeInputPeak() { return engine.takeInputPeak(); }
     [[nodiscard]] double sampleRate() const { return engine.sampleRate(); }
-    /// Frames by which the haptic signal is later than the sound.
+    /// Delay of the haptic signal against the sound, frames.
     [[nodiscard]] int latency() const { return getLatencySamples(); }
     /// The newest of the source, mono, all finite; at most `captureSeconds`.
     [[nodiscard]] Capture capture(double seconds) const;
@@ -110,23 +111,24 @@ public:
     void setConnected(unsigned haptics) noexcept { engine.setConnected(haptics); }
     /// The largest sample of a haptic channel that went out since the last call, linear.
     [[nodiscard]] float takePeak(std::size_t channel) { return engine.takePeak(channel); }
-    /// dB that the limiter and protection of a channel's actuator take.
+    /// Gain reduction by the limiter and protection of a channel's actuator, dB.
     [[nodiscard]] double gainReduction(std::size_t channel) const;
     /// Haptic channels that are played.
     [[nodiscard]] std::size_t channelsInUse() const { return engine.channelsInUse(); }
-    /// The time that this instance takes of what its blocks last, of late; 1 is all of a core.
+    /// Recent processor load of this instance: processing time as a share of the duration of its blocks; 1 is a whole
+    /// core.
     [[nodiscard]] double load() const noexcept { return meanLoad.load(std::memory_order_relaxed); }
-    /// Whether the engine may rest in silence, as it does. [message], while no block is processed
+    /// Sets whether the engine may rest in silence (default: yes). [message], while no block is processed
     void setRests(bool wanted) noexcept { engine.setRests(wanted); }
-    /// Whether it rests. On the thread of processBlock().
+    /// Whether the engine rests. On the thread of processBlock().
     [[nodiscard]] bool resting() const noexcept { return engine.resting(); }
-    /// The name of the actuator that a haptic channel is made for now.
+    /// The name of the present actuator of a haptic channel.
     [[nodiscard]] juce::String actuatorName(std::size_t channel = 0) const;
-    /// Whether any of them is played differently with another strength.
+    /// Whether the strength affects any of them.
     [[nodiscard]] bool strengthMatters() const;
     /// Takes the actuator of a haptic channel from a profile file.
     Result<void> loadActuator(const juce::File& file, std::size_t channel = 0);
-    /// What a session brought that could not be used; empty: nothing.
+    /// The unusable parts of the session's state; empty: none.
     [[nodiscard]] juce::String note() const;
 
     const juce::String getName() const override { return "Pacini"; }
@@ -146,7 +148,7 @@ private:
     [[nodiscard]] juce::String restoreActuators(PluginSettings& settings);
     void addStep(EditStep step);
     void say(const juce::String& text);
-    /// What a haptic channel is played on.
+    /// The actuator of a haptic channel.
     struct ChannelActuator
     {
         std::size_t slot = 0;           ///< of the profile; of the first channel's for one that follows it
@@ -167,14 +169,14 @@ private:
     HostedProject clips;
     LiveEngine engine;
 
-    /// Guards what follows, and the preparation of the engine. Never taken by the audio thread, except when the host
-    /// renders offline.
+    /// Guards the members below, and the preparation of the engine. Never taken by the audio thread, except when the
+    /// host renders offline.
     mutable juce::CriticalSection setupLock;
     std::array<ChannelActuator, maxHapticChannels> actuators;
     double appliedStrength = 0.0;
     juce::String lastNote;
     Side sideNow = Side::a;
-    std::optional<PluginSettings> otherSide; ///< none: nobody has been there
+    std::optional<PluginSettings> otherSide; ///< none: the side was never used
     std::string userPreset;                  ///< see PresetChoice; that counts while `isUserPreset`
     std::array<StepList, 2> edits;           ///< of the sides
 

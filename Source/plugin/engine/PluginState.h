@@ -34,7 +34,7 @@ enum class Side
     return side == Side::a ? Side::b : Side::a;
 }
 
-/// What is heard and felt: one of the two sides of a comparison.
+/// The settings of one of the two sides of a comparison.
 struct PluginSettings
 {
     ParameterValues values;
@@ -45,13 +45,13 @@ struct PluginSettings
     bool operator==(const PluginSettings&) const = default;
 };
 
-/// The settings that are in use, and what else a session keeps.
+/// The settings in use, and the other content of a session.
 struct PluginState : PluginSettings
 {
     Side side = Side::a;                 ///< the one that is in use
-    std::optional<PluginSettings> other; ///< those of the other side; none: nobody has been there
+    std::optional<PluginSettings> other; ///< settings of the other side; none: it was never used
     std::string clips;                   ///< the project of the clip editor, as text; empty: none
-    int windowWidth = 0;                 ///< 0: as it comes
+    int windowWidth = 0;                 ///< 0: the default size
     int windowHeight = 0;
     bool keepsCaptures = true; ///< captured clips keep their sound
     bool operator==(const PluginState&) const = default;
@@ -67,10 +67,10 @@ struct ReadState
     std::string note; ///< empty: nothing
 };
 
-/// Reads a state of any version up to this one. A parameter that it does not name has its default, or the value that
-/// sounds as before there was one (strength: 0); one that is unknown is ignored, values are limited to their ranges.
-/// Errors: invalidData for what is no state, unsupportedVersion for one from the future, tooLarge; nothing of it is to
-/// be used then.
+/// Reads a state of any version up to this one. A missing parameter gets its default, or the value that sounds like
+/// versions without it (strength: 0). Unknown parameters are ignored, values are limited to their ranges. Errors:
+/// invalidData for other content, unsupportedVersion for newer versions, tooLarge; no part of the state may be used
+/// then.
 [[nodiscard]] Result<ReadState> readState(std::string_view text);
 
 /// A preset of a user: a state that names the translator's parameters only.

@@ -40,8 +40,8 @@ namespace pacini::plugin
     return std::lcm(factor * std::lcm<std::size_t>(8, 2 * factor), std::size_t(32));
 }
 
-/// Counts still frames. After enough of them the chain rests: whole turns of its grids are skipped, since what is still
-/// looks the same after one, and the rest of a turn is owed for the moment at which it wakes.
+/// Counts still frames. After enough of them the chain rests: whole turns of its grids are skipped, since a still state
+/// is the same after a turn. The rest of a turn is made up for on waking.
 class SilenceWatch
 {
 public:
@@ -64,13 +64,13 @@ public:
 
     [[nodiscard]] bool resting() const noexcept { return asleep; }
 
-    /// What was worked at: whether all of it was still, and how many still frames are needed.
+    /// Records processed frames: whether all were still, and the number of still frames needed to rest.
     void worked(std::size_t frames, bool wasStill, std::size_t needed) noexcept
     {
         still = wasStill ? still + frames : 0;
         asleep = possible && still > needed;
     }
-    /// What was skipped.
+    /// Records skipped frames.
     void rested(std::size_t frames) noexcept
     {
         owed = (owed + frames) % turn;

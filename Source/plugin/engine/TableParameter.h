@@ -22,7 +22,7 @@ public:
 
     /// In the unit of the row.
     [[nodiscard]] double value() const noexcept { return plain.load(std::memory_order_relaxed); }
-    /// Tells the host and whoever listens. [message]
+    /// Notifies the host and all listeners. [message]
     void setPlainNotifyingHost(double wanted);
 
     const juce::NormalisableRange<float>& getNormalisableRange() const override { return range; }

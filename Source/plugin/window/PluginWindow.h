@@ -46,12 +46,12 @@ public:
     [[nodiscard]] float scaleFactor() const noexcept { return getTransform().mat00; }
     /// By the host, times that of the user.
     void setScaleFactor(float byHost) override;
-    /// What the button at the right end of the header shows.
+    /// The menu of the button at the right end of the header.
     [[nodiscard]] juce::PopupMenu menu();
     /// The question that is shown; null: none.
     [[nodiscard]] editor::Sheet* sheet() const noexcept { return question.sheet(); }
     static constexpr int leastWidth = 936, leastHeight = 608; ///< before it is scaled
-    /// What is shown below the header.
+    /// The content below the header.
     enum class Page
     {
         live,
@@ -60,8 +60,8 @@ public:
     };
     void show(Page wanted);
     [[nodiscard]] editor::EditorView* clipEditor() const noexcept { return clipView.get(); }
-    std::function<void()> onThemeChange; ///< for what shares the look
-    std::function<void()> onScaleChange; ///< for what shares the scale
+    std::function<void()> onThemeChange; ///< for components with the same look
+    std::function<void()> onScaleChange; ///< for components with the same scale
     /// Puts a captured clip into the session's project, with its sound where it has been kept, and shows it.
     void editCaptured(const editor::CapturedClip& captured);
 

@@ -22,7 +22,7 @@ public:
 
     /// Looks at the preset in use, with a mark where its values were changed since.
     void refresh();
-    /// Reads the user's presets anew.
+    /// Reads the user's presets again.
     void reload();
     void showPopup() override;
     /// Arrows go from preset to preset, and to none of the actions below them.

@@ -10,7 +10,7 @@
 namespace pacini::plugin
 {
 
-/// Where a user's own files of the plugin are, on each system where its users look for such.
+/// Returns the folder of the user's files of the plugin, at the usual place of each system.
 [[nodiscard]] juce::File usualUserFolder();
 
 /// The scale depends on the screen and the eyes in front of it, not on the piece of music: so it is no part of a

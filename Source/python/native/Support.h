@@ -44,7 +44,7 @@ T take(Result<T>&& result)
         return std::move(result).value();
 }
 
-/// What `work` returns, done without the lock.
+/// Runs `work` without the lock and returns its result.
 template <typename Work>
 auto unlocked(Work&& work)
 {
@@ -52,15 +52,15 @@ auto unlocked(Work&& work)
     return work();
 }
 
-/// Lets Ctrl+C through and shows progress while work goes on without the lock: called now and then with the share that
-/// is done, it takes the lock ten times a second. Made and destroyed with the lock.
+/// Handles Ctrl+C and shows progress during work without the lock. It is called with the share that is done, and takes
+/// the lock ten times a second. Created and destroyed with the lock.
 class Watch
 {
 public:
     /// `progress` is None or takes the share.
     explicit Watch(nb::object progress) : shown(std::move(progress)) {}
 
-    /// Throws what the interpreter raises.
+    /// Throws the interpreter's pending exception.
     void operator()(double share);
 
 private:
@@ -71,7 +71,7 @@ private:
 /// Whether this is the thread that Ctrl+C comes to.
 [[nodiscard]] bool isMainThread();
 
-/// Counts threads whose work nobody waits for any more, so that the process does not end in their midst.
+/// Counts abandoned threads, so that the process does not end while they work.
 class AbandonedWork
 {
 public:
@@ -82,8 +82,8 @@ public:
     static void wait();
 };
 
-/// What `work` returns, done without the lock; Ctrl+C leaves it to itself. For work that cannot be stopped: it owns all
-/// that it uses, and touches no object of Python.
+/// Runs `work` without the lock and returns its result; Ctrl+C abandons it. For work that cannot be stopped: it owns
+/// all its data and does not access Python objects.
 template <typename Work>
 auto abandonable(Work work)
 {

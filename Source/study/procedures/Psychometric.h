@@ -34,7 +34,7 @@ struct Grid
     }
 };
 
-/// Which thresholds, slopes and lapses are thinkable, all alike before the first answer.
+/// Prior range of thresholds, slopes and lapses, all equally probable before the first answer.
 struct PsychometricPrior
 {
     Grid thresholds;
@@ -52,7 +52,7 @@ public:
     /// After an answer at `strength`.
     void update(double strength, bool right);
 
-    /// What an answer at a strength would be worth.
+    /// Precomputed value of an answer at a strength.
     struct Candidate
     {
         double strength = 0.0;
@@ -64,8 +64,7 @@ public:
     /// As the other one, for a strength that is known.
     void update(const Candidate& candidate, bool right);
 
-    /// Entropy, in nats, that is to be expected after one more answer there, but for what all candidates have in
-    /// common.
+    /// Expected entropy after one more answer at the strength, in nats, without terms that all candidates share.
     [[nodiscard]] double expectedEntropy(const Candidate& candidate) const;
 
     /// The mean of each parameter.

@@ -20,7 +20,7 @@ namespace pacini::study
 /// P(|Z| >= |z|) of the standard normal distribution.
 [[nodiscard]] double twoTailedNormal(double z);
 
-/// The z below which the share `p` lies, 0 < p < 1.
+/// Quantile of the standard normal distribution at `p`, 0 < p < 1.
 [[nodiscard]] double normalQuantile(double p);
 
 /// The t below which the share `p` lies, 0 < p < 1.

@@ -37,7 +37,7 @@ struct SampleSummary
 
 [[nodiscard]] double meanOf(std::span<const double> values) noexcept;
 
-/// Sum of squared distances from the mean, by two passes: what subtracting squares would lose stays.
+/// Sum of squared distances from the mean, in two passes, which avoids the cancellation of subtracted squares.
 [[nodiscard]] double squaresOf(std::span<const double> values) noexcept;
 
 /// Divided by count - 1; 0 of fewer than two.
@@ -49,7 +49,7 @@ struct SampleSummary
 /// Ranks from 1 in the order of `values`; equal values share the mean of their ranks.
 [[nodiscard]] std::vector<double> ranksOf(std::span<const double> values);
 
-/// Sum of t^3 - t over all groups of t equal values, by which rank tests are corrected.
+/// Sum of t^3 - t over all groups of t equal values, the tie correction of rank tests.
 [[nodiscard]] double tieSumOf(std::span<const double> values);
 
 } // namespace pacini::study

@@ -39,7 +39,7 @@ public:
     ReadWarnings doubts{true}; ///< strict: options that are not known are errors, see finishOptions()
     FieldsReader reader;       ///< of the options
     Pull pullSound;
-    Json value; ///< what comes back
+    Json value; ///< results of the call
     std::vector<std::vector<std::byte>> outputs;
 
     [[nodiscard]] std::size_t inputs() const noexcept { return given.size(); }
@@ -55,7 +55,7 @@ public:
     [[nodiscard]] bool truth(const char* name, bool usual);
     [[nodiscard]] std::string word(const char* name, std::string_view usual);
 
-    /// To be called when all options have been read: what is wrong with one, or that one is not known.
+    /// Call this after all options have been read. Returns the error of an option, or an unknown option.
     [[nodiscard]] Result<void> finishOptions();
 
 private:
@@ -71,7 +71,7 @@ struct NamedHandler
     Handler handler;
 };
 
-/// The calls of a module: each module defines its own (folder `modules`), so that none carries what it does not call.
+/// The calls of a module. Each module defines its own (folder `modules`), so that it contains only these.
 [[nodiscard]] std::span<const NamedHandler> handlers();
 
 [[nodiscard]] Result<void> encodeSound(Call& call);
@@ -92,7 +92,7 @@ struct NamedHandler
 [[nodiscard]] Result<void> planTouch(Call& call);
 [[nodiscard]] Result<void> drawSpectrogram(Call& call);
 
-/// The clip in a call's input, of any format; `extension` (with dot) tells formats apart that have no mark.
+/// Reads the clip in a call's input, of any format; `extension` (with dot) distinguishes formats without a mark.
 [[nodiscard]] Result<Clip> clipOf(const Call& call, std::size_t input, std::string_view extension = {});
 
 /// The profile in an input, which is JSON.

@@ -8,7 +8,7 @@
 namespace pacini::web
 {
 
-/// Errors: those of translationOf(); what is wrong with single options stands in the reader.
+/// Errors: those of translationOf(); errors of single options are stored in the reader.
 [[nodiscard]] inline Result<TranslationParams> readTranslation(Call& call)
 {
     Settings settings;

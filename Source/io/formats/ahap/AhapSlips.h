@@ -7,9 +7,8 @@
 namespace pacini
 {
 
-/// readAhap() of a file in which true and false may stand for 1 and 0 of Sustained, and null, true and false for what
-/// is left out: entries of a list, parameters that are not known, the value or the name of a parameter. Warnings say
-/// so.
+/// readAhap() for a file in which true and false may stand for 1 and 0 of Sustained, and null, true and false for
+/// omitted content: entries of a list, unknown parameters, the value or the name of a parameter. Adds warnings.
 [[nodiscard]] Result<ImportedClip> readAhapWithSlips(std::string_view bytes);
 
 } // namespace pacini

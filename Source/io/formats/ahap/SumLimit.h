@@ -10,9 +10,9 @@
 namespace pacini
 {
 
-/// Scales the amplitudes of `bands` where they add up to more than `most`, all by the same factor at a time, so that
-/// they add up to `most` there, as a player's output does that has no more to give. Points are added only to what
-/// sounds where it is too loud. Whether anything was. Errors: tooLarge when that takes more than `maxPoints`.
+/// Scales the amplitudes of `bands` where their sum exceeds `most`, all by the same factor at a time, so that the sum
+/// is `most` there, as in a player whose output is limited. Adds points only where the sum is too large. Returns
+/// whether anything changed. Errors: tooLarge if that takes more than `maxPoints`.
 [[nodiscard]] Result<bool> limitSum(std::vector<Band>& bands, double most, std::size_t maxPoints);
 
 } // namespace pacini

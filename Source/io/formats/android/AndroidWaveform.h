@@ -18,7 +18,7 @@ namespace pacini
 [[nodiscard]] std::vector<AndroidStep> androidWaveformOf(const SingleVoice& voice, std::optional<double> stepsPerSecond,
                                                          bool keepsPoints);
 
-/// What the steps lose of the amplitude.
+/// The amplitude losses of the steps.
 void addStepLosses(LossList& losses, const SingleVoice& voice, const std::vector<AndroidStep>& steps);
 
 } // namespace pacini

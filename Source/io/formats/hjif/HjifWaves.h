@@ -32,7 +32,7 @@ struct HjifPlaced
 /// `position` in ticks.
 [[nodiscard]] std::optional<Transient> hjifPulse(const HjifEffect& effect, double position, const HjifScale& scale);
 
-/// Puts a wave at `position` ticks behind what is in `lane`. What is changed is said to `report` at `where`.
+/// Appends a wave at `position` ticks to `lane`. Changes are reported to `report` at `where`.
 void appendHjifWave(Band& lane, const HjifEffect& effect, double position, const HjifBand& band, const HjifScale& scale,
                     ImportReport& report, const std::string& where);
 

@@ -9,7 +9,7 @@
 namespace pacini
 {
 
-/// What stands in the schema of a manifest.
+/// The schema text of a manifest.
 inline constexpr std::string_view pulsarSchema = "pulsar.bundle/1";
 
 [[nodiscard]] inline bool isPulsar(std::string_view bytes)
