@@ -2,6 +2,7 @@
 
 #include "cli/Console.h"
 #include "devices/SoundCard.h"
+#include "io/Fields.h"
 
 #include <pacini/foundation/ParseNumber.h>
 
@@ -57,40 +58,19 @@ bool holdsText(std::string_view text, std::string_view part)
 
 std::string_view hapticsName(ControllerHaptics haptics)
 {
-    switch (haptics)
-    {
-    case ControllerHaptics::hdRumble:
-        return "HD rumble";
-    case ControllerHaptics::dualShock4:
-        return "DualShock 4";
-    case ControllerHaptics::dualSense:
-        return "DualSense";
-    case ControllerHaptics::xbox:
-        return "Xbox";
-    case ControllerHaptics::waveforms:
-        return "Waveforms";
-    case ControllerHaptics::steamController:
-        return "Steam";
-    case ControllerHaptics::steamDeck:
-        return "Steam Deck";
-    }
-    return "";
+    constexpr std::array<std::string_view, 7> names{"HD rumble", "DualShock 4", "DualSense", "Xbox",
+                                                    "Waveforms", "Steam",       "Steam Deck"};
+    static_assert(names.size() == static_cast<std::size_t>(ControllerHaptics::steamDeck) + 1);
+    return names[static_cast<std::size_t>(haptics)];
 }
 
 std::string_view transportName(Transport transport)
 {
-    switch (transport)
-    {
-    case Transport::usb:
-        return "USB";
-    case Transport::bluetooth:
-        return "Bluetooth";
-    case Transport::receiver:
-        return "Receiver";
-    case Transport::unknown:
-        break;
-    }
-    return "unknown";
+    constexpr std::array<Choice<Transport>, 4> names{{{"USB", Transport::usb},
+                                                      {"Bluetooth", Transport::bluetooth},
+                                                      {"Receiver", Transport::receiver},
+                                                      {"unknown", Transport::unknown}}};
+    return nameOf(transport, names);
 }
 
 std::vector<std::string> modelNames()

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include <array>
+#include <cstddef>
 #include <string_view>
 #include <vector>
 
@@ -136,22 +138,11 @@ void addMeasurement(Lines& lines, const ProfileMeasurement& measurement)
 
 const char* technologyText(Technology technology)
 {
-    switch (technology)
-    {
-    case Technology::erm:
-        return "eccentric rotating mass";
-    case Technology::lra:
-        return "linear resonant actuator";
-    case Technology::piezo:
-        return "piezoelectric";
-    case Technology::eap:
-        return "electroactive polymer";
-    case Technology::vca:
-        return "voice coil";
-    case Technology::pcm:
-        break;
-    }
-    return "no actuator known";
+    constexpr std::array texts{
+        "eccentric rotating mass", "linear resonant actuator", "piezoelectric", "electroactive polymer", "voice coil",
+        "no actuator known"};
+    static_assert(texts.size() == profileFields::technologies.size());
+    return texts[static_cast<std::size_t>(technology)];
 }
 
 std::string voicesText(int polyphony)

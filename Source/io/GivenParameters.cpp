@@ -1,10 +1,12 @@
 #include "io/GivenParameters.h"
 
+#include "io/Fields.h"
 #include "io/NearestName.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -15,21 +17,10 @@ namespace pacini
 
 namespace
 {
-std::string_view nameOf(ParameterKind kind)
-{
-    switch (kind)
-    {
-    case ParameterKind::number:
-        return "number";
-    case ParameterKind::whole:
-        return "whole";
-    case ParameterKind::truth:
-        return "truth";
-    case ParameterKind::choice:
-        break;
-    }
-    return "choice";
-}
+constexpr std::array<Choice<ParameterKind>, 4> kinds{{{"number", ParameterKind::number},
+                                                      {"whole", ParameterKind::whole},
+                                                      {"truth", ParameterKind::truth},
+                                                      {"choice", ParameterKind::choice}}};
 
 /// The value of a parameter in the current object, if it has one. Programs may give NaN, which no range allows.
 std::optional<double> readValue(FieldsReader& reader, const ParameterInfo& parameter)
@@ -107,7 +98,7 @@ nlohmann::ordered_json descriptionJson(const ParameterInfo& parameter)
 {
     nlohmann::ordered_json one{{"name", parameter.name},
                                {"option", optionName(parameter)},
-                               {"kind", nameOf(parameter.kind)},
+                               {"kind", nameOf(parameter.kind, kinds)},
                                {"unit", parameter.unit}};
     if (parameter.kind == ParameterKind::choice)
         one["choices"] = parameter.choices;

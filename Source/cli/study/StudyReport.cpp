@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <set>
@@ -612,24 +613,9 @@ void writeWords(Writer& writer, Json& json, const StudyResults& results, const S
 
 std::string unitOf(Variable variable)
 {
-    switch (variable)
-    {
-    case Variable::level:
-        return "dB re full drive";
-    case Variable::levelDifference:
-        return "dB";
-    case Variable::frequency:
-        return "%";
-    case Variable::delay:
-        return "ms";
-    case Variable::bands:
-        return "bands";
-    case Variable::breakpoints:
-        return "breakpoints per second";
-    case Variable::bits:
-        return "bits";
-    }
-    return "";
+    constexpr std::array units{"dB re full drive", "dB", "%", "ms", "bands", "breakpoints per second", "bits"};
+    static_assert(units.size() == study::fields::variables.size());
+    return units[static_cast<std::size_t>(variable)];
 }
 
 using Person = std::pair<std::string, std::string>; // group and participant

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "plugin/engine/Lv2Parameters.h"
 
+#include "io/Fields.h"
 #include "plugin/engine/ParameterTable.h"
 
 #include <algorithm>
@@ -140,53 +141,23 @@ void correct(std::string& text)
             text.replace(at, written.size(), wanted);
 }
 
-std::string_view lv2UnitOf(ParameterUnit unit)
-{
-    switch (unit)
-    {
-    case ParameterUnit::decibels:
-        return "units:db";
-    case ParameterUnit::semitones:
-        return "units:semitone12TET";
-    case ParameterUnit::milliseconds:
-        return "units:ms";
-    case ParameterUnit::percent:
-        return "units:coef";
-    case ParameterUnit::number:
-    case ParameterUnit::choice:
-    case ParameterUnit::toggle:
-        break;
-    }
-    return {};
-}
+constexpr std::array<Choice<ParameterUnit>, 4> lv2Units{{{"units:db", ParameterUnit::decibels},
+                                                         {"units:semitone12TET", ParameterUnit::semitones},
+                                                         {"units:ms", ParameterUnit::milliseconds},
+                                                         {"units:coef", ParameterUnit::percent}}};
 
-std::string_view lv2PropertiesOf(ParameterUnit unit)
-{
-    switch (unit)
-    {
-    case ParameterUnit::number:
-        return "lv2:integer";
-    case ParameterUnit::choice:
-        return "lv2:integer , lv2:enumeration";
-    case ParameterUnit::toggle:
-        return "lv2:toggled";
-    case ParameterUnit::decibels:
-    case ParameterUnit::semitones:
-    case ParameterUnit::milliseconds:
-    case ParameterUnit::percent:
-        break;
-    }
-    return {};
-}
+constexpr std::array<Choice<ParameterUnit>, 3> lv2Properties{{{"lv2:integer", ParameterUnit::number},
+                                                              {"lv2:integer , lv2:enumeration", ParameterUnit::choice},
+                                                              {"lv2:toggled", ParameterUnit::toggle}}};
 
 void describe(const ParameterRow& row, std::ostream& out)
 {
     out << "plug:" << row.id << "\n\ta lv2:Parameter ;\n\trdfs:label " << quoted(row.name) << " ;\n\trdfs:comment "
         << quoted(row.help) << " ;\n\trdfs:range atom:Float ;\n";
     out << "\tpg:group " << groupPrefix << groupOf(row.id).symbol << " ;\n";
-    if (const auto unit = lv2UnitOf(row.unit); !unit.empty())
+    if (const auto unit = nameOf(row.unit, lv2Units); !unit.empty())
         out << "\tunits:unit " << unit << " ;\n";
-    if (const auto properties = lv2PropertiesOf(row.unit); !properties.empty())
+    if (const auto properties = nameOf(row.unit, lv2Properties); !properties.empty())
         out << "\tlv2:portProperty " << properties << " ;\n";
     for (std::size_t i = 0; i < row.choices.size(); ++i)
         if (!hasNoActuator(row.choices[i]))
