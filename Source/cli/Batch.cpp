@@ -14,8 +14,6 @@
 namespace pacini::cli
 {
 
-namespace fs = std::filesystem;
-
 namespace
 {
 std::uint64_t sizeOf(const fs::path& input)

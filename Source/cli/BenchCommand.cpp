@@ -16,9 +16,8 @@ namespace pacini::cli
 namespace
 {
 /// `pacini bench`: error against run time, measured on the user's machine and sounds.
-class BenchCommand : public Command
+struct BenchCommand : Command
 {
-public:
     explicit BenchCommand(BenchRun toRun) : measure(std::move(toRun)) {}
 
     CLI::App* declare(CLI::App& app) override
@@ -41,18 +40,16 @@ public:
         addPreset(*command, "--format", options.format, "Format of the charts", oneOf({"svg", "png"}));
         addOption(*command, "--markdown", options.markdown, "Also write all tables into one Markdown page", "FILE");
         options.overwriting.declare(*command);
-        command->footer(
+        return command->footer(
             "Errors and times are measured in the same runs, one at a time, on one processor. Times differ "
             "between\ncomputers; compare ratios.\n"
             "Examples:\n  pacini bench simplify                         the demo sounds, into pacini-bench/\n"
             "  pacini bench methods sounds/ --sweep -o out   all methods over a folder\n"
             "  pacini bench all sounds/ --markdown measurements.md");
-        return command;
     }
 
     Exit run(Console& console) override { return measure(options, console); }
 
-private:
     BenchRun measure;
     BenchOptions options;
 };

@@ -21,8 +21,6 @@
 namespace pacini::cli
 {
 
-namespace fs = std::filesystem;
-
 namespace
 {
 /// The list of doubtful onsets that belongs to X.json, X_ambiguous.json, when there is one.
@@ -143,13 +141,11 @@ BatchOutcome outcomeOf(const CompareTask& task)
 }
 
 /// `pacini compare`: how much of a sound a haptic signal keeps.
-class CompareCommand : public Command
+struct CompareCommand : Command
 {
-public:
     CLI::App* declare(CLI::App& app) override;
     Exit run(Console& console) override;
 
-private:
     std::string reference;
     std::string candidate;
     std::string onsets;
@@ -182,7 +178,7 @@ CLI::App* CompareCommand::declare(CLI::App& app)
     addOption(*command, "-j,--jobs", jobs, "Number of pairs processed in parallel [number of processors]",
               wholeNumberFrom(1u, 256u), "N");
     batch.declare(*command);
-    command->footer(
+    return command->footer(
         "Measures (from 30 to 1000 Hz unless noted; the level of the candidate does not matter):\n"
         "  match           predicted mean rating by people of how well it matches the sound, 0 to 100. Values range\n  "
         "                from 35 (nothing is felt) to 71; the JSON also has its parts\n"
@@ -202,7 +198,6 @@ CLI::App* CompareCommand::declare(CLI::App& app)
         "  pacini compare door.wav door_haptic.wav\n"
         "  pacini compare sounds/ rendered/ --json -j 4\n"
         "  pacini compare door.wav door_haptic.wav --onsets onsets.json --events door.pacb");
-    return command;
 }
 
 Exit CompareCommand::run(Console& console)

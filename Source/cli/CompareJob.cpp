@@ -16,8 +16,6 @@
 namespace pacini::cli
 {
 
-namespace fs = std::filesystem;
-
 namespace
 {
 /// A sound mixed down to one channel.

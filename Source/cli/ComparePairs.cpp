@@ -10,8 +10,6 @@
 namespace pacini::cli
 {
 
-namespace fs = std::filesystem;
-
 namespace
 {
 using FilesByStem = std::map<std::string, std::vector<fs::path>>;

@@ -287,38 +287,32 @@ std::string fishScript(const CommandText& program)
 }
 
 /// `pacini completions`: prints shell scripts that complete commands, options and their values.
-class CompletionsCommand : public Command
+struct CompletionsCommand : Command
 {
-public:
-    CLI::App* declare(CLI::App& app) override;
-    Exit run(Console& console) override;
+    CLI::App* declare(CLI::App& app) override
+    {
+        program = &app;
+        auto* command = app.add_subcommand("completions", "Print the completion script of a shell");
+        addOption(*command, "shell", shell, "Which shell", oneOf({"bash", "zsh", "fish"}), "SHELL")->required();
+        return command->footer("Examples:\n"
+                               "  pacini completions bash > ~/.local/share/bash-completion/completions/pacini\n"
+                               "  pacini completions zsh > ~/.zfunc/_pacini                  a folder of $fpath\n"
+                               "  pacini completions fish > ~/.config/fish/completions/pacini.fish");
+    }
 
-private:
+    Exit run(Console& console) override
+    {
+        const CommandText tree = commandTree(*program);
+        const std::string text = shell == "bash"  ? bashScript(tree)
+                                 : shell == "zsh" ? zshScript(tree)
+                                                  : fishScript(tree);
+        return console.printText(text);
+    }
+
     const CLI::App* program = nullptr;
     std::string shell;
 };
 } // namespace
-
-CLI::App* CompletionsCommand::declare(CLI::App& app)
-{
-    program = &app;
-    auto* command = app.add_subcommand("completions", "Print the completion script of a shell");
-    addOption(*command, "shell", shell, "Which shell", oneOf({"bash", "zsh", "fish"}), "SHELL")->required();
-    command->footer("Examples:\n"
-                    "  pacini completions bash > ~/.local/share/bash-completion/completions/pacini\n"
-                    "  pacini completions zsh > ~/.zfunc/_pacini                  a folder of $fpath\n"
-                    "  pacini completions fish > ~/.config/fish/completions/pacini.fish");
-    return command;
-}
-
-Exit CompletionsCommand::run(Console& console)
-{
-    const CommandText tree = commandTree(*program);
-    const std::string text = shell == "bash" ? bashScript(tree) : shell == "zsh" ? zshScript(tree) : fishScript(tree);
-    console.addToReport({{"text", text}});
-    console.print(text);
-    return Exit::ok;
-}
 
 std::unique_ptr<Command> completionsCommand()
 {

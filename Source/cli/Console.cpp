@@ -44,6 +44,13 @@ void Console::print(std::string_view line)
         put(line);
 }
 
+Exit Console::printText(const std::string& text)
+{
+    addToReport({{"text", text}});
+    print(text);
+    return Exit::ok;
+}
+
 void Console::put(std::string_view line)
 {
     clearLine();

@@ -19,6 +19,8 @@
 namespace pacini::cli
 {
 
+namespace fs = std::filesystem;
+
 /// Exit codes of the command.
 enum class Exit
 {
@@ -56,6 +58,9 @@ public:
 
     /// A result for people: a line on stdout.
     void print(std::string_view line);
+
+    /// A text that is the whole result: printed, or the report's `text`.
+    Exit printText(const std::string& text);
 
     /// Prints a line on stdout about finished work, for people.
     void note(std::string_view line);

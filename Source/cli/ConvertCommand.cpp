@@ -118,13 +118,11 @@ void report(Console& console, const std::vector<ConvertTask>& tasks, bool severa
 }
 
 /// `pacini convert`: clips, or profiles, of one format become another.
-class ConvertCommand : public Command
+struct ConvertCommand : Command
 {
-public:
     CLI::App* declare(CLI::App& app) override;
     Exit run(Console& console) override;
 
-private:
     Exit convertProfile(Console& console);
     Exit convertClips(Console& console);
 
@@ -191,12 +189,11 @@ CLI::App* ConvertCommand::declare(CLI::App& app)
     command->add_flag("--dry-run", dryRun, "Print what would be done with each file and write nothing");
     addOption(*command, "-j,--jobs", jobs, "Number of files processed in parallel [number of processors]",
               wholeNumberFrom(1u, 256u), "N");
-    command->footer(
+    return command->footer(
         "Examples:\n  pacini convert door.json door.pacb             no loss between the two\n"
         "  pacini convert door.pacb door.haptic           for the players of Lofelt and Meta\n"
         "  pacini convert door.haptic door.ahap --split   from one format to another, by way of a clip\n"
         "  pacini convert clips/ ios/ --format ahap -j 8  a folder; the second run converts only changed files");
-    return command;
 }
 
 Exit ConvertCommand::run(Console& console)
@@ -409,12 +406,8 @@ Exit ConvertCommand::convertClips(Console& console)
             begun.expect(task.key);
     if (const auto started = growing.start(dryRun ? std::filesystem::path() : record, begun); !started)
         return console.fail(record.string(), started.error());
-    const auto nameOf = [&](std::size_t i)
-    {
-        return tasks[i].input.filename().string();
-    };
     BatchEnd end;
-    runTasks(console, tasks.size(), jobs, nameOf,
+    runTasks(console, tasks, jobs,
              [&]
              {
                  return [&](std::size_t i, const std::function<void(double)>&)

@@ -113,13 +113,11 @@ Error wrongUsage(std::string where, std::string message)
 }
 
 /// `pacini encode`: recordings become clips, or drive signals by methods that make no clip.
-class EncodeCommand : public Command
+struct EncodeCommand : Command
 {
-public:
     CLI::App* declare(CLI::App& app) override;
     Exit run(Console& console) override;
 
-private:
     /// Complains of options of the output that do not fit the method.
     [[nodiscard]] Result<void> checkOptions(const MethodInfo& method) const;
     [[nodiscard]] Result<void> checkFormat() const;
@@ -221,16 +219,15 @@ CLI::App* EncodeCommand::declare(CLI::App& app)
               "ADDRESS");
     described.declare(*command, special);
     group(CLI::OptionDefaults().get_group().c_str());
-    command->footer("Examples:\n  pacini encode door.wav                       writes door.json\n"
-                    "  pacini encode door.wav -o door.pacb          packed: about 200 bytes per second\n"
-                    "  pacini encode sounds/ -o clips/ --format packed -j 8\n"
-                    "  pacini encode door.wav -o door.haptic        for the players of Lofelt and Meta\n"
-                    "  pacini encode door.wav --method thesis --bands 8\n"
-                    "  pacini encode song.flac --preset music       the beat first\n"
-                    "  pacini encode --bands 8 --print-settings > mine.json\n"
-                    "  pacini encode sounds/ -o clips/ --settings mine.json\n"
-                    "  pacini encode door.wav --method lowpass      writes door.lowpass.wav");
-    return command;
+    return command->footer("Examples:\n  pacini encode door.wav                       writes door.json\n"
+                           "  pacini encode door.wav -o door.pacb          packed: about 200 bytes per second\n"
+                           "  pacini encode sounds/ -o clips/ --format packed -j 8\n"
+                           "  pacini encode door.wav -o door.haptic        for the players of Lofelt and Meta\n"
+                           "  pacini encode door.wav --method thesis --bands 8\n"
+                           "  pacini encode song.flac --preset music       the beat first\n"
+                           "  pacini encode --bands 8 --print-settings > mine.json\n"
+                           "  pacini encode sounds/ -o clips/ --settings mine.json\n"
+                           "  pacini encode door.wav --method lowpass      writes door.lowpass.wav");
 }
 
 std::optional<Settings> EncodeCommand::chosenSettings(Console& console) const
@@ -461,11 +458,7 @@ Exit EncodeCommand::run(Console& console)
     if (const auto started = batch.start(tasks, dryRun); !started)
         return console.fail("", started.error());
     BatchEnd end;
-    const auto nameOf = [&](std::size_t i)
-    {
-        return tasks[i].input.filename().string();
-    };
-    runTasks(console, tasks.size(), jobs, nameOf,
+    runTasks(console, tasks, jobs,
              [&]
              {
                  return

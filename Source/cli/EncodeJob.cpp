@@ -17,8 +17,6 @@
 namespace pacini::cli
 {
 
-namespace fs = std::filesystem;
-
 namespace
 {
 /// Encoder parameters that follow from the sound.

@@ -35,39 +35,31 @@ Error unknownCommand(const CommandText& program, const std::vector<std::string>&
 }
 
 /// `pacini help`: explains the commands and their options.
-class HelpCommand : public Command
+struct HelpCommand : Command
 {
-public:
-    CLI::App* declare(CLI::App& app) override;
-    Exit run(Console& console) override;
+    CLI::App* declare(CLI::App& app) override
+    {
+        program = &app;
+        auto* command = app.add_subcommand("help", "Explain a command");
+        addOption(*command, "command", topic, "Command, and a step of it if it has steps [a summary of all commands]",
+                  "COMMAND");
+        return command->footer("Examples:\n  pacini help encode\n  pacini help measure fit");
+    }
 
-private:
+    Exit run(Console& console) override
+    {
+        const CommandText tree = commandTree(*program);
+        const CommandText* command = commandNamed(tree, fmt::format("{}", fmt::join(topic, " ")));
+        if (command == nullptr)
+            return console.fail("", unknownCommand(tree, topic), Exit::usage);
+        const std::string text = helpText(*command, terminal::textWidth());
+        return console.printText(text);
+    }
+
     const CLI::App* program = nullptr;
     std::vector<std::string> topic;
 };
 } // namespace
-
-CLI::App* HelpCommand::declare(CLI::App& app)
-{
-    program = &app;
-    auto* command = app.add_subcommand("help", "Explain a command");
-    addOption(*command, "command", topic, "Command, and a step of it if it has steps [a summary of all commands]",
-              "COMMAND");
-    command->footer("Examples:\n  pacini help encode\n  pacini help measure fit");
-    return command;
-}
-
-Exit HelpCommand::run(Console& console)
-{
-    const CommandText tree = commandTree(*program);
-    const CommandText* command = commandNamed(tree, fmt::format("{}", fmt::join(topic, " ")));
-    if (command == nullptr)
-        return console.fail("", unknownCommand(tree, topic), Exit::usage);
-    const std::string text = helpText(*command, terminal::textWidth());
-    console.addToReport({{"text", text}});
-    console.print(text);
-    return Exit::ok;
-}
 
 std::unique_ptr<Command> helpCommand()
 {

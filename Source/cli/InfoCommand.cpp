@@ -141,13 +141,11 @@ Result<Json> describeAudio(const std::string& file, std::vector<std::string>& wa
 }
 
 /// `pacini info`: shows the content of a clip, a scene, a sound file or a profile.
-class InfoCommand : public Command
+struct InfoCommand : Command
 {
-public:
     CLI::App* declare(CLI::App& app) override;
     Exit run(Console& console) override;
 
-private:
     std::vector<std::string> inputs;
     std::string clipFolder;
 };
@@ -161,9 +159,8 @@ CLI::App* InfoCommand::declare(CLI::App& app)
               "FILE|PROFILE")
         ->required();
     addOption(*command, "--clips", clipFolder, "Folder with the clip files of scenes [the folder of the scene]", "DIR");
-    command->footer("Examples:\n  pacini info door.json door.haptic door.wav\n"
-                    "  pacini info l5-wristband                       a profile that comes with Pacini");
-    return command;
+    return command->footer("Examples:\n  pacini info door.json door.haptic door.wav\n"
+                           "  pacini info l5-wristband                       a profile that comes with Pacini");
 }
 
 Exit InfoCommand::run(Console& console)

@@ -14,8 +14,6 @@
 namespace pacini::cli
 {
 
-namespace fs = std::filesystem;
-
 namespace
 {
 bool isHidden(const fs::path& path)

@@ -66,13 +66,11 @@ std::vector<std::string> kindNames()
 }
 
 /// `pacini lint`: lists the losses of clips in a format before export, and the parts of a scene without effect.
-class LintCommand : public Command
+struct LintCommand : Command
 {
-public:
     CLI::App* declare(CLI::App& app) override;
     Exit run(Console& console) override;
 
-private:
     /// Whether the user does not allow anything of this kind.
     [[nodiscard]] bool failsOn(std::string_view kind) const;
 
@@ -123,10 +121,10 @@ CLI::App* LintCommand::declare(CLI::App& app)
     addOption(*command, "--fail-on", forbidden,
               "Fail on any loss of these kinds; scene fails on any finding in a scene", oneOf(kindNames()))
         ->delimiter(',');
-    command->footer("Examples:\n  pacini lint door.json --target ahap\n"
-                    "  pacini lint clips/ --target haptic --max-error 0.1   exits with 1 if a clip loses more\n"
-                    "  pacini lint hall.scene.json --fail-on scene   exits with 1 if part of it is never played");
-    return command;
+    return command->footer(
+        "Examples:\n  pacini lint door.json --target ahap\n"
+        "  pacini lint clips/ --target haptic --max-error 0.1   exits with 1 if a clip loses more\n"
+        "  pacini lint hall.scene.json --fail-on scene   exits with 1 if part of it is never played");
 }
 
 bool LintCommand::failsOn(std::string_view kind) const

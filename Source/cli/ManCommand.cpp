@@ -109,34 +109,26 @@ std::string manualPage(const CommandText& program)
 }
 
 /// `pacini man`: prints the manual page, made from the declarations of the commands.
-class ManCommand : public Command
+struct ManCommand : Command
 {
-public:
-    CLI::App* declare(CLI::App& app) override;
-    Exit run(Console& console) override;
+    CLI::App* declare(CLI::App& app) override
+    {
+        program = &app;
+        auto* command = app.add_subcommand("man", "Print the manual page");
+        return command->footer("Examples:\n  pacini man > pacini.1 && man -l pacini.1\n"
+                               "  pacini man > ~/.local/share/man/man1/pacini.1      for 'man pacini'");
+    }
 
-private:
+    Exit run(Console& console) override
+    {
+        std::string text = manualPage(commandTree(*program));
+        text.pop_back();
+        return console.printText(text);
+    }
+
     const CLI::App* program = nullptr;
 };
 } // namespace
-
-CLI::App* ManCommand::declare(CLI::App& app)
-{
-    program = &app;
-    auto* command = app.add_subcommand("man", "Print the manual page");
-    command->footer("Examples:\n  pacini man > pacini.1 && man -l pacini.1\n"
-                    "  pacini man > ~/.local/share/man/man1/pacini.1      for 'man pacini'");
-    return command;
-}
-
-Exit ManCommand::run(Console& console)
-{
-    std::string text = manualPage(commandTree(*program));
-    text.pop_back();
-    console.addToReport({{"text", text}});
-    console.print(text);
-    return Exit::ok;
-}
 
 std::unique_ptr<Command> manCommand()
 {

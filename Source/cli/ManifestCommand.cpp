@@ -25,8 +25,6 @@
 namespace pacini::cli
 {
 
-namespace fs = std::filesystem;
-
 namespace
 {
 /// A manifest that must be there; the console has said why it is not.
@@ -78,9 +76,8 @@ std::string faultOf(const ManifestOutput& output, const fs::path& folder)
 }
 
 /// `manifest merge`: those of several shards become one.
-class MergeSubcommand : public Command
+struct MergeSubcommand : Command
 {
-public:
     CLI::App* declare(CLI::App& app) override
     {
         auto* command = app.add_subcommand("merge", "Merge the manifests of several runs or shards");
@@ -89,8 +86,7 @@ public:
             ->required();
         addOption(*command, "-o,--output", output, "File to write", "OUT")->required();
         overwriting.declare(*command);
-        command->footer("Example:\n  pacini manifest merge run.manifest.*-of-8.json -o run.manifest.json");
-        return command;
+        return command->footer("Example:\n  pacini manifest merge run.manifest.*-of-8.json -o run.manifest.json");
     }
 
     Exit run(Console& console) override
@@ -145,7 +141,6 @@ public:
         return Exit::failed;
     }
 
-private:
     static std::string nameOf(const Manifest& manifest)
     {
         return manifest.command.empty() ? "convert" : manifest.command;
@@ -171,17 +166,15 @@ private:
 };
 
 /// `manifest check`: is everything still as the manifest says?
-class CheckSubcommand : public Command
+struct CheckSubcommand : Command
 {
-public:
     CLI::App* declare(CLI::App& app) override
     {
         auto* command =
             app.add_subcommand("check", "List files that failed, are missing or changed since, and missing shards");
         addOption(*command, "inputs", inputs, "Manifests; output paths are relative to each manifest", "MANIFEST")
             ->required();
-        command->footer("Example:\n  pacini manifest check clips/run.manifest.json");
-        return command;
+        return command->footer("Example:\n  pacini manifest check clips/run.manifest.json");
     }
 
     Exit run(Console& console) override
@@ -228,14 +221,12 @@ public:
         return failed + faulty > 0 || !whole ? Exit::failed : Exit::ok;
     }
 
-private:
     std::vector<std::string> inputs;
 };
 
 /// `manifest retry`: replaced by the command of the manifest, see retriedCommand().
-class RetrySubcommand : public Command
+struct RetrySubcommand : Command
 {
-public:
     CLI::App* declare(CLI::App& app) override
     {
         auto* command = app.add_subcommand(
@@ -243,10 +234,9 @@ public:
         addOption(*command, "input", input, "Manifest of encode, render or compare; give it before all options",
                   "MANIFEST")
             ->required();
-        command->footer("Options after the manifest are passed to the command.\n\nExample:\n"
-                        "  pacini manifest retry clips/run.manifest.json -j 2");
+        return command->footer("Options after the manifest are passed to the command.\n\nExample:\n"
+                               "  pacini manifest retry clips/run.manifest.json -j 2");
         command->allow_extras();
-        return command;
     }
 
     Exit run(Console& console) override
@@ -262,14 +252,12 @@ public:
                                                       printable(manifest->command))});
     }
 
-private:
     std::string input;
 };
 
 /// `pacini manifest`: the records of runs over many files.
-class ManifestCommand : public CommandGroup
+struct ManifestCommand : CommandGroup
 {
-public:
     CLI::App* declare(CLI::App& app) override
     {
         auto* command = app.add_subcommand("manifest", "Merge, check and retry runs over many files");
@@ -277,14 +265,13 @@ public:
         addStep(*command, std::make_unique<MergeSubcommand>());
         addStep(*command, std::make_unique<CheckSubcommand>());
         addStep(*command, std::make_unique<RetrySubcommand>());
-        command->footer(
+        return command->footer(
             "encode, render and compare write a manifest with --manifest, convert of a folder always. After\n"
             "'encode sounds/ -o clips/ --shard 3/8 --manifest clips/run.manifest.json' on each of eight machines:\n"
             "  pacini manifest merge clips/run.manifest.*-of-8.json -o clips/run.manifest.json\n"
             "  pacini manifest check clips/run.manifest.json\n"
             "  pacini manifest retry clips/run.manifest.json\n"
             "A stopped run continues when it is started again, with any number of shards.");
-        return command;
     }
 };
 } // namespace

@@ -121,13 +121,11 @@ Result<plot::NamedWaveform> driveWaveform(const Clip& clip, const std::optional<
 }
 
 /// `pacini plot`: a clip, a scene, a sound and the clip it becomes, or an actuator, as a picture.
-class PlotCommand : public Command
+struct PlotCommand : Command
 {
-public:
     CLI::App* declare(CLI::App& app) override;
     Exit run(Console& console) override;
 
-private:
     /// What is shown of something that lasts `duration` s. Errors: invalidArgument.
     [[nodiscard]] Result<plot::TimeRange> rangeWithin(double duration) const;
 
@@ -193,12 +191,11 @@ CLI::App* PlotCommand::declare(CLI::App& app)
               "S");
     command->add_flag("--dark", dark, "Dark background");
     overwriting.declare(*command);
-    command->footer("Examples:\n  pacini plot door.pacb -o door.png --sound door.wav\n"
-                    "  pacini plot door.wav -o door.svg --from 0.5 --to 1.5\n"
-                    "  pacini plot door.haptic -o door.png\n"
-                    "  pacini plot hall.scene.json -o hall.png        times and actuators of each clip\n"
-                    "  pacini plot l5-wristband -o l5.png");
-    return command;
+    return command->footer("Examples:\n  pacini plot door.pacb -o door.png --sound door.wav\n"
+                           "  pacini plot door.wav -o door.svg --from 0.5 --to 1.5\n"
+                           "  pacini plot door.haptic -o door.png\n"
+                           "  pacini plot hall.scene.json -o hall.png        times and actuators of each clip\n"
+                           "  pacini plot l5-wristband -o l5.png");
 }
 
 Exit PlotCommand::run(Console& console)

@@ -129,13 +129,11 @@ void tellLevel(Console& console, const RenderTask& task, const RenderSettings& s
 }
 
 /// `pacini render`: renders clips and scenes as drive signals, or as the acceleration of the skin.
-class RenderCommand : public Command
+struct RenderCommand : Command
 {
-public:
     CLI::App* declare(CLI::App& app) override;
     Exit run(Console& console) override;
 
-private:
     /// The clips and scenes to render. Of a folder those of other programs only where no clip of Pacini's has the same
     /// name, which they are then an export of.
     [[nodiscard]] InputFiles findClips() const;
@@ -218,13 +216,12 @@ CLI::App* RenderCommand::declare(CLI::App& app)
     addOption(*command, "-j,--jobs", jobs, "Number of files processed in parallel [number of processors]",
               wholeNumberFrom(1u, 256u), "N");
     batch.declare(*command);
-    command->footer("Examples:\n  pacini render door.pacb -o door.wav\n"
-                    "  pacini render door.pacb -o door.wav --profile l5-wristband --encoding pcm24\n"
-                    "  pacini render step.json -o step3.wav --variation 0.3 --seed 3\n"
-                    "  pacini render hall.scene.json -o hall.wav --explain\n"
-                    "  pacini render hall.scene.json -o part.wav --from 12.5 --to 20\n"
-                    "  pacini render door.pacb -o skin.wav --profile l5-wristband --felt");
-    return command;
+    return command->footer("Examples:\n  pacini render door.pacb -o door.wav\n"
+                           "  pacini render door.pacb -o door.wav --profile l5-wristband --encoding pcm24\n"
+                           "  pacini render step.json -o step3.wav --variation 0.3 --seed 3\n"
+                           "  pacini render hall.scene.json -o hall.wav --explain\n"
+                           "  pacini render hall.scene.json -o part.wav --from 12.5 --to 20\n"
+                           "  pacini render door.pacb -o skin.wav --profile l5-wristband --felt");
 }
 
 InputFiles RenderCommand::findClips() const
@@ -320,11 +317,7 @@ Exit RenderCommand::run(Console& console)
     if (const auto started = batch.start(tasks, dryRun); !started)
         return console.fail("", started.error());
     BatchEnd end;
-    const auto nameOf = [&](std::size_t i)
-    {
-        return tasks[i].input.filename().string();
-    };
-    runTasks(console, tasks.size(), jobs, nameOf,
+    runTasks(console, tasks, jobs,
              [&]
              {
                  return [&](std::size_t i, const std::function<void(double)>& progress)

@@ -63,13 +63,11 @@ double wallClock()
 }
 
 /// `pacini serve`: a clip on phones.
-class ServeCommand : public Command
+struct ServeCommand : Command
 {
-public:
     CLI::App* declare(CLI::App& app) override;
     Exit run(Console& console) override;
 
-private:
     void showPicture(Console& console, const phone::PhoneServer& server) const;
     void serve(Console& console, phone::PhoneServer& server, Interruption& interruption) const;
 
@@ -86,11 +84,11 @@ CLI::App* ServeCommand::declare(CLI::App& app)
     addOption(*command, "--address", address, "Address to listen on [that of this machine in its network]", "IPV4");
     addOption(*command, "--port", port, "Port to listen on [a free port]", numberFrom(1.0, 65535.0), "N");
     command->add_flag("--inverted", inverted, "Invert the QR code, for terminals with a light background");
-    command->footer("Scan the QR code with the phone. Each code works once; a new one appears for the next phone, up "
-                    "to 64.\nEnter plays the clip on all connected phones, Ctrl-C ends. Browsers on Android vibrate, "
-                    "those on\niPhones and Firefox do not. The connection is not encrypted.\n"
-                    "Example:\n  pacini serve door.json");
-    return command;
+    return command->footer(
+        "Scan the QR code with the phone. Each code works once; a new one appears for the next phone, up "
+        "to 64.\nEnter plays the clip on all connected phones, Ctrl-C ends. Browsers on Android vibrate, "
+        "those on\niPhones and Firefox do not. The connection is not encrypted.\n"
+        "Example:\n  pacini serve door.json");
 }
 
 void ServeCommand::showPicture(Console& console, const phone::PhoneServer& server) const

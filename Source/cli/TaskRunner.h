@@ -59,4 +59,15 @@ void runTasks(Console& console, std::size_t count, unsigned threads,
     console.endProgress();
 }
 
+/// The same for `tasks`, whose inputs' names are shown.
+template <typename TaskType, typename MakeWorker>
+void runTasks(Console& console, const std::vector<TaskType>& tasks, unsigned threads, MakeWorker&& makeWorker)
+{
+    const auto nameOf = [&](std::size_t i)
+    {
+        return tasks[i].input.filename().string();
+    };
+    runTasks(console, tasks.size(), threads, nameOf, makeWorker);
+}
+
 } // namespace pacini::cli

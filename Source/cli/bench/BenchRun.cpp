@@ -24,8 +24,6 @@ namespace pacini::cli
 
 namespace
 {
-namespace fs = std::filesystem;
-
 /// The demo sounds: the nearest folder above the program that has them.
 std::string demoFolder()
 {

@@ -132,13 +132,11 @@ std::string text(const AnalysedRecordings& analysed, const MeasurementFindings& 
 }
 
 /// `pacini measure analyse`: computes the response of an actuator from recordings of a sweep.
-class AnalyseSubcommand : public Command
+struct AnalyseSubcommand : Command
 {
-public:
     CLI::App* declare(CLI::App& app) override;
     Exit run(Console& console) override;
 
-private:
     Result<std::size_t> drawPicture(const AnalysedRecordings& analysed, const ResponseFeatures& features) const;
 
     RecordingOptions options;
@@ -161,10 +159,9 @@ CLI::App* AnalyseSubcommand::declare(CLI::App& app)
               "PICTURE");
     addPreset(*command, "--distortion-limit", distortionLimit, "Distortion whose drive level is reported, %",
               numberFrom(0.01, 100.0), "%");
-    command->footer(
+    return command->footer(
         "Examples:\n  pacini measure analyse rec.wav --sweep sweep.json --full-scale 5g -o mine.json\n"
         "  pacini measure analyse rec-*.wav --sweep sweep.json --channels 1,2,3 -o response.csv --plot r.png");
-    return command;
 }
 
 Exit AnalyseSubcommand::run(Console& console)

@@ -119,13 +119,11 @@ std::string costText(const EqualizerCost& cost)
 }
 
 /// `pacini measure fit`: the equaliser that flattens a measured response.
-class FitSubcommand : public Command
+struct FitSubcommand : Command
 {
-public:
     CLI::App* declare(CLI::App& app) override;
     Exit run(Console& console) override;
 
-private:
     [[nodiscard]] EqualizerFitParams paramsFor(const std::optional<Profile>& profile) const;
     Result<std::size_t> drawPicture(const FrequencyResponse& response, const EqualizerFit& fit,
                                     const EqualizerFitParams& params) const;
@@ -182,9 +180,8 @@ CLI::App* FitSubcommand::declare(CLI::App& app)
     command->add_flag("--boost-outside", boostOutside,
                       "Allow boost outside the range; below the range this takes much power and travel");
     command->add_flag("--peaks-only", peaksOnly, "Use no shelving filters");
-    command->footer("Examples:\n  pacini measure fit response.csv --sections 5 --json\n"
-                    "  pacini measure fit mine.json -o mine.json --plot mine.png");
-    return command;
+    return command->footer("Examples:\n  pacini measure fit response.csv --sections 5 --json\n"
+                           "  pacini measure fit mine.json -o mine.json --plot mine.png");
 }
 
 EqualizerFitParams FitSubcommand::paramsFor(const std::optional<Profile>& profile) const

@@ -10,9 +10,8 @@ namespace pacini::cli
 namespace
 {
 /// `pacini measure`: from a sweep to an actuator that is flat, step by step.
-class MeasureCommand : public CommandGroup
+struct MeasureCommand : CommandGroup
 {
-public:
     CLI::App* declare(CLI::App& app) override;
 };
 } // namespace
@@ -23,7 +22,7 @@ CLI::App* MeasureCommand::declare(CLI::App& app)
     command->require_subcommand(1);
     for (const auto make : {sweepSubcommand, analyseSubcommand, fitSubcommand, verifySubcommand, simulateSubcommand})
         addStep(*command, make());
-    command->footer(
+    return command->footer(
         "From a bare actuator to a profile, with an accelerometer on it:\n"
         "  pacini measure sweep -o sweep.wav              play this, record the accelerometer\n"
         "  pacini measure analyse recorded.wav --sweep sweep.json --full-scale 5g -o mine.json\n"
@@ -32,7 +31,6 @@ CLI::App* MeasureCommand::declare(CLI::App& app)
         "  pacini measure verify flat-recorded.wav --sweep flat.json --full-scale 5g --profile mine.json\n"
         "Record the same actuator several times, attached again or on other people, and name all recordings:\nthe "
         "average leaves out outliers. 'pacini measure simulate' records without hardware.");
-    return command;
 }
 
 std::unique_ptr<Command> measureCommand()

@@ -44,13 +44,11 @@ bool clips(const std::vector<float>& channel)
 }
 
 /// `pacini measure simulate`: simulates the recording of an accelerometer on a worn actuator, for learning and tests.
-class SimulateSubcommand : public Command
+struct SimulateSubcommand : Command
 {
-public:
     CLI::App* declare(CLI::App& app) override;
     Exit run(Console& console) override;
 
-private:
     Exit record(Console& console) const;
 
     std::string input;
@@ -105,9 +103,8 @@ CLI::App* SimulateSubcommand::declare(CLI::App& app)
               "Third-order distortion of the actuator: factor of the cube of the drive", numberFrom(-1.0, 1.0), "A");
     addPreset(*command, "--seed", seed, "Seed of the noise and of the sensor's orientation", countingNumber(), "N");
     overwriting.declare(*command);
-    command->footer("Examples:\n  pacini measure simulate sweep.wav -o rec.wav\n"
-                    "  pacini measure simulate sweep.wav -o rec.wav --wearers 14      fourteen recordings");
-    return command;
+    return command->footer("Examples:\n  pacini measure simulate sweep.wav -o rec.wav\n"
+                           "  pacini measure simulate sweep.wav -o rec.wav --wearers 14      fourteen recordings");
 }
 
 Exit SimulateSubcommand::run(Console& console)

@@ -29,13 +29,11 @@ namespace pacini::cli
 namespace
 {
 /// `pacini measure sweep`: writes the sweep to play on an actuator, and its description.
-class SweepSubcommand : public Command
+struct SweepSubcommand : Command
 {
-public:
     CLI::App* declare(CLI::App& app) override;
     Exit run(Console& console) override;
 
-private:
     CLI::Option* outputOption = nullptr;
     std::string output = "sweep.wav";
     std::string profile;
@@ -79,10 +77,10 @@ CLI::App* SweepSubcommand::declare(CLI::App& app)
     addPreset(*command, "--rate", rate, "Sample rate, Hz", wholeNumberFrom(2000, 384000), "HZ");
     addOption(*command, "--profile", profile, "Apply the equaliser of this profile, to verify it", "PROFILE");
     overwriting.declare(*command);
-    command->footer("Examples:\n  pacini measure sweep -o sweep.wav\n"
-                    "  pacini measure sweep -o sweep.wav --levels -24,-12,-6      shows the onset of distortion\n"
-                    "  pacini measure sweep -o flat.wav --profile mine.json       for 'pacini measure verify'");
-    return command;
+    return command->footer(
+        "Examples:\n  pacini measure sweep -o sweep.wav\n"
+        "  pacini measure sweep -o sweep.wav --levels -24,-12,-6      shows the onset of distortion\n"
+        "  pacini measure sweep -o flat.wav --profile mine.json       for 'pacini measure verify'");
 }
 
 SweepParams SweepSubcommand::params() const

@@ -60,13 +60,11 @@ std::string linearityText(const Linearity& linearity)
 }
 
 /// `pacini measure verify`: whether an actuator is flat through its equaliser.
-class VerifySubcommand : public Command
+struct VerifySubcommand : Command
 {
-public:
     CLI::App* declare(CLI::App& app) override;
     Exit run(Console& console) override;
 
-private:
     [[nodiscard]] Result<std::size_t> drawPicture(const Profile& actuator, const AnalysedRecordings& analysed,
                                                   const LinearityParams& params, const Linearity& linearity) const;
 
@@ -95,9 +93,8 @@ CLI::App* VerifySubcommand::declare(CLI::App& app)
               numberFrom(0.1, 200000.0), "HZ");
     addOption(*command, "--high", high, "End of the range to verify, Hz [that of the profile]",
               numberFrom(0.1, 200000.0), "HZ");
-    command->footer("Exits with 1 when the actuator is not flat.\nExamples:\n"
-                    "  pacini measure verify after.wav --sweep flat.json --full-scale 5g --profile mine.json");
-    return command;
+    return command->footer("Exits with 1 when the actuator is not flat.\nExamples:\n"
+                           "  pacini measure verify after.wav --sweep flat.json --full-scale 5g --profile mine.json");
 }
 
 Exit VerifySubcommand::run(Console& console)

@@ -14,19 +14,16 @@ namespace pacini::cli
 namespace
 {
 /// `study check`: finds problems of a study.
-class CheckSubcommand : public Command
+struct CheckSubcommand : Command
 {
-public:
     CLI::App* declare(CLI::App& app) override
     {
-        auto* command = app.add_subcommand("check", "Check a study for problems before inviting participants");
-        addOption(*command, "study", named, "Folder or file of the study", "STUDY")->required();
+        auto* command = addStudyCommand(app, "check", "Check a study for problems before inviting participants", named);
         addOption(*command, "--profile", profile, "Actuator profile: a file or a shipped profile [that of the study]",
                   "PROFILE");
-        command->footer(
+        return command->footer(
             "Finds missing files and texts, uneven groups, sessions that are too long, exposure beyond the limit\n(ISO "
             "5349-1), and stimuli that can hardly be distinguished. Exits with 1 if the study cannot be run.");
-        return command;
     }
 
     Exit run(Console& console) override
@@ -81,7 +78,6 @@ public:
         return spoils ? Exit::failed : Exit::ok;
     }
 
-private:
     std::string named, profile;
 };
 } // namespace

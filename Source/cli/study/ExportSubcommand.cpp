@@ -14,25 +14,21 @@
 namespace pacini::cli
 {
 
-namespace fs = std::filesystem;
-
 namespace
 {
 /// `study export`: for other programs.
-class ExportSubcommand : public Command
+struct ExportSubcommand : Command
 {
-public:
     CLI::App* declare(CLI::App& app) override
     {
-        auto* command = app.add_subcommand(
-            "export", "Write all answers as tables for other programs (CSV, and folders in the layout of BIDS)");
-        addOption(*command, "study", named, "Folder or file of the study", "STUDY")->required();
+        auto* command = addStudyCommand(
+            app, "export", "Write all answers as tables for other programs (CSV, and folders in the layout of BIDS)",
+            named);
         addOption(*command, "-o,--output", output, "New folder for the tables", "DIR")->required();
-        command->footer(
+        return command->footer(
             "answers.csv has a line for each answer; 'study report' reads ratings.csv. Below bids every "
             "participant\nhas a folder with sub-P001_task-NAME_beh.tsv, as the Brain Imaging Data Structure specifies "
             "for\nbehavioural data.\n\nExample:\n  pacini study export coherence -o tables");
-        return command;
     }
 
     Exit run(Console& console) override
@@ -60,7 +56,6 @@ public:
         return Exit::ok;
     }
 
-private:
     std::string named, output;
 };
 } // namespace

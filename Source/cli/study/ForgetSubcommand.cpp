@@ -1,5 +1,6 @@
 #include "cli/Command.h"
 #include "cli/Options.h"
+#include "cli/study/OpenStudy.h"
 #include "io/FileHandle.h"
 #include "study/Session.h"
 #include "study/StudyResults.h"
@@ -14,24 +15,19 @@
 namespace pacini::cli
 {
 
-namespace fs = std::filesystem;
-
 namespace
 {
 /// `study forget`: a participant's answers, all of them.
-class ForgetSubcommand : public Command
+struct ForgetSubcommand : Command
 {
-public:
     CLI::App* declare(CLI::App& app) override
     {
-        auto* command = app.add_subcommand("forget", "Delete all answers of a participant");
-        addOption(*command, "study", named, "Folder or file of the study", "STUDY")->required();
+        auto* command = addStudyCommand(app, "forget", "Delete all answers of a participant", named);
         addOption(*command, "participant", participant, "Pseudonym, such as P007", "NAME")->required();
         command->add_flag("--yes", sure, "Delete the answers; without this option the command only lists them");
-        command->footer(
+        return command->footer(
             "The place becomes free: the next session takes it, with its group and orders. Earlier reports and\ntables "
             "still contain the answers.\n\nExample:\n  pacini study forget coherence P007 --yes");
-        return command;
     }
 
     Exit run(Console& console) override
@@ -57,7 +53,6 @@ public:
             named, {ErrorCode::invalidArgument, "", fmt::format("has no session of '{}'", printable(participant))});
     }
 
-private:
     std::string named, participant;
     bool sure = false;
 };

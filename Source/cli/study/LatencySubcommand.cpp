@@ -25,13 +25,11 @@ namespace pacini::cli
 namespace
 {
 /// `study latency`: the true delay between sound and touch.
-class LatencySubcommand : public Command
+struct LatencySubcommand : Command
 {
-public:
     CLI::App* declare(CLI::App& app) override;
     Exit run(Console& console) override;
 
-private:
     Exit writeProbe(Console& console, const OpenedStudy& opened);
     Exit measure(Console& console, const OpenedStudy& opened);
 
@@ -49,8 +47,7 @@ private:
 
 CLI::App* LatencySubcommand::declare(CLI::App& app)
 {
-    auto* command = app.add_subcommand("latency", "Measure the delay of the haptic output against the sound");
-    addOption(*command, "study", named, "Folder or file of the study", "STUDY")->required();
+    auto* command = addStudyCommand(app, "latency", "Measure the delay of the haptic output against the sound", named);
     auto* heard =
         addOption(*command, "recording", recording, "Recording of the probe; the result is stored", "RECORDING");
     addOption(*command, "--probe", probeFile,
@@ -71,12 +68,12 @@ CLI::App* LatencySubcommand::declare(CLI::App& app)
               "N");
     command->add_flag("--dry-run", dry, "Measure without storing the result");
     overwriting.declare(*command);
-    command->footer("Play the probe on both outputs and record both at once, from cables or from a sensor on "
-                    "the\nactuator. The result is stored in latency.json beside the study, and sessions compensate for "
-                    "it. The\neditor does the same: Tools, Run a study..., Measure the delay.\n\nExample:\n"
-                    "  pacini study latency lab --probe probe.wav\n"
-                    "  pacini study latency lab recorded.wav --sound 1 --touch 2");
-    return command;
+    return command->footer(
+        "Play the probe on both outputs and record both at once, from cables or from a sensor on "
+        "the\nactuator. The result is stored in latency.json beside the study, and sessions compensate for "
+        "it. The\neditor does the same: Tools, Run a study..., Measure the delay.\n\nExample:\n"
+        "  pacini study latency lab --probe probe.wav\n"
+        "  pacini study latency lab recorded.wav --sound 1 --touch 2");
 }
 
 Exit LatencySubcommand::run(Console& console)

@@ -20,8 +20,6 @@
 namespace pacini::cli
 {
 
-namespace fs = std::filesystem;
-
 namespace
 {
 /// Groups as NAME:SIZE.
@@ -41,9 +39,8 @@ Result<std::vector<study::Group>> groupsOf(const std::vector<std::string>& texts
 }
 
 /// `study new`: a study to begin with.
-class NewSubcommand : public Command
+struct NewSubcommand : Command
 {
-public:
     CLI::App* declare(CLI::App& app) override
     {
         std::vector<std::string> names;
@@ -65,10 +62,9 @@ public:
         addOption(*command, "--seed", seed, "Seed of all random orders", countingNumber(), "N")->capture_default_str();
         addOption(*command, "--profile", profile, "Actuator profile: a file or a shipped profile", "PROFILE");
         overwriting.declare(*command);
-        command->footer("Templates:\n" + list +
-                        "\nEdit the JSON file to change the study: see Resources/docs/study.md.\n\nExample:\n"
-                        "  pacini study new coherence --template coherence sounds/");
-        return command;
+        return command->footer("Templates:\n" + list +
+                               "\nEdit the JSON file to change the study: see Resources/docs/study.md.\n\nExample:\n"
+                               "  pacini study new coherence --template coherence sounds/");
     }
 
     Exit run(Console& console) override
@@ -121,7 +117,6 @@ public:
         return Exit::ok;
     }
 
-private:
     std::string output, kind, profile;
     std::vector<std::string> sounds, groups;
     std::uint64_t seed = 1;

@@ -1,5 +1,6 @@
 #include "cli/study/OpenStudy.h"
 
+#include "cli/Options.h"
 #include "study/StudyFile.h"
 #include "study/StudyResults.h"
 
@@ -8,6 +9,13 @@
 
 namespace pacini::cli
 {
+
+CLI::App* addStudyCommand(CLI::App& app, const std::string& name, const std::string& description, std::string& study)
+{
+    auto* command = app.add_subcommand(name, description);
+    addOption(*command, "study", study, "Folder or file of the study", "STUDY")->required();
+    return command;
+}
 
 std::optional<OpenedStudy> openStudy(Console& console, const std::string& named)
 {

@@ -5,6 +5,8 @@
 #include "cli/Console.h"
 #include "study/Study.h"
 
+#include <CLI/CLI.hpp>
+
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -12,7 +14,10 @@
 namespace pacini::cli
 {
 
-/// A study and its folder.
+/// Adds the subcommand `name` with the study to open as its first argument.
+CLI::App* addStudyCommand(CLI::App& app, const std::string& name, const std::string& description, std::string& study);
+
+/// A study and where it lies.
 struct OpenedStudy
 {
     study::Study study;

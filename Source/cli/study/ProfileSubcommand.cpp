@@ -14,9 +14,8 @@ namespace pacini::cli
 namespace
 {
 /// `study profile`: an actuator for one person.
-class ProfileSubcommand : public Command
+struct ProfileSubcommand : Command
 {
-public:
     CLI::App* declare(CLI::App& app) override
     {
         auto* command = app.add_subcommand("profile", "Write an actuator profile with the thresholds of a participant");
@@ -26,12 +25,11 @@ public:
                   "Actuator profile of the study: a file or a shipped profile [that of the study]", "PROFILE");
         addOption(*command, "-o,--output", output, "Profile to write", "OUT")->required();
         overwriting.declare(*command);
-        command->footer(
+        return command->footer(
             "The dynamic range of the profile becomes that of the person: from full drive down to the mean of "
             "the\nthresholds. Render, plugin and editor then raise weak parts of clips to the level that this person "
             "feels.\nUse a study made by 'study new --template threshold' and run with the same profile.\n\nExample:\n"
             "  pacini study profile thresholds P007 --profile l5-wristband -o mine.json");
-        return command;
     }
 
     Exit run(Console& console) override
@@ -66,7 +64,6 @@ public:
         return Exit::ok;
     }
 
-private:
     std::string named, participant, profile, output;
     OverwriteOptions overwriting;
 };

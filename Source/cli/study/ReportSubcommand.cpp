@@ -15,14 +15,11 @@
 namespace pacini::cli
 {
 
-namespace fs = std::filesystem;
-
 namespace
 {
 /// `study report`: the statistics.
-class ReportSubcommand : public Command
+struct ReportSubcommand : Command
 {
-public:
     CLI::App* declare(CLI::App& app) override
     {
         auto* command =
@@ -47,7 +44,7 @@ public:
             "same stimuli (as Weber 2020 does)");
         command->add_flag("--mixed", mixed, "Also fit mixed models of the ratings, with Python's statsmodels");
         overwriting.declare(*command);
-        command->footer(
+        return command->footer(
             "Means, SDs and intervals, whose sample is people; box plots; t-tests (pooled, Welch, paired), "
             "Mann-Whitney,\n"
             "Wilcoxon, effect sizes, Holm and Bonferroni; ICC, Kendall's W, Friedman; thresholds; choices; words; maps "
@@ -56,7 +53,6 @@ public:
             "participant and\nblock; those of webMUSHRA and jsPsych are read as they are.\n\nExamples:\n  pacini study "
             "report coherence\n"
             "  pacini study report ratings.csv --combine A+B");
-        return command;
     }
 
     Exit run(Console& console) override
@@ -102,7 +98,6 @@ public:
         return write(console, *report, output.empty() ? beside : fs::path(output));
     }
 
-private:
     /// What --columns says; an error if that is no role and a name.
     [[nodiscard]] std::optional<Error> takeColumns(study::RatingColumns& names) const
     {

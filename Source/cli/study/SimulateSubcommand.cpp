@@ -16,18 +16,15 @@
 namespace pacini::cli
 {
 
-namespace fs = std::filesystem;
-
 namespace
 {
 /// `study simulate`: simulated participants.
-class SimulateStudySubcommand : public Command
+struct SimulateStudySubcommand : Command
 {
-public:
     CLI::App* declare(CLI::App& app) override
     {
-        auto* command = app.add_subcommand("simulate", "Run a study with simulated participants and compute its power");
-        addOption(*command, "study", named, "Folder or file of the study", "STUDY")->required();
+        auto* command =
+            addStudyCommand(app, "simulate", "Run a study with simulated participants and compute its power", named);
         addOption(*command, "-o,--output", output,
                   "New folder for the study with all simulated sessions, for 'study report'", "DIR");
         addPreset(*command, "--effect", observers.effect,
@@ -41,12 +38,12 @@ public:
         addPreset(*command, "--runs", runs, "Number of simulated studies for the power",
                   wholeNumberFrom(std::size_t(1), std::size_t(1'000'000)), "N");
         addPreset(*command, "--seed", observers.seed, "Seed of the simulated participants", countingNumber(), "N");
-        command->footer("Raters have a bias and noise; thresholds follow a Weibull function. The SDs are about those "
-                        "of Weber\n(2020). Power is the share of such studies that find the effect at p <= .05, with a "
-                        "mean for each\nparticipant (pooled t-test, two-sided).\n\nExample:\n  pacini study simulate "
-                        "coherence --effect 1 -o "
-                        "simulated");
-        return command;
+        return command->footer(
+            "Raters have a bias and noise; thresholds follow a Weibull function. The SDs are about those "
+            "of Weber\n(2020). Power is the share of such studies that find the effect at p <= .05, with a "
+            "mean for each\nparticipant (pooled t-test, two-sided).\n\nExample:\n  pacini study simulate "
+            "coherence --effect 1 -o "
+            "simulated");
     }
 
     Exit run(Console& console) override
@@ -75,7 +72,6 @@ public:
         return output.empty() ? Exit::ok : writeSessions(console, *opened);
     }
 
-private:
     Exit writeSessions(Console& console, const OpenedStudy& opened)
     {
         const fs::path folder(output);

@@ -10,9 +10,8 @@ namespace pacini::cli
 namespace
 {
 /// `pacini study`: from a question to its statistics.
-class StudyCommand : public CommandGroup
+struct StudyCommand : CommandGroup
 {
-public:
     CLI::App* declare(CLI::App& app) override
     {
         auto* command = app.add_subcommand("study", "Plan, check, simulate and evaluate studies with participants");
@@ -21,14 +20,14 @@ public:
              {newStudySubcommand, checkStudySubcommand, simulateStudySubcommand, latencyStudySubcommand,
               reportStudySubcommand, profileStudySubcommand, exportStudySubcommand, forgetStudySubcommand})
             addStep(*command, make());
-        command->footer("Example:\n"
-                        "  pacini study new coherence --template coherence sounds/\n"
-                        "  pacini study check coherence --profile l5-wristband\n"
-                        "  pacini study simulate coherence --effect 1\n"
-                        "Run the sessions in the editor: Tools, Run a study... Then\n"
-                        "  pacini study report coherence\n"
-                        "A study is a folder with study.json and, below sessions, one file for each participant.");
-        return command;
+        return command->footer(
+            "Example:\n"
+            "  pacini study new coherence --template coherence sounds/\n"
+            "  pacini study check coherence --profile l5-wristband\n"
+            "  pacini study simulate coherence --effect 1\n"
+            "Run the sessions in the editor: Tools, Run a study... Then\n"
+            "  pacini study report coherence\n"
+            "A study is a folder with study.json and, below sessions, one file for each participant.");
     }
 };
 } // namespace
