@@ -7,11 +7,11 @@ using namespace pacini;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
-    const std::string_view text = fuzzedText(data, size);
-    if (!isReadOrRefused(text, [](std::string_view given) { return study::WordCategories::ofCsv(given); }))
-        return 0;
-    const auto categories = study::WordCategories::ofCsv(text);
-    for (const std::string& word : study::wordsOf(text))
-        (void)categories->categoryOf(word);
-    return 0;
+    return fuzzReader(
+        data, size, [](std::string_view given) { return study::WordCategories::ofCsv(given); },
+        [](const auto& categories, std::string_view text)
+        {
+            for (const std::string& word : study::wordsOf(text))
+                (void)categories.categoryOf(word);
+        });
 }

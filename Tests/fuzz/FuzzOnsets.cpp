@@ -12,21 +12,21 @@ using namespace pacini;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
-    const std::string_view text = fuzzedText(data, size);
-    if (!isReadOrRefused(text, [](std::string_view given) { return readOnsetText(given); }))
-        return 0;
-    const auto onsets = readOnsetText(text);
-    if (const auto labels = readLabelText(text))
-        for (const Marker& marker : labels->markers)
-            FUZZ_CHECK(std::isfinite(marker.time) && marker.time >= 0.0 && isUtf8(marker.name));
-    const auto check = [](const std::vector<double>& times)
-    {
-        FUZZ_CHECK(std::is_sorted(times.begin(), times.end()));
-        for (const double time : times)
-            FUZZ_CHECK(std::isfinite(time) && time >= 0.0);
-    };
-    check(onsets->ofAny);
-    for (const auto& [name, times] : onsets->byFile)
-        check(times);
-    return 0;
+    return fuzzReader(
+        data, size, [](std::string_view given) { return readOnsetText(given); },
+        [](const auto& onsets, std::string_view text)
+        {
+            if (const auto labels = readLabelText(text))
+                for (const Marker& marker : labels->markers)
+                    FUZZ_CHECK(std::isfinite(marker.time) && marker.time >= 0.0 && isUtf8(marker.name));
+            const auto check = [](const std::vector<double>& times)
+            {
+                FUZZ_CHECK(std::is_sorted(times.begin(), times.end()));
+                for (const double time : times)
+                    FUZZ_CHECK(std::isfinite(time) && time >= 0.0);
+            };
+            check(onsets.ofAny);
+            for (const auto& [name, times] : onsets.byFile)
+                check(times);
+        });
 }

@@ -7,8 +7,6 @@ using namespace pacini;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
-    const std::string_view bytes = fuzzedText(data, size);
-    if (isReadOrRefused(bytes, readPulsar))
-        FUZZ_CHECK(validate(readPulsar(bytes)->clip).ok());
-    return 0;
+    return fuzzReader(data, size, readPulsar,
+                      [](const auto& read, std::string_view) { FUZZ_CHECK(validate(read.clip).ok()); });
 }

@@ -9,16 +9,16 @@ using namespace pacini;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
-    const std::string_view text = fuzzedText(data, size);
-    if (!isReadOrRefused(text, [](std::string_view given) { return study::ratingsOfCsv(given); }))
-        return 0;
-    const auto ratings = study::ratingsOfCsv(text);
-    FUZZ_CHECK(!ratings->empty());
-    for (const study::Rating& rating : *ratings)
-        FUZZ_CHECK(std::isfinite(rating.value));
-    const std::string written = study::ratingsCsv(*ratings);
-    const auto again = study::ratingsOfCsv(written);
-    FUZZ_CHECK(again.ok() && again->size() == ratings->size());
-    FUZZ_CHECK(study::ratingsCsv(*again) == written);
-    return 0;
+    return fuzzReader(
+        data, size, [](std::string_view given) { return study::ratingsOfCsv(given); },
+        [](const auto& ratings, std::string_view)
+        {
+            FUZZ_CHECK(!ratings.empty());
+            for (const study::Rating& rating : ratings)
+                FUZZ_CHECK(std::isfinite(rating.value));
+            const std::string written = study::ratingsCsv(ratings);
+            const auto again = study::ratingsOfCsv(written);
+            FUZZ_CHECK(again.ok() && again->size() == ratings.size());
+            FUZZ_CHECK(study::ratingsCsv(*again) == written);
+        });
 }

@@ -7,15 +7,15 @@ using namespace pacini;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
-    const std::string_view text = fuzzedText(data, size);
-    if (!isReadOrRefused(text, [](std::string_view given) { return study::sessionOfText(given); }))
-        return 0;
-    const auto session = study::sessionOfText(text);
-    FUZZ_CHECK(session->goodBytes <= size);
-    FUZZ_CHECK(session->goodBytes > 0 && text[session->goodBytes - 1] == '\n');
-    // What was being written when the program ended makes no difference.
-    const auto whole = study::sessionOfText(text.substr(0, session->goodBytes));
-    FUZZ_CHECK(whole.ok() && whole->records.size() == session->records.size());
-    FUZZ_CHECK(whole->finished == session->finished && whole->events == session->events);
-    return 0;
+    return fuzzReader(
+        data, size, [](std::string_view given) { return study::sessionOfText(given); },
+        [](const auto& session, std::string_view text)
+        {
+            FUZZ_CHECK(session.goodBytes <= size);
+            FUZZ_CHECK(session.goodBytes > 0 && text[session.goodBytes - 1] == '\n');
+            // What was being written when the program ended makes no difference.
+            const auto whole = study::sessionOfText(text.substr(0, session.goodBytes));
+            FUZZ_CHECK(whole.ok() && whole->records.size() == session.records.size());
+            FUZZ_CHECK(whole->finished == session.finished && whole->events == session.events);
+        });
 }

@@ -2,7 +2,7 @@
 
 // What holds for every reader and writer of a foreign format, whatever the bytes.
 
-#include "FuzzCheck.h"
+#include "FuzzText.h"
 #include "io/formats/ClipFormat.h"
 
 #include <cmath>
@@ -22,8 +22,7 @@ inline void fuzzShortForeign(std::string_view name, std::string_view bytes, doub
         (void)format.recognises(bytes);
     if (!read)
     {
-        FUZZ_CHECK(!read.error().message.empty());
-        FUZZ_CHECK(read.error().text().find('\n') == std::string::npos);
+        refused(read.error());
         return;
     }
     FUZZ_CHECK(validate(read->clip).ok());

@@ -7,12 +7,12 @@ using namespace pacini;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
-    const std::string_view text = fuzzedText(data, size);
-    if (!isReadOrRefused(text, [](std::string_view given) { return readSweepJson(given); }))
-        return 0;
-    const auto sweep = readSweepJson(text);
-    FUZZ_CHECK(validate(sweep->sweep).ok());
-    const auto again = readSweepJson(sweepJson(*sweep));
-    FUZZ_CHECK(again.ok() && *again == *sweep);
-    return 0;
+    return fuzzReader(
+        data, size, [](std::string_view given) { return readSweepJson(given); },
+        [](const auto& sweep, std::string_view)
+        {
+            FUZZ_CHECK(validate(sweep.sweep).ok());
+            const auto again = readSweepJson(sweepJson(sweep));
+            FUZZ_CHECK(again.ok() && *again == sweep);
+        });
 }

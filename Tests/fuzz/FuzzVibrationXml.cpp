@@ -7,8 +7,6 @@ using namespace pacini;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
-    const std::string_view text = fuzzedText(data, size);
-    if (isReadOrRefused(text, readVibrationXml))
-        FUZZ_CHECK(validate(readVibrationXml(text)->clip).ok());
-    return 0;
+    return fuzzReader(data, size, readVibrationXml,
+                      [](const auto& read, std::string_view) { FUZZ_CHECK(validate(read.clip).ok()); });
 }
