@@ -1,5 +1,6 @@
 #include "io/ProfileFile.h"
 #include "io/ShippedProfiles.h"
+#include "support/ActuatorOf.h"
 #include "support/Catch.h"
 #include "support/Paths.h"
 
@@ -24,10 +25,7 @@ constexpr double fs = 48000.0;
 
 Profile resonant(double frequency, double q)
 {
-    Profile profile;
-    profile.technology = Technology::lra;
-    profile.resonance = {frequency, q};
-    profile.range = {0.5 * frequency, 2.0 * frequency, 40.0};
+    Profile profile = test::actuatorOf(Technology::lra, {frequency, q}, {0.5 * frequency, 2.0 * frequency, 40.0});
     profile.polyphony = 1;
     return profile;
 }

@@ -1,6 +1,7 @@
 // The numbers of body models: chains, their poles and modes, filters, plans and what is felt.
 
 #include "support/Catch.h"
+#include "support/Numbers.h"
 #include "support/Pinned.h"
 
 #include <pacini/actuator/FeltModel.h>
@@ -102,12 +103,8 @@ TEST_CASE("A chain has the numbers of its body, with the suspension of its reson
     CHECK(chain.movingMass == 0.02);
     CHECK(chain.suspensionStiffness == Approx(0.02 * w * w).epsilon(1e-14));
     CHECK(chain.suspensionDamping == Approx(0.02 * w / 4.0).epsilon(1e-14));
-    CHECK(chain.deviceMass == 0.3);
-    CHECK(chain.jointStiffness == 4e4);
-    CHECK(chain.jointDamping == 5.0);
-    CHECK(chain.skinMass == 0.6);
-    CHECK(chain.skinStiffness == 700.0);
-    CHECK(chain.skinDamping == 8.0);
+    CHECK(test::numbersOf(chain.deviceMass, chain.jointStiffness, chain.jointDamping, chain.skinMass,
+                          chain.skinStiffness, chain.skinDamping) == test::Numbers{0.3, 4e4, 5.0, 0.6, 700.0, 8.0});
     CHECK(chain.jointFrequency().value == Approx(std::sqrt(4e4 * (1.0 / 0.3 + 1.0 / 0.6)) / (2.0 * std::numbers::pi)));
 
     const auto ends = [&](double BodyParams::*member, double BodyChain::*result, double low, double high)

@@ -2,6 +2,7 @@
 #include "support/BlockContract.h"
 #include "support/Catch.h"
 #include "support/Golden.h"
+#include "support/Numbers.h"
 #include "support/Paths.h"
 
 #include <pacini/actuator/Profile.h>
@@ -170,12 +171,7 @@ Profile fullProfile()
 {
     Profile profile;
     profile.range = {2.0, 19000.0, 60.0};
-    profile.drive.impedance = 8.0;
-    profile.drive.maxVoltageRms = 1.0;
-    profile.drive.maxPower = 0.5;
-    profile.drive.thermalTime = 1.0;
-    profile.drive.maxExcursion = 1e-3;
-    profile.drive.excursion = 1e-3;
+    profile.drive = {8.0, 1.0, 0.5, 1.0, 1e-3, 1e-3}; // ohm, V, W, s, m, m
     profile.body = BodyParams{};
     profile.measurement = ProfileMeasurement{};
     profile.equalizer = {{EqualizerType::peak, 100.0, 3.0, 1.0, 2}};
@@ -370,11 +366,9 @@ TEST_CASE("A new profile has the numbers that its fields state", "[actuator]")
     const Profile profile;
     CHECK(profile.name.empty());
     CHECK(profile.technology == Technology::pcm);
-    CHECK(profile.resonance.frequency == 67.0);
-    CHECK(profile.resonance.q == 1.0);
-    CHECK(profile.range.lowFrequency == 20.0);
-    CHECK(profile.range.highFrequency == 1000.0);
-    CHECK(profile.range.dynamicRange == 60.0);
+    CHECK(test::numbersOf(profile.resonance.frequency, profile.resonance.q, profile.range.lowFrequency,
+                          profile.range.highFrequency,
+                          profile.range.dynamicRange) == test::Numbers{67.0, 1.0, 20.0, 1000.0, 60.0});
     CHECK(profile.response == ActuatorResponse{0.0, 0.0});
     CHECK(profile.polyphony == 64);
     CHECK(profile.frequencyMapping == FrequencyMapping::clamp);

@@ -18,13 +18,7 @@ Profile strainedProfile()
     profile.technology = Technology::vca;
     profile.resonance = {67.0, 3.97};
     profile.range.lowFrequency = 33.0;
-    profile.drive.impedance = 8.0;
-    profile.drive.maxVoltageRms = 1.5;
-    profile.drive.maxPower = 0.03;
-    profile.drive.thermalTime = 2.5;
-    profile.drive.excursion = 1e-3;
-    profile.drive.maxExcursion = 1.5e-3;
-    profile.drive.overdrive = 2.0;
+    profile.drive = {8.0, 1.5, 0.03, 2.5, 1.5e-3, 1e-3, 2.0}; // ohm, V, W, s, m, m
     profile.body = BodyParams{};
     return profile;
 }

@@ -1,4 +1,5 @@
 #include "support/Catch.h"
+#include "support/Numbers.h"
 #include "support/Pinned.h"
 
 #include <pacini/analysis/ClipFitter.h>
@@ -276,12 +277,8 @@ TEST_CASE("The record of an encoder has what is not the default, and what older 
     EncoderParams params;
     params.onsets.sensitivity = 2.0;
     CHECK(names(params) == "method bands breakpoints quantise sensitivity audible heard ");
-    CHECK(params.bands == 12);
-    CHECK(params.lowFrequency == 30.0);
-    CHECK(params.highFrequency == 1000.0);
-    CHECK(params.breakpoints == 20.0);
-    CHECK(params.quantise == 6);
-    CHECK(params.normalise);
+    CHECK(test::numbersOf(params.bands, params.lowFrequency, params.highFrequency, params.breakpoints, params.quantise,
+                          params.normalise) == test::Numbers{12, 30.0, 1000.0, 20.0, 6, true});
 }
 
 TEST_CASE("Wrong parameters of the encoder are explained", "[analysis][encoder]")

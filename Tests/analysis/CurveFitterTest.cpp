@@ -188,14 +188,7 @@ TEST_CASE("Curves fitted at any price are what they were", "[analysis]")
         const std::string name = "analysis/curve at price " + std::to_string(price);
         const auto pin = [&name](const std::string& of, const Curve& curve)
         {
-            std::vector<double> times, values;
-            for (const Breakpoint& point : curve)
-            {
-                times.push_back(point.time);
-                values.push_back(point.value);
-            }
-            checkPinned(name + ", times of " + of, times, 1e-6);
-            checkPinned(name + ", values of " + of, values, 1e-6);
+            checkPinnedCurve(name, of, curve, 1e-6);
         };
         pin("amplitudes", fitter.fitAmplitude(wanderingTrack(90, 3), step, 1.0, quiet, price));
         pin("raised amplitudes", fitter.fitAmplitude(wanderingTrack(70, 4), step, 0.05, 0.01, price));

@@ -2,6 +2,7 @@
 #include "support/Catch.h"
 #include "support/Golden.h"
 #include "support/Measure.h"
+#include "support/Numbers.h"
 #include "support/Pinned.h"
 
 #include <pacini/analysis/EnvelopeFollower.h>
@@ -219,11 +220,8 @@ TEST_CASE("Envelopes of bursts are what they were, with steady and with adaptive
                 checkPinned(name + ", start", std::span<const double>(envelope).first(20));
             }
     const EnvelopeFollowerParams usual;
-    CHECK(usual.attack.value == 0.001);
-    CHECK(usual.hold.value == 0.010);
-    CHECK(usual.release.value == 0.020);
-    CHECK(usual.crestMemory.value == 0.200);
-    CHECK_FALSE(usual.crestAdaptive);
+    CHECK(test::numbersOf(usual.attack.value, usual.hold.value, usual.release.value, usual.crestMemory.value,
+                          usual.crestAdaptive) == test::Numbers{0.001, 0.010, 0.020, 0.200, false});
     CHECK(EnvelopeFollowerCoefficients{} == EnvelopeFollowerCoefficients{0.0, 0.0, 0, 0.0, 0.0, 0.0});
     const auto longest =
         designEnvelopeFollower({.attack = Seconds(1e9), .hold = Seconds(1e9), .release = Seconds(-1.0)}, 1000.0);

@@ -1,4 +1,5 @@
 #include "support/Catch.h"
+#include "support/Measure.h"
 #include "support/Pinned.h"
 
 #include <pacini/analysis/OnsetDecimator.h>
@@ -15,15 +16,6 @@ using namespace pacini;
 
 namespace
 {
-std::vector<float> decimatedNoise(std::size_t count)
-{
-    Random random(15);
-    std::vector<float> x(count);
-    for (float& v : x)
-        v = static_cast<float>(random.uniform(-1.0, 1.0));
-    return x;
-}
-
 std::vector<double> allOf(const SlidingBuffer<float>& buffer, std::int64_t begin = 0)
 {
     return {buffer.at(begin), buffer.at(begin) + (buffer.end() - begin)};
@@ -66,7 +58,7 @@ TEST_CASE("Impulses and noise come out of the decimation as they did", "[analysi
             checkPinned(name + ", stage of an impulse at " + std::to_string(at), allOf(decimator.stage()), 1e-5);
         }
         OnsetDecimator decimator(fs, 1000000);
-        const auto x = decimatedNoise(4000);
+        const auto x = test::noise(4000, 15);
         decimator.push(x.data(), 1, std::ssize(x), 0.0f);
         checkPinned(name + ", base of noise", allOf(decimator.base()), 1e-5);
         checkPinned(name + ", stage of noise", allOf(decimator.stage()), 1e-5);
@@ -94,7 +86,7 @@ TEST_CASE("Decimated tones stay where they are in time and as strong as they wer
 
 TEST_CASE("Strided samples and offsets are taken as they are told", "[analysis][onsets]")
 {
-    const auto x = decimatedNoise(900);
+    const auto x = test::noise(900, 15);
     OnsetDecimator strided(16000.0, 100000), plain(16000.0, 100000);
     strided.push(x.data() + 1, 3, 300, 0.25f);
     std::vector<float> own;
@@ -112,7 +104,7 @@ TEST_CASE("What is forgotten in time does not show in the decimation, whatever t
 {
     for (const double fs : {2000.0, 30000.0, 48000.0, 200000.0})
     {
-        const auto x = decimatedNoise(20000);
+        const auto x = test::noise(20000, 15);
         OnsetDecimator whole(fs, 1000000);
         whole.push(x.data(), 1, std::ssize(x), 0.0f);
         for (const std::ptrdiff_t piece : {1, 333, 2500})
@@ -147,7 +139,7 @@ TEST_CASE("Octaves of an impulse and of noise are what they were", "[analysis][o
 {
     SlidingBuffer<float> base(32);
     OnsetOctaves octaves;
-    const auto x = decimatedNoise(3001);
+    const auto x = test::noise(3001, 15);
     std::copy(x.begin(), x.end(), base.extend(3001));
     octaves.extend(base);
     for (std::size_t i = 0; i < OnsetOctaves::splits; ++i)
@@ -171,7 +163,7 @@ TEST_CASE("Octaves of an impulse and of noise are what they were", "[analysis][o
 
 TEST_CASE("Low and high parts of every octave add up, and pieces do not show", "[analysis][onsets]")
 {
-    const auto x = decimatedNoise(6000);
+    const auto x = test::noise(6000, 15);
     SlidingBuffer<float> whole(32);
     OnsetOctaves expected;
     std::copy(x.begin(), x.end(), whole.extend(6000));
@@ -214,7 +206,7 @@ TEST_CASE("Low and high parts of every octave add up, and pieces do not show", "
 
 TEST_CASE("Short sums are the sums of all their terms", "[analysis][onsets]")
 {
-    const auto x = decimatedNoise(70);
+    const auto x = test::noise(70, 15);
     for (std::ptrdiff_t count = 0; count <= 53; ++count)
     {
         double squares = 0.0;

@@ -2,6 +2,7 @@
 #include "support/BlockContract.h"
 #include "support/Catch.h"
 #include "support/Measure.h"
+#include "support/Numbers.h"
 #include "support/Pinned.h"
 
 #include <pacini/analysis/OnsetDetector.h>
@@ -382,13 +383,9 @@ TEST_CASE("Louder neighbours mask by level, distance and salience", "[analysis][
 TEST_CASE("The parameters of onset detection are those that were set on drums", "[analysis][onsets]")
 {
     const OnsetParams usual;
-    CHECK(usual.sensitivity == 1.0);
-    CHECK(usual.minimumGap.value == 0.010);
-    CHECK(usual.maskMargin.value == 8.0);
-    CHECK(usual.maskSlope == 0.06);
-    CHECK(usual.maskRecovery == 20.0);
-    CHECK(usual.maskLimit.value == 27.0);
-    CHECK(usual.silence.value == -90.0);
+    CHECK(test::numbersOf(usual.sensitivity, usual.minimumGap.value, usual.maskMargin.value, usual.maskSlope,
+                          usual.maskRecovery, usual.maskLimit.value,
+                          usual.silence.value) == test::Numbers{1.0, 0.010, 8.0, 0.06, 20.0, 27.0, -90.0});
     CHECK(Onset{} == Onset{0.0, 0.0, 0.0, 0.0, 0.0});
 }
 

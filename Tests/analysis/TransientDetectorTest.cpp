@@ -2,6 +2,7 @@
 #include "support/Catch.h"
 #include "support/Golden.h"
 #include "support/Measure.h"
+#include "support/Numbers.h"
 #include "support/Pinned.h"
 
 #include <pacini/analysis/TransientDetector.h>
@@ -347,20 +348,15 @@ TEST_CASE("The parameters of transient detection are the documented ones", "[ana
     CHECK(usual.minimumDistance.value == 0.010);
     CHECK(usual.minimumAmplitude == 0.05);
     CHECK(usual.score.reading == TransientScoreReading::absolute);
-    CHECK(usual.score.floor == 0.03);
-    CHECK(usual.score.fastAttack.value == 0.001);
-    CHECK(usual.score.slowAttack.value == 0.030);
-    CHECK(usual.score.hold.value == 0.016);
-    CHECK(usual.score.release.value == 0.100);
+    CHECK(test::numbersOf(usual.score.floor, usual.score.fastAttack.value, usual.score.slowAttack.value,
+                          usual.score.hold.value,
+                          usual.score.release.value) == test::Numbers{0.03, 0.001, 0.030, 0.016, 0.100});
     const auto relative = relativeTransientParams();
     CHECK(relative.score.reading == TransientScoreReading::relative);
-    CHECK(relative.score.fastAttack.value == 0.0005);
-    CHECK(relative.score.slowAttack.value == 0.020);
-    CHECK(relative.score.hold.value == 0.005);
-    CHECK(relative.score.release.value == 0.010);
-    CHECK(relative.threshold == 2.0);
-    CHECK(relative.minimumWindow.value == 0.002);
-    CHECK(relative.minimumDistance.value == 0.008);
+    CHECK(test::numbersOf(relative.score.fastAttack.value, relative.score.slowAttack.value, relative.score.hold.value,
+                          relative.score.release.value, relative.threshold, relative.minimumWindow.value,
+                          relative.minimumDistance.value) ==
+          test::Numbers{0.0005, 0.020, 0.005, 0.010, 2.0, 0.002, 0.008});
     CHECK(DetectedTransient{} == DetectedTransient{0, 0.0});
 }
 

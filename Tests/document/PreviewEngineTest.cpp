@@ -2,6 +2,7 @@
 
 #include "actuator/Witness.h"
 #include "document/PreviewWorker.h"
+#include "support/ActuatorOf.h"
 #include "support/Catch.h"
 #include "support/HeapGuard.h"
 #include "support/ShippedProfile.h"
@@ -141,17 +142,8 @@ TEST_CASE("A preview with a strength is what is rendered with it, and another on
 
 TEST_CASE("Jumping about takes an actuator that rings and is warm no farther than its limits")
 {
-    Profile profile;
-    profile.technology = Technology::lra;
-    profile.resonance = {175.0, 50.0};
-    profile.range = {20.0, 1000.0, 60.0};
-    profile.drive.excursion = 1e-4;
-    profile.drive.maxExcursion = 1e-3;
-    profile.drive.overdrive = 2.0;
-    profile.drive.impedance = 8.0;
-    profile.drive.maxVoltageRms = 2.0;
-    profile.drive.maxPower = 0.1;
-    profile.drive.thermalTime = 1.0;
+    Profile profile = test::actuatorOf(Technology::lra, {175.0, 50.0}, {20.0, 1000.0, 60.0});
+    profile.drive = {8.0, 2.0, 0.1, 1.0, 1e-3, 1e-4, 2.0}; // ohm, V, W, s, m, m
     EqualizerSection louder;
     louder.frequency = 175.0;
     louder.gain = 12.0;

@@ -1,4 +1,5 @@
 #include "support/Catch.h"
+#include "support/Numbers.h"
 #include "support/Pinned.h"
 
 #include <pacini/evaluate/AnalyticBand.h>
@@ -126,11 +127,8 @@ TEST_CASE("Segments cover signals on their grid, in one piece or with their over
     CHECK(many.segments()[1].localIndex(100) == 30);
     CHECK(many.segments()[1].localIndex(100, 10) == 3);
     const SegmentationParams usual;
-    CHECK(usual.quantum == 1);
-    CHECK(usual.lead == 0);
-    CHECK(usual.padding == 0);
-    CHECK(usual.overlap == 0);
-    CHECK(usual.longestCore == 1);
+    CHECK(test::numbersOf(usual.quantum, usual.lead, usual.padding, usual.overlap, usual.longestCore) ==
+          test::Numbers{1, 0, 0, 0, 1});
     CHECK(Segment{}.begin == 0);
     CHECK(Segment{}.coreBegin == 0);
     CHECK(Segment{}.coreEnd == 0);

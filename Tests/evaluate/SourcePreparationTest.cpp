@@ -1,5 +1,6 @@
 #include "support/Catch.h"
 #include "support/Golden.h"
+#include "support/Measure.h"
 
 #include <pacini/evaluate/SourcePreparation.h>
 
@@ -20,13 +21,6 @@ std::vector<double> sine(double f, int rate)
     return x;
 }
 
-double peakOf(const std::vector<double>& x)
-{
-    double peak = 0.0;
-    for (const double v : x)
-        peak = std::max(peak, std::abs(v));
-    return peak;
-}
 } // namespace
 
 TEST_CASE("A prepared source equals the golden band-limited and normalised signal", "[evaluate]")
@@ -52,7 +46,7 @@ TEST_CASE("A prepared source peaks at one before resampling and keeps its length
         // high-pass starts.
         const auto y = prepareSource(std::span<const double>(sine(50.0, rate)), rate, 4000).value();
         CHECK(y.size() == 4000);
-        CHECK(peakOf(y) == Approx(1.0).margin(0.005));
+        CHECK(test::peakOf(y) == Approx(1.0).margin(0.005));
     }
 }
 

@@ -15,9 +15,7 @@
 #include <vector>
 
 using namespace pacini;
-using test::bytesOf;
-using test::put;
-using test::TempFolder;
+using namespace pacini::test;
 
 namespace fs = std::filesystem;
 

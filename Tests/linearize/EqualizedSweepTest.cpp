@@ -1,4 +1,5 @@
 #include "support/Catch.h"
+#include "support/Measure.h"
 #include "support/Pinned.h"
 
 #include <pacini/linearize/EqualizedSweep.h>
@@ -15,12 +16,7 @@ namespace
 {
 SweepParams shortSweep(std::vector<double> levels)
 {
-    SweepParams params;
-    params.duration = 1.0;
-    params.highFrequency = 1000.0;
-    params.levels = std::move(levels);
-    params.sampleRate = 8000.0;
-    return params;
+    return {.highFrequency = 1000.0, .duration = 1.0, .levels = std::move(levels), .sampleRate = 8000.0};
 }
 
 EqualizerSections raising(double gain, double frequency)
@@ -30,13 +26,6 @@ EqualizerSections raising(double gain, double frequency)
     return sections;
 }
 
-double peakOf(const std::vector<float>& signal)
-{
-    double peak = 0.0;
-    for (const float v : signal)
-        peak = std::max(peak, std::abs(static_cast<double>(v)));
-    return peak;
-}
 } // namespace
 
 TEST_CASE("A sweep through an equaliser is lowered by as few whole decibels as make it fit", "[linearize]")
@@ -49,8 +38,8 @@ TEST_CASE("A sweep through an equaliser is lowered by as few whole decibels as m
                 const auto params = shortSweep({level});
                 const auto made = makeEqualizedSweep(params, raising(gain, frequency));
                 REQUIRE(made.ok());
-                CHECK(peakOf(made->signal) <= 1.0);
-                CHECK(made->peak == Approx(peakOf(made->signal)).epsilon(1e-6));
+                CHECK(test::peakOf(made->signal) <= 1.0);
+                CHECK(made->peak == Approx(test::peakOf(made->signal)).epsilon(1e-6));
                 CHECK(made->lowered == std::floor(made->lowered));
                 CHECK(made->sweep.levels.front() == level - made->lowered);
                 if (made->lowered > 0.0)
@@ -84,10 +73,11 @@ TEST_CASE("A sweep that an equaliser leaves soft is raised to the level asked fo
     const auto soft = makeEqualizedSweep(shortSweep({-20.0, -6.0}), sections).value();
     const auto raised = makeEqualizedSweep(shortSweep({-20.0, -6.0}), sections, true).value();
     CHECK(soft.gain == 0.0);
-    CHECK(peakOf(raised.signal) == Approx(std::pow(10.0, -6.0 / 20.0)).epsilon(1e-5));
+    CHECK(test::peakOf(raised.signal) == Approx(std::pow(10.0, -6.0 / 20.0)).epsilon(1e-5));
     CHECK(raised.gain > 20.0);
     CHECK(raised.sweep == soft.sweep);
-    CHECK(20.0 * std::log10(peakOf(raised.signal) / peakOf(soft.signal)) == Approx(raised.gain).margin(1e-4));
+    CHECK(20.0 * std::log10(test::peakOf(raised.signal) / test::peakOf(soft.signal)) ==
+          Approx(raised.gain).margin(1e-4));
     CHECK(makeEqualizedSweep(shortSweep({-6.0}), {}, true)->gain == 0.0);
     CHECK(provingLowFrequency(10.0, 1500.0, 100.0) == Approx(80.0));
     CHECK(provingLowFrequency(10.0, 1500.0, 11.0) == 10.0);
@@ -119,7 +109,7 @@ TEST_CASE("Sweeps through equalisers are what they were", "[linearize]")
     const auto plain = makeEqualizedSweep(shortSweep({-9.0}), {}).value();
     CHECK(plain.signal == makeSweepSignal(shortSweep({-9.0})).value());
     CHECK(plain.lowered == 0.0);
-    CHECK(plain.peak == Approx(peakOf(plain.signal)));
+    CHECK(plain.peak == Approx(test::peakOf(plain.signal)));
     CHECK(EqualizedSweep{}.lowered == 0.0);
     CHECK(EqualizedSweep{}.gain == 0.0);
     CHECK(EqualizedSweep{}.peak == 0.0);

@@ -16,8 +16,8 @@ Profile coilProfile()
     profile.range = {20.0, 1000.0, 60.0};
     profile.drive.impedance = 8.8;
     profile.drive.maxVoltageRms = 1.0;
-    profile.drive.excursion = 0.0007;
     profile.drive.maxExcursion = 0.003;
+    profile.drive.excursion = 0.0007;
     return profile;
 }
 } // namespace

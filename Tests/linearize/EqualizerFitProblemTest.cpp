@@ -1,5 +1,6 @@
 #include "EqualizerReference.h"
 #include "support/Catch.h"
+#include "support/Numbers.h"
 #include "support/Pinned.h"
 
 #include <pacini/linearize/EqualizerFitProblem.h>
@@ -210,16 +211,10 @@ TEST_CASE("A problem has the points in the range, their weights and the bounds o
     REQUIRE(problem.allPoints() == problem.fixed.size());
 
     const EqualizerFitProblem empty;
-    CHECK(empty.fs == 48000.0);
-    CHECK(empty.maxBoost == 12.0);
-    CHECK_FALSE(empty.boostOutside);
-    CHECK(empty.shelves);
-    CHECK(empty.lowestFrequency == 1.0);
-    CHECK(empty.highestFrequency == 20000.0);
-    CHECK(empty.lowestQ == 0.1);
-    CHECK(empty.highestQ == 60.0);
-    CHECK(empty.dropouts == 0);
-    CHECK(empty.noise == 0.0);
+    CHECK(test::numbersOf(empty.fs, empty.maxBoost, empty.boostOutside, empty.shelves, empty.lowestFrequency) ==
+          test::Numbers{48000.0, 12.0, false, true, 1.0});
+    CHECK(test::numbersOf(empty.highestFrequency, empty.lowestQ, empty.highestQ, empty.dropouts, empty.noise) ==
+          test::Numbers{20000.0, 0.1, 60.0, 0, 0.0});
     CHECK(empty.outlier == std::numeric_limits<double>::infinity());
 
     // A range below 1 Hz, and a drop-out at its first point.

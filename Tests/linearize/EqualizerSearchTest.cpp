@@ -1,5 +1,6 @@
 #include "EqualizerReference.h"
 #include "support/Catch.h"
+#include "support/Numbers.h"
 #include "support/Pinned.h"
 
 #include <pacini/linearize/EqualizerFit.h>
@@ -290,12 +291,7 @@ TEST_CASE("Parameters of a fit may be at the ends of their ranges but not beyond
     CHECK(defaults.goalMax == 2.0);
     const EqualizerFit none;
     CHECK(none.sections.empty());
-    CHECK(none.rms == 0.0);
-    CHECK(none.max == 0.0);
-    CHECK(none.level == 0.0);
-    CHECK(none.boost == 0.0);
-    CHECK(none.points == 0);
-    CHECK(none.dropouts == 0);
-    CHECK(none.iterations == 0);
-    CHECK_FALSE(none.reachedGoal);
+    CHECK(test::numbersOf(none.rms, none.max, none.level, none.boost) == test::Numbers{0.0, 0.0, 0.0, 0.0});
+    CHECK(test::numbersOf(none.points, none.dropouts, none.iterations, none.reachedGoal) ==
+          test::Numbers{0, 0, 0, false});
 }

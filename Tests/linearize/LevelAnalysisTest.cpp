@@ -1,3 +1,4 @@
+#include "linearize/QuickSweep.h"
 #include "support/Catch.h"
 #include "support/Measure.h"
 #include "support/Pinned.h"
@@ -228,23 +229,13 @@ TEST_CASE("Levels are those of the signal, without the noise that is expected in
 
 TEST_CASE("The responses of a level are those that they were, channel by channel and order by order", "[linearize]")
 {
-    SweepParams params;
-    params.sampleRate = 4000.0;
+    SweepParams params = test::quickSweep(1.0, 0.25, {-3.0, -9.0});
     params.lowFrequency = 30.0;
     params.highFrequency = 600.0;
-    params.duration = 1.0;
-    params.fadeIn = 0.05;
-    params.pause = 0.25;
     params.markerDuration = 0.0;
     params.repeats = 2;
-    params.levels = {-3.0, -9.0};
-    RigParams rig;
-    rig.sampleRate = 4000.0;
-    rig.bits = 0;
+    RigParams rig = test::quickRig(4.0, 1e-4);
     rig.axes = 2;
-    rig.body.reset();
-    rig.range = 4.0;
-    rig.noiseDensity = 1e-4;
     rig.polynomial = {0.0, 1.0, 0.1, 0.08};
     RecordedChannels recording{4000.0, {}};
     for (const auto& channel : recordOnRig(makeSweepSignal(params).value(), rig))

@@ -14,12 +14,7 @@ namespace
 {
 SweepParams shortSweep()
 {
-    SweepParams params;
-    params.duration = 0.5;
-    params.pause = 0.2;
-    params.markerDuration = 0.0;
-    params.sampleRate = 8000.0;
-    return params;
+    return {.duration = 0.5, .pause = 0.2, .markerDuration = 0.0, .sampleRate = 8000.0};
 }
 
 /// Runs `recorder` in a loop: input c is the output of `delay` frames before times c + 1.

@@ -1,4 +1,5 @@
 #include "support/Catch.h"
+#include "support/Numbers.h"
 
 #include <pacini/linearize/FrequencyResponse.h>
 #include <pacini/linearize/LagWindow.h>
@@ -241,14 +242,10 @@ TEST_CASE("Parameters of an analysis may be at the ends of their ranges but not 
     const MeasurementParams defaults;
     CHECK(defaults.fullScale == std::vector<double>{1.0});
     CHECK(defaults.smoothing == 1.0 / 12.0);
-    CHECK(defaults.points == 240);
-    CHECK(defaults.lowFrequency == 1.0);
-    CHECK(defaults.highFrequency == 200000.0);
-    CHECK(defaults.harmonics == 5);
-    CHECK(defaults.driftWarning == 20.0);
-    CHECK(defaults.driftLimit == 2000.0);
-    CHECK(defaults.wantedSnr == 10.0);
-    CHECK_FALSE(defaults.equalized);
+    CHECK(test::numbersOf(defaults.points, defaults.lowFrequency, defaults.highFrequency, defaults.harmonics) ==
+          test::Numbers{240, 1.0, 200000.0, 5});
+    CHECK(test::numbersOf(defaults.driftWarning, defaults.driftLimit, defaults.wantedSnr, defaults.equalized) ==
+          test::Numbers{20.0, 2000.0, 10.0, false});
 }
 
 TEST_CASE("A response has 8 to 100000 points, in their ranges and order", "[linearize]")

@@ -93,11 +93,7 @@ TEST_CASE("Resonance, Q and burst times of measured actuators are those of their
 
 TEST_CASE("The noise of a simulated rig is that of its density up to half of the sample rate", "[linearize]")
 {
-    RigParams rig;
-    rig.body.reset();
-    rig.axes = 1;
-    rig.bits = 0;
-    rig.range = 20.0;
+    RigParams rig = {.body = std::nullopt, .range = 20.0, .bits = 0, .axes = 1};
     for (const double sampleRate : {8000.0, 48000.0})
     {
         rig.sampleRate = sampleRate;
@@ -115,15 +111,15 @@ TEST_CASE("A simulated rig without a body is a delay by another clock, an amplif
 {
     RigParams rig;
     rig.body.reset();
-    rig.axes = 1;
-    rig.noiseDensity = 0.0;
-    rig.range = 4.0;
     rig.contact = 6.0205999;
-    rig.latency = 0.01;
-    rig.tail = 0.25;
-    rig.driftPpm = 0.0;
-    rig.sampleRate = 8000.0;
     rig.polynomial = {0.1, 1.0, 0.5};
+    rig.range = 4.0;
+    rig.noiseDensity = 0.0;
+    rig.axes = 1;
+    rig.latency = 0.01;
+    rig.driftPpm = 0.0;
+    rig.tail = 0.25;
+    rig.sampleRate = 8000.0;
     std::vector<float> drive(800);
     for (std::size_t n = 0; n < drive.size(); ++n)
         drive[n] = static_cast<float>(0.5 * std::sin(0.05 * static_cast<double>(n)));

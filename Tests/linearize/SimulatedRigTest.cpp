@@ -1,5 +1,7 @@
 #include "linearize/DroppedFrames.h"
+#include "linearize/QuickSweep.h"
 #include "support/Catch.h"
+#include "support/Numbers.h"
 #include "support/Pinned.h"
 
 #include <pacini/linearize/SimulatedRig.h>
@@ -16,19 +18,6 @@ using namespace pacini::test;
 
 namespace
 {
-SweepParams riggedSweep()
-{
-    SweepParams params;
-    params.sampleRate = 4000.0;
-    params.lowFrequency = 20.0;
-    params.highFrequency = 1200.0;
-    params.duration = 2.0;
-    params.fadeIn = 0.05;
-    params.pause = 0.5;
-    params.levels = {-16.0, -6.0};
-    return params;
-}
-
 RigParams riggedAt(double rate)
 {
     RigParams rig;
@@ -68,13 +57,8 @@ TEST_CASE("The rig is by default a wristband with three axes of 12 bits and a cl
     CHECK(rig.polynomial == std::vector<double>{0.0, 1.0});
     CHECK(rig.range == Approx(5.0 * 9.80665));
     CHECK(rig.noiseDensity == Approx(250e-6 * 9.80665));
-    CHECK(rig.bits == 12);
-    CHECK(rig.axes == 3);
-    CHECK(rig.latency == 0.0123456);
-    CHECK(rig.driftPpm == 50.0);
-    CHECK(rig.tail == 0.5);
-    CHECK(rig.seed == 1);
-    CHECK(rig.sampleRate == 48000.0);
+    CHECK(test::numbersOf(rig.bits, rig.axes, rig.latency, rig.driftPpm, rig.tail, rig.seed, rig.sampleRate) ==
+          test::Numbers{12, 3, 0.0123456, 50.0, 0.5, 1, 48000.0});
 }
 
 TEST_CASE("Between its samples an oversampled signal is what it was", "[linearize]")
@@ -144,7 +128,7 @@ TEST_CASE("What a rig records is what it recorded", "[linearize]")
 
 TEST_CASE("Measurements of rigs are those that they were", "[linearize]")
 {
-    const auto sweep = riggedSweep();
+    const auto sweep = quickSweep(2.0, 0.5, {-16.0, -6.0});
     MeasurementParams params;
     params.points = 40;
     const auto measured = [&](const RigParams& rig, const SweepParams& played)
@@ -223,7 +207,7 @@ TEST_CASE("The strongest direction of tilted axes is that of the movement", "[li
 
 TEST_CASE("An analysis that cannot be says which number is wrong", "[linearize]")
 {
-    const auto sweep = riggedSweep();
+    const auto sweep = quickSweep(2.0, 0.5, {-16.0, -6.0});
     std::vector<std::vector<float>> recording{std::vector<float>(40000, 0.1f)};
     const auto failure = [&](double rate, const SweepParams& played, const MeasurementParams& params)
     {

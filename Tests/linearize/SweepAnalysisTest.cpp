@@ -62,13 +62,7 @@ const MeasurementWarning& warning(const SweepMeasurement& measurement, Measureme
 /// A rig without mechanics: 1 m/s^2 at a drive of 1, one fine channel.
 RigParams electrical()
 {
-    RigParams rig;
-    rig.body.reset();
-    rig.axes = 1;
-    rig.range = 2.0;
-    rig.noiseDensity = 1e-7;
-    rig.bits = 0;
-    return rig;
+    return {.body = std::nullopt, .range = 2.0, .noiseDensity = 1e-7, .bits = 0, .axes = 1};
 }
 } // namespace
 

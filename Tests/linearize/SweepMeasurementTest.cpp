@@ -1,4 +1,5 @@
 #include "support/Catch.h"
+#include "support/Numbers.h"
 #include "support/Pinned.h"
 
 #include <pacini/foundation/Random.h>
@@ -201,9 +202,6 @@ TEST_CASE("Fits of a resonance are those that they were", "[linearize]")
     CHECK(fitResonance(few, 50.1, 70.0).error().message == "has fewer than 8 points in the range of the resonance");
     CHECK(fitResonance(few, 50.0, 69.9).error().code == ErrorCode::truncated);
     const ResonanceModel usual;
-    CHECK(usual.frequency == 67.0);
-    CHECK(usual.q == 1.0);
-    CHECK(usual.gain == 0.0);
-    CHECK(usual.slope == 2);
-    CHECK(usual.error == 0.0);
+    CHECK(test::numbersOf(usual.frequency, usual.q, usual.gain, usual.slope, usual.error) ==
+          test::Numbers{67.0, 1.0, 0.0, 2, 0.0});
 }

@@ -1,5 +1,6 @@
 #include "support/Catch.h"
 #include "support/Golden.h"
+#include "support/Numbers.h"
 
 #include <pacini/linearize/SweepSchedule.h>
 
@@ -229,13 +230,9 @@ TEST_CASE("Sweep parameters may be at the ends of their ranges but not beyond", 
                   p.duration = 599.1, p.levels = {0.0, -10.0}, p.repeats = 6;
               }) == "repeats: all sweeps together last more than two hours");
     const SweepParams defaults;
-    CHECK(defaults.lowFrequency == 10.0);
-    CHECK(defaults.highFrequency == 1500.0);
-    CHECK(defaults.duration == 20.0);
-    CHECK(defaults.fadeIn == 0.1);
-    CHECK(defaults.fadeOut == 0.02);
-    CHECK(defaults.repeats == 1);
-    CHECK(defaults.pause == 1.0);
+    CHECK(test::numbersOf(defaults.lowFrequency, defaults.highFrequency, defaults.duration, defaults.fadeIn,
+                          defaults.fadeOut, defaults.repeats,
+                          defaults.pause) == test::Numbers{10.0, 1500.0, 20.0, 0.1, 0.02, 1, 1.0});
     CHECK(defaults.levels == std::vector<double>{-10.0});
     CHECK(defaults.markerDuration == 0.5);
     CHECK(defaults.sampleRate == 48000.0);
@@ -244,11 +241,11 @@ TEST_CASE("Sweep parameters may be at the ends of their ranges but not beyond", 
 TEST_CASE("The schedule has its markers at the level of the loudest sweep, on whole frames", "[linearize]")
 {
     SweepParams params;
-    params.sampleRate = 8000.0;
     params.duration = 1.00006;
     params.pause = 0.25007;
-    params.markerDuration = 0.3;
     params.levels = {-30.0, -6.0, -12.0};
+    params.markerDuration = 0.3;
+    params.sampleRate = 8000.0;
     const auto schedule = makeSweepSchedule(params);
     CHECK(schedule.markerLevel == -6.0);
     CHECK(schedule.firstMarker.value() == 2001);

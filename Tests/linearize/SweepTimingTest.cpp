@@ -1,4 +1,5 @@
 #include "linearize/DroppedFrames.h"
+#include "linearize/QuickSweep.h"
 #include "support/Catch.h"
 #include "support/Pinned.h"
 
@@ -18,27 +19,14 @@ namespace
 {
 SweepParams timedSweep()
 {
-    SweepParams params;
-    params.sampleRate = 4000.0;
-    params.lowFrequency = 20.0;
-    params.highFrequency = 1200.0;
-    params.duration = 1.0;
-    params.fadeIn = 0.05;
-    params.pause = 0.4;
+    SweepParams params = quickSweep(1.0, 0.4, {-6.0, -16.0});
     params.markerDuration = 0.25;
-    params.levels = {-6.0, -16.0};
     return params;
 }
 
 RigParams timedRig()
 {
-    RigParams rig;
-    rig.sampleRate = 4000.0;
-    rig.axes = 1;
-    rig.bits = 0;
-    rig.body.reset();
-    rig.range = 2.0;
-    rig.noiseDensity = 1e-5;
+    RigParams rig = quickRig(2.0, 1e-5);
     rig.driftPpm = 120.0;
     return rig;
 }
@@ -49,6 +37,15 @@ RecordedChannels timedRecording(const SweepParams& params, const RigParams& rig)
     for (const auto& channel : recordOnRig(makeSweepSignal(params).value(), rig))
         recording.channels.emplace_back(channel.begin(), channel.end());
     return recording;
+}
+
+/// The timing of a recording of one channel at 4 kHz.
+SweepTiming timingOf(const std::vector<float>& channel, const SweepParams& params)
+{
+    RecordedChannels recording{4000.0, {}};
+    recording.channels.emplace_back(channel.begin(), channel.end());
+    const auto schedule = makeSweepSchedule(params);
+    return timeSweeps(recording, params, schedule, locateSweeps(recording, schedule, 4000.0, measuringSweep(params)));
 }
 
 std::vector<double> timingValues(const SweepTiming& timing)
@@ -280,11 +277,7 @@ TEST_CASE("Frames that are missing are found where they got lost", "[linearize]"
         CAPTURE(frame, lost);
         auto channels = recordOnRig(signal, rig);
         drop(channels, frame, lost);
-        RecordedChannels recording{4000.0, {}};
-        recording.channels.emplace_back(channels[0].begin(), channels[0].end());
-        const auto schedule = makeSweepSchedule(params);
-        const auto timing =
-            timeSweeps(recording, params, schedule, locateSweeps(recording, schedule, 4000.0, measuringSweep(params)));
+        const auto timing = timingOf(channels[0], params);
         REQUIRE(timing.steps.size() == 1);
         CHECK(timing.steps[0].seconds == Approx(-static_cast<double>(lost) / 4000.0).margin(1e-4));
         CHECK(timing.steps[0].time == Approx(static_cast<double>(frame) / 4000.0 - rig.latency).margin(0.1));
@@ -296,11 +289,7 @@ TEST_CASE("Frames that are missing are found where they got lost", "[linearize]"
     params.levels = {-6.0, -8.0};
     auto channels = recordOnRig(makeSweepSignal(params).value(), rig);
     drop(channels, 23000, 60);
-    RecordedChannels recording{4000.0, {}};
-    recording.channels.emplace_back(channels[0].begin(), channels[0].end());
-    const auto schedule = makeSweepSchedule(params);
-    const auto timing =
-        timeSweeps(recording, params, schedule, locateSweeps(recording, schedule, 4000.0, measuringSweep(params)));
+    const auto timing = timingOf(channels[0], params);
     REQUIRE(timing.steps.size() == 1);
     CHECK(timing.steps[0].seconds == Approx(-0.015).margin(1e-4));
     CHECK(timing.steps[0].time == Approx(5.75 - rig.latency).margin(0.1));

@@ -1,5 +1,6 @@
 #include "realtime/LimitSweep.h"
 
+#include "support/ActuatorOf.h"
 #include "support/BlockContract.h"
 #include "support/Catch.h"
 #include "support/Measure.h"
@@ -84,16 +85,8 @@ TEST_CASE("A new set-up does not forget that the actuator moves and is warm", "[
 {
     const double fs = 8000.0;
     TranslatorSetup setup;
-    Profile& profile = setup.profile.emplace();
-    profile.technology = Technology::lra;
-    profile.resonance = {175.0, 50.0};
-    profile.range = {100.0, 400.0, 60.0};
-    profile.drive.excursion = 1e-4;
-    profile.drive.maxExcursion = 1e-3;
-    profile.drive.impedance = 8.0;
-    profile.drive.maxVoltageRms = 2.0;
-    profile.drive.maxPower = 0.2;
-    profile.drive.thermalTime = 1.0;
+    Profile& profile = setup.profile.emplace(test::actuatorOf(Technology::lra, {175.0, 50.0}, {100.0, 400.0, 60.0}));
+    profile.drive = {8.0, 2.0, 0.2, 1.0, 1e-3, 1e-4}; // ohm, V, W, s, m, m
     setup.maxBoost = 0_dB;
     Translator translator;
     translator.setSetup(setup);

@@ -1,3 +1,4 @@
+#include "support/ActuatorOf.h"
 #include "support/Catch.h"
 #include "support/Pinned.h"
 
@@ -93,15 +94,9 @@ TEST_CASE("the translator plays what it played before at every kind of rate", "[
 TEST_CASE("the translator guards, is bypassed and changes its actuator as before", "[realtime]")
 {
     TranslatorSetup guarded;
-    Profile& profile = guarded.profile.emplace();
-    profile.technology = Technology::vca;
-    profile.resonance = {67.0, 4.0};
-    profile.range = {40.0, 400.0, 50.0};
-    profile.drive.impedance = 8.0;
-    profile.drive.maxVoltageRms = 1.0;
-    profile.drive.maxPower = 0.05;
-    profile.drive.excursion = 0.0006;
-    profile.drive.maxExcursion = 0.001;
+    Profile& profile = guarded.profile.emplace(test::actuatorOf(Technology::vca, {67.0, 4.0}, {40.0, 400.0, 50.0}));
+    profile.drive = {
+        .impedance = 8.0, .maxVoltageRms = 1.0, .maxPower = 0.05, .maxExcursion = 0.001, .excursion = 0.0006};
     TranslatorParams loud;
     loud.intensity = 9.0;
     pinTranslator("guarded", guarded, loud, 48000.0);

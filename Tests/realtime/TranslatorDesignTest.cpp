@@ -1,4 +1,5 @@
 #include "support/Catch.h"
+#include "support/Numbers.h"
 #include "support/Pinned.h"
 
 #include <pacini/actuator/Strength.h>
@@ -325,16 +326,10 @@ TEST_CASE("live parameters begin with what is documented", "[realtime]")
     CHECK(p.rumble == RoleParams{0.0, false});
     CHECK(p.texture == RoleParams{0.0, false});
     CHECK(p.transients == RoleParams{0.0, false});
-    CHECK(p.brightness == -6.0);
-    CHECK(p.transposition == 0.0);
-    CHECK(p.direct == 1.0);
-    CHECK(p.attack == 1.0);
-    CHECK(p.release == 8.0);
-    CHECK(p.transientSensitivity == 0.5);
-    CHECK(p.transientSharpness == 0.0);
-    CHECK(p.gateThreshold == -75.0);
-    CHECK(p.gateRelease == 60.0);
-    CHECK_FALSE(p.bypass);
+    CHECK(test::numbersOf(p.brightness, p.transposition, p.direct, p.attack, p.release) ==
+          test::Numbers{-6.0, 0.0, 1.0, 1.0, 8.0});
+    CHECK(test::numbersOf(p.transientSensitivity, p.transientSharpness, p.gateThreshold, p.gateRelease, p.bypass) ==
+          test::Numbers{0.5, 0.0, -75.0, 60.0, false});
 }
 
 TEST_CASE("the shipped presets are what they were when they were chosen", "[realtime]")
@@ -356,12 +351,8 @@ TEST_CASE("meters show what was written last", "[realtime]")
     const double silence = -std::numeric_limits<double>::infinity();
     TranslatorMeters meters;
     const auto fresh = meters.read();
-    CHECK(fresh.bands == 0);
-    CHECK(fresh.events == 0);
-    CHECK(fresh.lastEventFrame == 0);
-    CHECK(fresh.lastEventLevel == 0.0);
-    CHECK(fresh.outputPeak == 0.0);
-    CHECK(fresh.gainReduction == 0.0);
+    CHECK(test::numbersOf(fresh.bands, fresh.events, fresh.lastEventFrame, fresh.lastEventLevel, fresh.outputPeak,
+                          fresh.gainReduction) == test::Numbers{0, 0, 0, 0.0, 0.0, 0.0});
     CHECK(fresh.overThreshold == silence);
     meters.setOutput(1.0, 0.0);
     CHECK(meters.read().overThreshold == Approx(60.0)); // as long as no actuator is known
@@ -379,12 +370,9 @@ TEST_CASE("meters show what was written last", "[realtime]")
     CHECK(reading.bandLevels[0] == Approx(0.0).margin(1e-6));
     CHECK(reading.bandLevels[1] == Approx(-20.0).epsilon(1e-6));
     CHECK(reading.bandLevels[2] == silence);
-    CHECK(reading.bandLevels[3] == 0.0);
-    CHECK(reading.events == 2);
-    CHECK(reading.lastEventFrame == 6000000000u);
-    CHECK(reading.lastEventLevel == 0.25);
-    CHECK(reading.outputPeak == 0.5);
-    CHECK(reading.gainReduction == 3.25);
+    CHECK(test::numbersOf(reading.bandLevels[3], reading.events, reading.lastEventFrame, reading.lastEventLevel,
+                          reading.outputPeak,
+                          reading.gainReduction) == test::Numbers{0.0, 2, 6000000000u, 0.25, 0.5, 3.25});
     CHECK(reading.overThreshold == Approx(42.0 - 6.0206).epsilon(1e-5));
 
     meters.reset();
@@ -392,9 +380,6 @@ TEST_CASE("meters show what was written last", "[realtime]")
     CHECK(after.bands == 3); // of the set-up, which stays
     for (std::size_t k = 0; k < 3; ++k)
         CHECK(after.bandLevels[k] == silence);
-    CHECK(after.events == 0);
-    CHECK(after.lastEventFrame == 0);
-    CHECK(after.lastEventLevel == 0.0);
-    CHECK(after.outputPeak == 0.0);
-    CHECK(after.gainReduction == 0.0);
+    CHECK(test::numbersOf(after.events, after.lastEventFrame, after.lastEventLevel, after.outputPeak,
+                          after.gainReduction) == test::Numbers{0, 0, 0.0, 0.0, 0.0});
 }

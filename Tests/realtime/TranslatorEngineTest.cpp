@@ -1,3 +1,4 @@
+#include "support/ActuatorOf.h"
 #include "support/Catch.h"
 #include "support/Pinned.h"
 
@@ -127,19 +128,15 @@ TranslatorSetup engineSetup(Technology technology, double low, double high, doub
 {
     TranslatorSetup setup;
     setup.strength = 0.0;
-    Profile& profile = setup.profile.emplace();
-    profile.technology = technology;
-    profile.resonance = {std::sqrt(low * high), 6.0};
-    profile.range = {low, high, range};
+    Profile& profile =
+        setup.profile.emplace(test::actuatorOf(technology, {std::sqrt(low * high), 6.0}, {low, high, range}));
     profile.polyphony = polyphony;
     return setup;
 }
 
 TranslatorParams carrierParams()
 {
-    TranslatorParams params;
-    params.direct = 0.0;
-    return params;
+    return {.direct = 0.0};
 }
 } // namespace
 

@@ -1,3 +1,4 @@
+#include "support/ActuatorOf.h"
 #include "support/BlockContract.h"
 #include "support/Catch.h"
 #include "support/Measure.h"
@@ -22,10 +23,7 @@ namespace
 {
 Profile narrowLra()
 {
-    Profile profile;
-    profile.technology = Technology::lra;
-    profile.resonance = {175.0, 10.0};
-    profile.range = {150.0, 190.0, 40.0};
+    Profile profile = test::actuatorOf(Technology::lra, {175.0, 10.0}, {150.0, 190.0, 40.0});
     profile.polyphony = 1;
     return profile;
 }
@@ -41,15 +39,9 @@ struct GuardedTranslator : Translator
     GuardedTranslator()
     {
         TranslatorSetup wanted;
-        Profile profile;
-        profile.technology = Technology::vca;
-        profile.resonance = {67.0, 4.0};
-        profile.range = {40.0, 400.0, 50.0};
-        profile.drive.impedance = 8.0;
-        profile.drive.maxVoltageRms = 1.0;
-        profile.drive.maxPower = 0.05;
-        profile.drive.excursion = 0.0006;
-        profile.drive.maxExcursion = 0.001;
+        Profile profile = test::actuatorOf(Technology::vca, {67.0, 4.0}, {40.0, 400.0, 50.0});
+        profile.drive = {
+            .impedance = 8.0, .maxVoltageRms = 1.0, .maxPower = 0.05, .maxExcursion = 0.001, .excursion = 0.0006};
         wanted.profile = profile;
         setSetup(wanted);
     }

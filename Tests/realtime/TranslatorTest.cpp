@@ -2,6 +2,7 @@
 #include "support/Catch.h"
 #include "support/HeapGuard.h"
 #include "support/Measure.h"
+#include "support/Numbers.h"
 
 #include <pacini/realtime/Translator.h>
 
@@ -35,14 +36,6 @@ TranslatorParams carriersOnly()
     params.brightness = -60.0;
     params.audible = 0.0;
     return params;
-}
-
-double peakOf(const std::vector<float>& x)
-{
-    double peak = 0.0;
-    for (float v : x)
-        peak = std::max(peak, std::abs(static_cast<double>(v)));
-    return peak;
 }
 
 /// The frame at which the energy up to it is half of all.
@@ -483,11 +476,8 @@ TEST_CASE("parameters outside their ranges count as the nearest end, those that 
     params.gateThreshold = nan;
     params.transientSensitivity = nan;
     const auto valid = clamped(params);
-    CHECK(valid.inputGain == 48.0);
-    CHECK(valid.intensity == 0.0);
-    CHECK(valid.transposition == 0.0);
-    CHECK(valid.direct == 0.0);
-    CHECK(valid.attack == 0.0);
+    CHECK(test::numbersOf(valid.inputGain, valid.intensity, valid.transposition, valid.direct, valid.attack) ==
+          test::Numbers{48.0, 0.0, 0.0, 0.0, 0.0});
     struct Range
     {
         double TranslatorParams::*value;

@@ -39,15 +39,6 @@ Decimated wholeDecimated(WholeDecimator& decimator, const std::vector<float>& in
     return result;
 }
 
-std::vector<float> decimatorNoise(std::size_t frames)
-{
-    Random random(5);
-    std::vector<float> x(frames);
-    for (float& v : x)
-        v = static_cast<float>(random.uniform(-1.0, 1.0));
-    return x;
-}
-
 /// The taps, by an impulse at each place between two frames.
 std::vector<double> decimatorTaps(std::size_t factor, double fs, double pass)
 {
@@ -120,7 +111,7 @@ TEST_CASE("a whole decimator by one gives the input back, and as peaks its magni
     WholeDecimator decimator;
     CHECK(decimator.factor() == 1);
     CHECK(decimator.latencyFrames() == 0);
-    const auto x = decimatorNoise(9000);
+    const auto x = test::noise(9000, 5);
     const auto found = wholeDecimated(decimator, x, 700);
     CHECK(found.frames == x);
     REQUIRE(found.peaks.size() == x.size());
@@ -140,7 +131,7 @@ TEST_CASE("a whole decimator makes frame k when input k times its factor comes, 
         CHECK(decimator.framesFor(factor) == 1);
         CHECK(decimator.framesFor(factor + 1) == 2);
         CHECK(decimator.framesFor(10 * factor + 1) == 11);
-        const auto x = decimatorNoise(12000);
+        const auto x = test::noise(12000, 5);
         const auto whole = wholeDecimated(decimator, x, 1024);
         CHECK(whole.frames.size() == (x.size() - 1) / factor + 1);
         for (const std::size_t piece : {1u, 3u, 7u, 64u, 1000u})
@@ -234,7 +225,7 @@ TEST_CASE("what the filter removes has its power on demand, tones at multiples o
 
 TEST_CASE("a reset whole decimator is a new one, and processing makes no heap traffic", "[realtime]")
 {
-    const auto x = decimatorNoise(5000);
+    const auto x = test::noise(5000, 5);
     WholeDecimator fresh(6, 36000.0, 1000.0);
     const auto expected = wholeDecimated(fresh, x, 512);
     for (const std::size_t before : {1u, 5u, 6u, 400u, 4400u})

@@ -1,3 +1,4 @@
+#include "support/ActuatorOf.h"
 #include "support/Catch.h"
 #include "support/HeapGuard.h"
 #include "support/Render.h"
@@ -65,21 +66,14 @@ std::shared_ptr<const LoadedClip> loaded(const Clip& clip)
 
 Profile lra()
 {
-    Profile profile;
-    profile.technology = Technology::lra;
-    profile.resonance = {175.0, 9.0};
-    profile.range = {60.0, 400.0, 40.0};
+    Profile profile = test::actuatorOf(Technology::lra, {175.0, 9.0}, {60.0, 400.0, 40.0});
     profile.drive.overdrive = 1.5;
     return profile;
 }
 
 Profile erm()
 {
-    Profile profile;
-    profile.technology = Technology::erm;
-    profile.resonance = {160.0, 2.0};
-    profile.range = {40.0, 300.0, 30.0};
-    return profile;
+    return test::actuatorOf(Technology::erm, {160.0, 2.0}, {40.0, 300.0, 30.0});
 }
 
 EngineParams paramsOf(std::size_t actuators, std::optional<Profile> profile = {})

@@ -4,6 +4,7 @@
 #include "study/StudyCheck.h"
 #include "study/StudyTemplates.h"
 #include "support/Catch.h"
+#include "support/Measure.h"
 #include "support/Paths.h"
 #include "support/ShippedProfile.h"
 
@@ -60,13 +61,6 @@ StimulusParams here()
     return params;
 }
 
-double largest(const std::vector<float>& samples)
-{
-    double most = 0.0;
-    for (const float sample : samples)
-        most = std::max(most, std::abs(static_cast<double>(sample)));
-    return most;
-}
 } // namespace
 
 TEST_CASE("Touch follows sound by the delay of the block, to the sample")
@@ -139,9 +133,9 @@ TEST_CASE("In a detection task only one interval can be felt, at the level that 
             const std::vector<float> part(begin + static_cast<std::ptrdiff_t>(made->parts[i].begin),
                                           begin + static_cast<std::ptrdiff_t>(made->parts[i].end));
             if (static_cast<int>(i) == trial.right)
-                CHECK(20.0 * std::log10(largest(part)) == Approx(-26.0).margin(0.1));
+                CHECK(20.0 * std::log10(test::peakOf(part)) == Approx(-26.0).margin(0.1));
             else
-                CHECK(largest(part) == 0.0);
+                CHECK(test::peakOf(part) == 0.0);
         }
     }
 }
@@ -162,10 +156,10 @@ TEST_CASE("Whatever a study asks for, the actuator gets no more than it bears")
         {
             const auto made = maker->make(i);
             REQUIRE(made);
-            CHECK(largest(made->touch) <= 1.0);
+            CHECK(test::peakOf(made->touch) <= 1.0);
         }
     // Louder by 40 dB is what it was where it fits: protection, not distortion of everything.
-    CHECK(largest(known.make(2)->touch) == 0.0);
+    CHECK(test::peakOf(known.make(2)->touch) == 0.0);
 }
 
 TEST_CASE("A file that is missing is said with the stimulus it belongs to")

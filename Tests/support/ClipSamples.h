@@ -20,6 +20,15 @@ inline Curve randomCurve(Random& random, double duration, std::size_t points, do
     return curve;
 }
 
+/// One band at `hertz`, `level` for all of the time.
+inline Clip steadyClip(double hertz, double level, double seconds)
+{
+    Clip clip;
+    clip.duration = seconds;
+    clip.bands = {{hertz, hertz, hertz, 0, {{0.0, level}}, {}}};
+    return clip;
+}
+
 /// A valid clip of any shape, on no grid.
 inline Clip randomClip(std::uint64_t seed)
 {

@@ -4,6 +4,7 @@
 
 #include <pacini/foundation/Random.h>
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <cstddef>
@@ -52,6 +53,15 @@ inline std::vector<float> impulse(std::size_t frames, std::size_t at = 0)
     std::vector<float> x(frames, 0.0f);
     x[at] = 1.0f;
     return x;
+}
+
+/// Largest magnitude.
+[[nodiscard]] double peakOf(const auto& x)
+{
+    double peak = 0.0;
+    for (const auto v : x)
+        peak = std::max(peak, std::abs(static_cast<double>(v)));
+    return peak;
 }
 
 inline double rms(std::span<const float> x)

@@ -109,4 +109,26 @@ void checkPinned(const std::string& name, std::span<const double> values, double
     }
 }
 
+void checkPinnedWithEnds(const std::string& name, std::span<const double> values)
+{
+    checkPinned(name, values, 1e-5);
+    if (values.size() <= 24)
+        return;
+    std::vector<double> ends(values.begin(), values.begin() + 12);
+    ends.insert(ends.end(), values.end() - 12, values.end());
+    checkPinned(name + ", ends", ends, 1e-4);
+}
+
+void checkPinnedCurve(const std::string& name, const std::string& of, const Curve& curve, double tolerance)
+{
+    std::vector<double> times, values;
+    for (const Breakpoint& point : curve)
+    {
+        times.push_back(point.time);
+        values.push_back(point.value);
+    }
+    checkPinned(name + ", times of " + of, times, 1e-6);
+    checkPinned(name + ", values of " + of, values, tolerance);
+}
+
 } // namespace pacini

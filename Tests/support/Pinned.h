@@ -5,6 +5,8 @@
 // what has an analytic result, a SciPy vector or a property is tested by that. After a meant change they are made anew
 // by `PACINI_PIN=1 build/release/bin/pacini_tests "NAMES OF TESTS"`, and the commit says why they moved.
 
+#include <pacini/clip/Curve.h>
+
 #include <initializer_list>
 #include <span>
 #include <string>
@@ -21,5 +23,11 @@ inline void checkPinned(const std::string& name, std::initializer_list<double> v
 {
     checkPinned(name, std::span<const double>(values.begin(), values.size()), tolerance);
 }
+
+// The same within 1e-5, and of long lists the first and the last twelve values by themselves, within 1e-4.
+void checkPinnedWithEnds(const std::string& name, std::span<const double> values);
+
+// Checks the times of a curve within 1e-6 as line `name`, times of `of`, and its values within `tolerance`.
+void checkPinnedCurve(const std::string& name, const std::string& of, const Curve& curve, double tolerance = 1e-6);
 
 } // namespace pacini

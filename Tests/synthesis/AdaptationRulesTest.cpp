@@ -1,3 +1,4 @@
+#include "support/ActuatorOf.h"
 #include "support/Catch.h"
 #include "support/Pinned.h"
 
@@ -17,11 +18,7 @@ namespace
 {
 Profile fittedProfile()
 {
-    Profile profile;
-    profile.technology = Technology::lra;
-    profile.resonance = {150.0, 4.0};
-    profile.range = {100.0, 300.0, 60.0};
-    return profile;
+    return test::actuatorOf(Technology::lra, {150.0, 4.0}, {100.0, 300.0, 60.0});
 }
 
 Band fittedBand(double hertz, double level, Curve pitch = {})

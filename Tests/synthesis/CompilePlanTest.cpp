@@ -1,4 +1,6 @@
+#include "support/ActuatorOf.h"
 #include "support/Catch.h"
+#include "support/Numbers.h"
 #include "support/Pinned.h"
 
 #include <pacini/synthesis/CompilePlan.h>
@@ -33,11 +35,7 @@ Scene plannedScene(std::size_t plays = 1)
 
 Profile plannedProfile()
 {
-    Profile profile;
-    profile.technology = Technology::lra;
-    profile.resonance = {150.0, 4.0};
-    profile.range = {60.0, 400.0, 50.0};
-    return profile;
+    return test::actuatorOf(Technology::lra, {150.0, 4.0}, {60.0, 400.0, 50.0});
 }
 
 PlayTimeline levelTimeline(std::vector<Curve> gains, std::vector<DecoderChange> changes = {})
@@ -272,11 +270,8 @@ TEST_CASE("A play is decoded with its pitch, speed and seed, at a rate for all i
     REQUIRE(plan.ok());
     REQUIRE(plan->plays.size() == 1);
     const DecoderParams& decoder = plan->plays[0].decoder;
-    CHECK(decoder.sampleRate == 8000.0);
-    CHECK(decoder.transposition == 3.0);
-    CHECK(decoder.stretch == 1.5);
-    CHECK(decoder.variation.seed == 17);
-    CHECK(decoder.variation.amount == 0.0);
+    CHECK(test::numbersOf(decoder.sampleRate, decoder.transposition, decoder.stretch, decoder.variation.seed,
+                          decoder.variation.amount) == test::Numbers{8000.0, 3.0, 1.5, 17, 0.0});
     CHECK(decoder.carriers == CarrierMode::pitch);
     CHECK(decoder.reach == 650.0);
     CHECK(plan->plays[0].clip.bands.size() == 1); // the silent one is left out

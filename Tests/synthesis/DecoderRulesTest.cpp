@@ -1,4 +1,6 @@
 #include "support/Catch.h"
+#include "support/ClipSamples.h"
+#include "support/Numbers.h"
 #include "support/Pinned.h"
 
 #include <pacini/synthesis/Decoder.h>
@@ -34,14 +36,6 @@ Clip decodedClip()
     return clip;
 }
 
-Clip steadyClip(double hertz, double level, double seconds)
-{
-    Clip clip;
-    clip.duration = seconds;
-    clip.bands = {{hertz, hertz, hertz, 0, {{0.0, level}}, {}}};
-    return clip;
-}
-
 std::vector<float> heard(const Clip& clip, const DecoderParams& params, std::vector<DecoderChange> changes = {})
 {
     Decoder decoder(clip, params, std::move(changes));
@@ -68,14 +62,10 @@ TEST_CASE("What a decoder does unless told otherwise", "[synthesis]")
     const DecoderParams params;
     CHECK(params.sampleRate == 48000.0);
     CHECK(params.carriers == CarrierMode::pitch);
-    CHECK(params.followEnvelope);
-    CHECK_FALSE(params.fullRate);
-    CHECK(params.transposition == 0.0);
-    CHECK(params.stretch == 1.0);
-    CHECK(params.gain == 1.0);
-    CHECK(params.delay == 0.0);
-    CHECK(params.headroom == 0.0);
-    CHECK(params.reach == 0.0);
+    CHECK(test::numbersOf(params.followEnvelope, params.fullRate, params.transposition, params.stretch) ==
+          test::Numbers{true, false, 0.0, 1.0});
+    CHECK(test::numbersOf(params.gain, params.delay, params.headroom, params.reach) ==
+          test::Numbers{1.0, 0.0, 0.0, 0.0});
     const DecoderReport report;
     CHECK(report.innerRate == 0.0);
     CHECK(report.carriers + report.silentBands + report.noiseBands + report.pulses + report.maskedTransients == 0);
@@ -158,7 +148,7 @@ TEST_CASE("A clip is decoded as its method wants and the user changes it", "[syn
 
 TEST_CASE("Parameters of a decoder end where they are said to, and what is not finite is the default", "[synthesis]")
 {
-    Clip clip = steadyClip(900.0, 0.5, 0.02);
+    Clip clip = test::steadyClip(900.0, 0.5, 0.02);
     clip.transients = {{0.001, 0.5, 0.5}, {0.012, 0.4, 1.0}};
     struct Limit
     {
@@ -253,38 +243,38 @@ TEST_CASE("Sinusoids are summed at 4 kHz or 3.3 times their highest frequency, a
         return Decoder(clip, params, std::move(changes)).report().innerRate;
     };
     DecoderParams params;
-    CHECK(innerRate(steadyClip(100.0, 0.5, 0.1), params) == 4000.0);
-    CHECK(innerRate(steadyClip(1500.0, 0.5, 0.1), params) == Approx(48000.0 / 9.0)); // 4950 Hz and more
+    CHECK(innerRate(test::steadyClip(100.0, 0.5, 0.1), params) == 4000.0);
+    CHECK(innerRate(test::steadyClip(1500.0, 0.5, 0.1), params) == Approx(48000.0 / 9.0)); // 4950 Hz and more
     params.sampleRate = 44100.0;
-    CHECK(innerRate(steadyClip(100.0, 0.5, 0.1), params) == Approx(44100.0 / 11.0));
+    CHECK(innerRate(test::steadyClip(100.0, 0.5, 0.1), params) == Approx(44100.0 / 11.0));
     params.sampleRate = 7900.0;
-    CHECK(innerRate(steadyClip(100.0, 0.5, 0.1), params) == 7900.0);
+    CHECK(innerRate(test::steadyClip(100.0, 0.5, 0.1), params) == 7900.0);
     params.sampleRate = 2000.0;
-    CHECK(innerRate(steadyClip(100.0, 0.5, 0.1), params) == 2000.0);
+    CHECK(innerRate(test::steadyClip(100.0, 0.5, 0.1), params) == 2000.0);
     params.sampleRate = 48000.0;
     params.reach = 1500.0;
-    CHECK(innerRate(steadyClip(100.0, 0.5, 0.1), params) == Approx(48000.0 / 9.0));
+    CHECK(innerRate(test::steadyClip(100.0, 0.5, 0.1), params) == Approx(48000.0 / 9.0));
     params.reach = 0.0;
     params.transposition = 12.0;
-    CHECK(innerRate(steadyClip(750.0, 0.5, 0.1), params) == Approx(48000.0 / 9.0));
+    CHECK(innerRate(test::steadyClip(750.0, 0.5, 0.1), params) == Approx(48000.0 / 9.0));
     params.transposition = -12.0;
     params.headroom = 24.0;
-    CHECK(innerRate(steadyClip(750.0, 0.5, 0.1), params) == Approx(48000.0 / 9.0));
+    CHECK(innerRate(test::steadyClip(750.0, 0.5, 0.1), params) == Approx(48000.0 / 9.0));
     params.headroom = -5.0; // counts 0
-    CHECK(innerRate(steadyClip(3000.0, 0.5, 0.1), params) == Approx(48000.0 / 9.0));
+    CHECK(innerRate(test::steadyClip(3000.0, 0.5, 0.1), params) == Approx(48000.0 / 9.0));
     params.headroom = 0.0;
-    CHECK(innerRate(steadyClip(750.0, 0.5, 0.1), params, {{0.01, 12.0, 1.0}, {0.05, -50.0, 1.0}}) ==
+    CHECK(innerRate(test::steadyClip(750.0, 0.5, 0.1), params, {{0.01, 12.0, 1.0}, {0.05, -50.0, 1.0}}) ==
           Approx(48000.0 / 9.0));
-    CHECK(innerRate(steadyClip(6.0, 0.5, 0.1), params, {{0.01, 500.0, 1.0}}) == 48000.0);
-    CHECK(innerRate(steadyClip(750.0, 0.5, 0.1), params, {{0.01, std::numeric_limits<double>::infinity(), 1.0}}) ==
-          4000.0);
+    CHECK(innerRate(test::steadyClip(6.0, 0.5, 0.1), params, {{0.01, 500.0, 1.0}}) == 48000.0);
+    CHECK(innerRate(test::steadyClip(750.0, 0.5, 0.1), params,
+                    {{0.01, std::numeric_limits<double>::infinity(), 1.0}}) == 4000.0);
     params.fullRate = true;
-    CHECK(innerRate(steadyClip(100.0, 0.5, 0.1), params) == 48000.0);
+    CHECK(innerRate(test::steadyClip(100.0, 0.5, 0.1), params) == 48000.0);
     params.fullRate = false;
     params.sampleRate = 768000.0;
     params.transposition = -96.0;
     params.reach = 1e6; // 400 kHz are the most
-    CHECK(innerRate(steadyClip(100.0, 0.5, 0.1), params) == Approx(768000.0 / 148.0));
+    CHECK(innerRate(test::steadyClip(100.0, 0.5, 0.1), params) == Approx(768000.0 / 148.0));
 }
 
 TEST_CASE("A steady tone comes out as its sine, in time, at the rate itself and below it", "[synthesis]")
@@ -298,7 +288,7 @@ TEST_CASE("A steady tone comes out as its sine, in time, at the rate itself and 
             params.fullRate = full;
             params.gain = 2.0;
             params.delay = 0.01;
-            Clip clip = steadyClip(100.0, 0.25, 0.2);
+            Clip clip = test::steadyClip(100.0, 0.25, 0.2);
             clip.bands.push_back(clip.bands[0]);
             clip.bands[1].pitch = {{0.0, 130.0}};
             const auto y = heard(clip, params);
@@ -337,7 +327,7 @@ TEST_CASE("Bands stand at their centre, pitch or part of the centroid, 5 Hz to 0
         }
         return y.size() == 800;
     };
-    Clip clip = steadyClip(100.0, 0.25, 0.1);
+    Clip clip = test::steadyClip(100.0, 0.25, 0.1);
     clip.bands.push_back({400.0, 400.0, 400.0, 0, {{0.0, 0.25}}, {{0.0, 330.0}}});
     clip.centroid = {{0.0, 120.0}};
     CHECK(same(CarrierMode::fixed, clip, 100.0, 400.0));
@@ -362,7 +352,7 @@ TEST_CASE("Curves of bands follow stretch and gain, and a silent band is not pla
     params.stretch = 2.0;
     params.gain = 3.0;
     params.carriers = CarrierMode::none;
-    Clip clip = steadyClip(100.0, 0.0, 0.1);
+    Clip clip = test::steadyClip(100.0, 0.0, 0.1);
     clip.bands[0].amplitude = {{0.0, 0.0}, {0.05, 0.2}, {0.1, 0.1}};
     const auto y = heard(clip, params);
     REQUIRE(y.size() == 1600);
@@ -425,11 +415,11 @@ TEST_CASE("Changes that are not finite are as if they were not there", "[synthes
           plain);
     CHECK_FALSE(heard(decodedClip(), at8kHz()) == plain);
     // Scheduled ones end where parameters do.
-    CHECK(heard(steadyClip(6.0, 0.5, 0.1), at8kHz(), {{0.01, 300.0, 1.0}}) ==
-          heard(steadyClip(6.0, 0.5, 0.1), at8kHz(), {{0.01, 96.0, 1.0}}));
-    CHECK(Decoder(steadyClip(100.0, 0.5, 0.1), at8kHz(), {{0.05, 0.0, 1e9}}).totalFrames() == 400 + 400 * 1000);
-    CHECK(Decoder(steadyClip(100.0, 0.5, 0.1), at8kHz(), {{0.05, 0.0, 1e-9}}).totalFrames() == 400);
-    CHECK(Decoder(steadyClip(100.0, 0.5, 1.0), at8kHz(), {{0.05, 0.0, 0.0}}).totalFrames() == 408);
+    CHECK(heard(test::steadyClip(6.0, 0.5, 0.1), at8kHz(), {{0.01, 300.0, 1.0}}) ==
+          heard(test::steadyClip(6.0, 0.5, 0.1), at8kHz(), {{0.01, 96.0, 1.0}}));
+    CHECK(Decoder(test::steadyClip(100.0, 0.5, 0.1), at8kHz(), {{0.05, 0.0, 1e9}}).totalFrames() == 400 + 400 * 1000);
+    CHECK(Decoder(test::steadyClip(100.0, 0.5, 0.1), at8kHz(), {{0.05, 0.0, 1e-9}}).totalFrames() == 400);
+    CHECK(Decoder(test::steadyClip(100.0, 0.5, 1.0), at8kHz(), {{0.05, 0.0, 0.0}}).totalFrames() == 408);
 }
 
 TEST_CASE("Live changes move the end, drop scheduled ones, and sound as they did", "[synthesis]")

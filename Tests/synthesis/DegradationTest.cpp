@@ -23,13 +23,7 @@ std::vector<float> felt(const Clip& clip, const Profile& profile, bool adapt)
 {
     CompileParams params;
     params.adapt = adapt;
-    auto y = test::drive(clip, profile, params);
-    FeltModel model;
-    model.prepare({48000.0, y.size()});
-    model.setParams(*feltModelParams(profile));
-    model.reset();
-    model.process(y, y);
-    return y;
+    return test::felt(test::drive(clip, profile, params), profile);
 }
 } // namespace
 

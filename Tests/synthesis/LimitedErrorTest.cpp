@@ -1,3 +1,4 @@
+#include "support/ActuatorOf.h"
 #include "support/Catch.h"
 #include "support/Pinned.h"
 
@@ -197,10 +198,7 @@ TEST_CASE("The limiter of a plain signal holds for 20 Hz, that of an actuator fo
     CHECK(usual.spread == 1.0);
     CHECK(usual.hold == 0.0);
     CHECK_FALSE(usual.soft);
-    Profile profile;
-    profile.technology = Technology::lra;
-    profile.resonance = {100.0, 2.0};
-    profile.range = {50.0, 400.0, 60.0};
+    Profile profile = test::actuatorOf(Technology::lra, {100.0, 2.0}, {50.0, 400.0, 60.0});
     profile.drive.overdrive = 1.6;
     LimiterModel model = limiterModel(&profile);
     CHECK(model.spread == 1.0);

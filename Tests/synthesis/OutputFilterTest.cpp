@@ -1,5 +1,6 @@
 #include "io/ProfileFile.h"
 #include "io/ShippedProfiles.h"
+#include "support/ActuatorOf.h"
 #include "support/Catch.h"
 #include "support/Measure.h"
 #include "support/Paths.h"
@@ -23,11 +24,7 @@ constexpr double tolerance = 0.05; // dB
 
 Profile resonant(double frequency, double q)
 {
-    Profile profile;
-    profile.technology = Technology::lra;
-    profile.resonance = {frequency, q};
-    profile.range = {20.0, 1000.0, 60.0};
-    return profile;
+    return test::actuatorOf(Technology::lra, {frequency, q}, {20.0, 1000.0, 60.0});
 }
 
 /// How much stronger than without flattening the rendered drive of a tone is once the filter has settled, dB.

@@ -1,5 +1,7 @@
+#include "support/ActuatorOf.h"
 #include "support/Catch.h"
 #include "support/Pinned.h"
+#include "support/Render.h"
 
 #include <pacini/synthesis/ActuatorOutput.h>
 #include <pacini/synthesis/CompilePlan.h>
@@ -32,10 +34,7 @@ Clip playerClip(double seconds, double level)
 
 Profile playerProfile(Technology technology)
 {
-    Profile profile;
-    profile.technology = technology;
-    profile.resonance = {120.0, 3.0};
-    profile.range = {40.0, 500.0, 60.0};
+    Profile profile = test::actuatorOf(technology, {120.0, 3.0}, {40.0, 500.0, 60.0});
     profile.drive.overdrive = 2.0;
     return profile;
 }
@@ -71,13 +70,7 @@ std::vector<std::vector<float>> nextFrames(ScenePlayer& player, std::size_t chan
                                            std::size_t block)
 {
     std::vector<std::vector<float>> out(channels, std::vector<float>(frames, 7.0f));
-    for (std::size_t i = 0; i < frames; i += block)
-    {
-        std::vector<std::span<float>> part;
-        for (auto& channel : out)
-            part.push_back(std::span(channel).subspan(i, std::min(block, frames - i)));
-        player.process(part);
-    }
+    test::fillChannels(player, out, block);
     return out;
 }
 

@@ -1,4 +1,5 @@
 #include "support/Catch.h"
+#include "support/Numbers.h"
 
 #include <pacini/synthesis/Scene.h>
 
@@ -55,19 +56,10 @@ TEST_CASE("What a scene, a play and a change are unless told otherwise", "[scene
     CHECK(scene.panLaw == PanLaw::constantPower);
     CHECK(scene.panDelay == 0.01);
     const ScenePlay play;
-    CHECK(play.clip == 0);
-    CHECK(play.start == 0.0);
-    CHECK(play.loop == 0.0);
-    CHECK(play.passes == 0);
-    CHECK(play.gain == 0.0);
-    CHECK(play.pan == 0.5);
-    CHECK(play.transposition == 0.0);
-    CHECK(play.stretch == 1.0);
-    CHECK(play.tones == 0.0);
-    CHECK(play.events == 0.0);
-    CHECK(play.noise == 0.0);
-    CHECK(play.priority == 0);
-    CHECK(play.variation.amount == 0.0);
+    CHECK(test::numbersOf(play.clip, play.start, play.loop, play.passes, play.gain, play.pan, play.transposition) ==
+          test::Numbers{0, 0.0, 0.0, 0, 0.0, 0.5, 0.0});
+    CHECK(test::numbersOf(play.stretch, play.tones, play.events, play.noise, play.priority, play.variation.amount) ==
+          test::Numbers{1.0, 0.0, 0.0, 0.0, 0, 0.0});
     CHECK(play.variation.scope == VariationScope::breakpoint);
     CHECK(play.variation.seed == 0);
     const SceneChange change;

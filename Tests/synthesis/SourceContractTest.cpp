@@ -1,5 +1,7 @@
+#include "support/ActuatorOf.h"
 #include "support/BlockContract.h"
 #include "support/Catch.h"
+#include "support/ClipSamples.h"
 #include "support/Measure.h"
 #include "support/Render.h"
 
@@ -56,20 +58,9 @@ Scene sceneWithGain(const Clip& clip, double gain = 0.0)
     return scene;
 }
 
-Clip steadyTone(double hertz, double seconds, double amplitude)
-{
-    Clip clip;
-    clip.duration = seconds;
-    clip.bands = {{hertz, hertz, hertz, 0, {{0.0, amplitude}}, {}}};
-    return clip;
-}
-
 Profile actuator(Technology technology)
 {
-    Profile profile;
-    profile.technology = technology;
-    profile.resonance = {175.0, 10.0};
-    profile.range = {80.0, 300.0, 40.0};
+    Profile profile = test::actuatorOf(technology, {175.0, 10.0}, {80.0, 300.0, 40.0});
     profile.polyphony = 2;
     return profile;
 }
@@ -217,7 +208,7 @@ TEST_CASE("A scene ignores live values that are not finite and keeps full drive 
 
 TEST_CASE("A gain that was far too large leaves nothing behind", "[scene]")
 {
-    const auto plan = compilePlan(sceneWithGain(steadyTone(100.0, 4.0, 0.5)));
+    const auto plan = compilePlan(sceneWithGain(test::steadyClip(100.0, 0.5, 4.0)));
     REQUIRE(plan.ok());
     OneActuator source(*plan, 8000.0);
     std::vector<float> y(32000);
@@ -237,7 +228,7 @@ TEST_CASE("A clip has its pitch, level and length at every rate up to 768 kHz", 
         CAPTURE(fs);
         CompileParams params;
         params.sampleRate = fs;
-        const auto plan = compilePlan(sceneWithGain(steadyTone(160.0, 0.4, 0.5)), nullptr, params);
+        const auto plan = compilePlan(sceneWithGain(test::steadyClip(160.0, 0.5, 0.4)), nullptr, params);
         REQUIRE(plan.ok());
         OneActuator source(*plan, fs);
         REQUIRE(source.totalFrames() == std::llround(0.4 * fs));
@@ -247,7 +238,7 @@ TEST_CASE("A clip has its pitch, level and length at every rate up to 768 kHz", 
         CHECK(rms(std::span(y).subspan(y.size() / 4, y.size() / 2)) == Approx(0.5 / std::sqrt(2.0)).epsilon(0.01));
         DecoderParams decoding;
         decoding.sampleRate = fs;
-        Decoder decoder(steadyTone(160.0, 0.4, 0.5), decoding);
+        Decoder decoder(test::steadyClip(160.0, 0.5, 0.4), decoding);
         REQUIRE(decoder.totalFrames() == source.totalFrames());
         CHECK(pitchOf(render(decoder, 4096), fs) == Approx(160.0).epsilon(2e-3));
     }
@@ -256,7 +247,7 @@ TEST_CASE("A clip has its pitch, level and length at every rate up to 768 kHz", 
 TEST_CASE("A rate that nothing plays at is an error of the plan and silence of the player, never another pitch",
           "[synthesis][scene]")
 {
-    const Scene scene = sceneWithGain(steadyTone(160.0, 0.4, 0.5));
+    const Scene scene = sceneWithGain(test::steadyClip(160.0, 0.5, 0.4));
     const auto plan = compilePlan(scene);
     REQUIRE(plan.ok());
     for (const double fs : {0.0, -48000.0, 1999.0, 768001.0, 1536000.0, std::numeric_limits<double>::quiet_NaN(),

@@ -1,4 +1,5 @@
 #include "support/Catch.h"
+#include "support/Numbers.h"
 #include "support/Pinned.h"
 
 #include <pacini/synthesis/LoopUnroll.h>
@@ -78,11 +79,8 @@ TEST_CASE("Voices are served by priority, then power, then index, as far as they
     // Of equals the first.
     CHECK(voiceLosses(std::vector<VoiceClaim>(2, {0.0, 1.0, 1, 0, 0.5}), 1) == std::vector<Losses>{{}, all});
     const VoiceClaim usual;
-    CHECK(usual.from == 0.0);
-    CHECK(usual.to == 0.0);
-    CHECK(usual.voices == 1);
-    CHECK(usual.priority == 0);
-    CHECK(usual.power == 0.0);
+    CHECK(test::numbersOf(usual.from, usual.to, usual.voices, usual.priority, usual.power) ==
+          test::Numbers{0.0, 0.0, 1, 0, 0.0});
     const VoiceLoss none;
     CHECK(none.from == 0.0);
     CHECK(none.to == 0.0);

@@ -2,6 +2,7 @@
 #include "support/BlockContract.h"
 #include "support/Catch.h"
 #include "support/Measure.h"
+#include "support/Numbers.h"
 #include "support/Pinned.h"
 
 #include <pacini/analysis/methods/Method.h>
@@ -239,14 +240,7 @@ TEST_CASE("What every method makes of a mixed sound is what it was", "[methods]"
                                          std::to_string(static_cast<int>(points)) + " points";
                 const auto pin = [&name](const std::string& of, const Curve& curve)
                 {
-                    std::vector<double> times, values;
-                    for (const Breakpoint& point : curve)
-                    {
-                        times.push_back(point.time);
-                        values.push_back(point.value);
-                    }
-                    checkPinned(name + ", times of " + of, times, 1e-6);
-                    checkPinned(name + ", values of " + of, values, 1e-4);
+                    checkPinnedCurve(name, of, curve, 1e-4);
                 };
                 pin("envelope", clip.envelope);
                 pin("centroid", clip.centroid);
@@ -315,18 +309,13 @@ TEST_CASE("Parameters of methods have the defaults of their sources", "[methods]
     CHECK(ThirdOctaveVocoderParams{}.range.low.value == 5.0);
     CHECK(std::isinf(ThirdOctaveVocoderParams{}.range.high.value));
     const CentroidFlatnessParams flat;
-    CHECK(flat.range.low.value == 5.0);
-    CHECK(flat.lowCentroid.value == 100.0);
-    CHECK(flat.highCentroid.value == 10e3);
-    CHECK(flat.lowPitch.value == 40.0);
-    CHECK(flat.highPitch.value == 400.0);
-    CHECK(flat.highestPartial.value == 1e3);
+    CHECK(test::numbersOf(flat.range.low.value, flat.lowCentroid.value, flat.highCentroid.value, flat.lowPitch.value,
+                          flat.highPitch.value,
+                          flat.highestPartial.value) == test::Numbers{5.0, 100.0, 10e3, 40.0, 400.0, 1e3});
     const MethodCurveParams curves;
-    CHECK(curves.follower.attack.value == 0.002);
-    CHECK(curves.follower.hold.value == 0.010);
-    CHECK(curves.follower.release.value == 0.030);
-    CHECK(curves.trackRate.value == 1000.0);
-    CHECK(curves.breakpoints == 20.0);
+    CHECK(test::numbersOf(curves.follower.attack.value, curves.follower.hold.value, curves.follower.release.value,
+                          curves.trackRate.value,
+                          curves.breakpoints) == test::Numbers{0.002, 0.010, 0.030, 1000.0, 20.0});
     CHECK(BandLimitParams{}.low.value == 5.0);
     CHECK(BandLimitParams{}.high.value == 1800.0);
     CHECK(MethodSound{}.fs == 48000.0);

@@ -3,6 +3,7 @@
 #include "io/formats/ClipFormat.h"
 #include "io/formats/FormatSamples.h"
 #include "support/Catch.h"
+#include "support/Numbers.h"
 
 #include <algorithm>
 #include <cmath>
@@ -731,11 +732,9 @@ TEST_CASE("AHAP: what is out of range is limited, refused or left out in these w
              control("HapticIntensityControl", "0.75", "0") + "," + control("HapticSharpnessControl", "0.5", "0.25") +
              "," + event("HapticContinuous", "1.25", "0.25", parameter("HapticIntensity", "0.5"))));
     REQUIRE(stepped.clip.bands.size() == 1);
-    CHECK(stepped.clip.bands[0].lowFrequency == 65.0);
-    CHECK(stepped.clip.bands[0].centreFrequency == 182.5);
-    CHECK(stepped.clip.bands[0].highFrequency == 300.0);
-    CHECK(stepped.clip.bands[0].priority == 0);
-    CHECK(stepped.clip.duration == 1.5);
+    CHECK(test::numbersOf(stepped.clip.bands[0].lowFrequency, stepped.clip.bands[0].centreFrequency,
+                          stepped.clip.bands[0].highFrequency, stepped.clip.bands[0].priority,
+                          stepped.clip.duration) == test::Numbers{65.0, 182.5, 300.0, 0, 1.5});
     const Curve& amplitude = stepped.clip.bands[0].amplitude;
     CHECK(valueAt(amplitude, 0.2) == 1.0);
     CHECK(valueAt(amplitude, 0.3) == 0.25);
