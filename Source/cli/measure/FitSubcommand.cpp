@@ -128,19 +128,10 @@ struct FitSubcommand : Command
     Result<std::size_t> drawPicture(const FrequencyResponse& response, const EqualizerFit& fit,
                                     const EqualizerFitParams& params) const;
 
-    std::string input;
-    std::string output;
-    std::string base;
-    std::string picture;
-    std::string sections = "auto";
-    double rate = 48000.0;
-    double maxBoost = 12.0;
-    double goal = 2.0;
-    std::optional<double> low;
-    std::optional<double> high;
-    std::optional<double> highpass;
-    bool boostOutside = false;
-    bool peaksOnly = false;
+    std::string input, output, base, picture, sections = "auto";
+    double rate = 48000.0, maxBoost = 12.0, goal = 2.0;
+    std::optional<double> low, high, highpass;
+    bool boostOutside = false, peaksOnly = false;
 };
 } // namespace
 

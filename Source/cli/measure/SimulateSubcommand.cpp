@@ -51,16 +51,9 @@ struct SimulateSubcommand : Command
 
     Exit record(Console& console) const;
 
-    std::string input;
-    std::string output;
-    std::string profile = "l5-wristband";
-    unsigned wearer = 0;
-    unsigned wearers = 0;
-    double contact = 0.0;
-    double latency = 12.0;
-    double drift = 50.0;
-    double noise = 250.0;
-    double distortion = 0.0;
+    std::string input, output, profile = "l5-wristband";
+    unsigned wearer = 0, wearers = 0;
+    double contact = 0.0, latency = 12.0, drift = 50.0, noise = 250.0, distortion = 0.0;
     double range = 5.0; ///< g, of the ADXL325
     int axes = 3;
     int bits = 12;

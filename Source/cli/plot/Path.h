@@ -10,17 +10,13 @@ namespace pacini::plot
 
 struct Point
 {
-    double x = 0.0;
-    double y = 0.0;
+    double x = 0.0, y = 0.0;
     bool operator==(const Point&) const = default;
 };
 
 struct Rectangle
 {
-    double left = 0.0;
-    double top = 0.0;
-    double right = 0.0;
-    double bottom = 0.0;
+    double left = 0.0, top = 0.0, right = 0.0, bottom = 0.0;
 
     [[nodiscard]] double width() const noexcept { return right - left; }
     [[nodiscard]] double height() const noexcept { return bottom - top; }

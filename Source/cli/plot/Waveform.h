@@ -15,8 +15,7 @@ namespace pacini::plot
 /// A stretch of time in seconds, `to` above `from`.
 struct TimeRange
 {
-    double from = 0.0;
-    double to = 1.0;
+    double from = 0.0, to = 1.0;
     bool operator==(const TimeRange&) const = default;
 };
 

@@ -2,18 +2,12 @@
 
 #include "web/core/Call.h"
 
-#include <array>
-
 namespace pacini::web
 {
 
 std::span<const NamedHandler> handlers()
 {
-    static constexpr std::array all{
-        NamedHandler{"reports", listReports},
-        NamedHandler{"rumble", planRumble},
-        NamedHandler{"touch", planTouch},
-    };
+    static constexpr NamedHandler all[]{{"reports", listReports}, {"rumble", planRumble}, {"touch", planTouch}};
     return all;
 }
 

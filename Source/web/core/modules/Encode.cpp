@@ -2,18 +2,13 @@
 
 #include "web/core/Call.h"
 
-#include <array>
-
 namespace pacini::web
 {
 
 std::span<const NamedHandler> handlers()
 {
-    static constexpr std::array all{
-        NamedHandler{"encode", encodeSound},
-        NamedHandler{"reapply", reapplyEdits},
-        NamedHandler{"parameters", describeParameters},
-    };
+    static constexpr NamedHandler all[]{
+        {"encode", encodeSound}, {"reapply", reapplyEdits}, {"parameters", describeParameters}};
     return all;
 }
 

@@ -2,19 +2,13 @@
 
 #include "web/core/Call.h"
 
-#include <array>
-
 namespace pacini::web
 {
 
 std::span<const NamedHandler> handlers()
 {
-    static constexpr std::array all{
-        NamedHandler{"read", readClipBytes},
-        NamedHandler{"write", writeClipBytes},
-        NamedHandler{"lint", lintClip},
-        NamedHandler{"exportParameters", describeExports},
-    };
+    static constexpr NamedHandler all[]{
+        {"read", readClipBytes}, {"write", writeClipBytes}, {"lint", lintClip}, {"exportParameters", describeExports}};
     return all;
 }
 

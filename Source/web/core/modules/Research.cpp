@@ -2,18 +2,13 @@
 
 #include "web/core/Call.h"
 
-#include <array>
-
 namespace pacini::web
 {
 
 std::span<const NamedHandler> handlers()
 {
-    static constexpr std::array all{
-        NamedHandler{"translate", translateSound},
-        NamedHandler{"compare", compareSounds},
-        NamedHandler{"spectrogram", drawSpectrogram},
-    };
+    static constexpr NamedHandler all[]{
+        {"translate", translateSound}, {"compare", compareSounds}, {"spectrogram", drawSpectrogram}};
     return all;
 }
 
