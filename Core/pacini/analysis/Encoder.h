@@ -273,12 +273,7 @@ private:
         }
         cutAfter(clip.envelope, clip.duration);
         cutAfter(clip.centroid, clip.duration);
-        std::vector<double> energies;
-        for (const Band& band : clip.bands)
-            energies.push_back(curveEnergy(band.amplitude, clip.duration));
-        const auto priorities = prioritiesByEnergy(energies);
-        for (std::size_t k = 0; k < clip.bands.size(); ++k)
-            clip.bands[k].priority = priorities[k];
+        rankByEnergy(clip);
     }
 
     static constexpr double silence = 1e-6; // -120 dB: dither and rounding noise

@@ -2,6 +2,7 @@
 
 // Band priorities, for choosing bands if not all can be played.
 
+#include <pacini/clip/Clip.h>
 #include <pacini/clip/Curve.h>
 
 #include <algorithm>
@@ -39,6 +40,17 @@ namespace pacini
     for (std::size_t rank = 0; rank < order.size(); ++rank)
         priorities[order[rank]] = static_cast<int>(rank);
     return priorities;
+}
+
+/// Gives the bands of `clip` the ranks of their energies.
+inline void rankByEnergy(Clip& clip)
+{
+    std::vector<double> energies;
+    for (const Band& band : clip.bands)
+        energies.push_back(curveEnergy(band.amplitude, clip.duration));
+    const auto priorities = prioritiesByEnergy(energies);
+    for (std::size_t k = 0; k < clip.bands.size(); ++k)
+        clip.bands[k].priority = priorities[k];
 }
 
 } // namespace pacini

@@ -93,12 +93,7 @@ void finishImported(Clip& clip, bool endIsStated)
     sortByTime(clip.transients);
     if (!endIsStated)
         lastUntilSounded(clip);
-    std::vector<double> energies;
-    for (const Band& band : clip.bands)
-        energies.push_back(curveEnergy(band.amplitude, clip.duration));
-    const auto priorities = prioritiesByEnergy(energies);
-    for (std::size_t i = 0; i < clip.bands.size(); ++i)
-        clip.bands[i].priority = priorities[i];
+    rankByEnergy(clip);
 }
 
 } // namespace pacini

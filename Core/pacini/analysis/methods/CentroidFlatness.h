@@ -180,7 +180,7 @@ inline constexpr std::array<double, 4> squarePartials{1.0, 3.0, 5.0, 7.0};
                 band.pitch.push_back({point.time, point.value * partial});
         clip.bands.push_back(std::move(band));
     }
-    rankBands(clip);
+    rankByEnergy(clip);
     return clip;
 }
 

@@ -214,7 +214,7 @@ inline BandAnalysisResult decomposedTracks(Clip& clip, const DecomposedSound& pa
     cutAfter(clip.envelope, clip.duration);
     cutAfter(clip.centroid, clip.duration);
     std::erase_if(clip.noise, [](const NoiseBand& band) { return band.amplitude.empty(); });
-    rankBands(clip);
+    rankByEnergy(clip);
     return clip;
 }
 

@@ -37,15 +37,4 @@ namespace pacini
     return clip;
 }
 
-/// Gives every band the priority that its energy deserves.
-inline void rankBands(Clip& clip)
-{
-    std::vector<double> energies;
-    for (const Band& band : clip.bands)
-        energies.push_back(curveEnergy(band.amplitude, clip.duration));
-    const std::vector<int> priorities = prioritiesByEnergy(energies);
-    for (std::size_t k = 0; k < clip.bands.size(); ++k)
-        clip.bands[k].priority = priorities[k];
-}
-
 } // namespace pacini

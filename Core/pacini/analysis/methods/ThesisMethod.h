@@ -135,7 +135,7 @@ private:
                               0,
                               amplitudeCurve(envelopes[k]),
                               {}});
-    rankBands(clip);
+    rankByEnergy(clip);
 
     for (const DetectedTransient& event : detectTransients(sound.samples, fs, params.transients))
         clip.transients.push_back({grids.time(static_cast<double>(event.frame) / fs),

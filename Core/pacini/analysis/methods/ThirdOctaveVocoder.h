@@ -82,7 +82,7 @@ struct ThirdOctaveVocoderParams
         if (!clip.bands[k].amplitude.empty())
             clip.bands[k].pitch = {{0.0, carrier}};
     }
-    rankBands(clip);
+    rankByEnergy(clip);
     clip.encoder.push_back({"bands", static_cast<double>(clip.bands.size())});
     clip.encoder.push_back({"carrier", carrier});
     clip.encoder.push_back({"channelGain", 1.0 / loudest});
