@@ -53,15 +53,9 @@ enum class BodyForce
 struct BodyChain
 {
     double force = 0.0; ///< N at a drive of 1
-    double movingMass = 0.0;
-    double suspensionStiffness = 0.0;
-    double suspensionDamping = 0.0;
-    double deviceMass = 0.0;
-    double jointStiffness = 0.0;
-    double jointDamping = 0.0;
-    double skinMass = 0.0;
-    double skinStiffness = 0.0;
-    double skinDamping = 0.0;
+    double movingMass = 0.0, suspensionStiffness = 0.0, suspensionDamping = 0.0;
+    double deviceMass = 0.0, jointStiffness = 0.0, jointDamping = 0.0;
+    double skinMass = 0.0, skinStiffness = 0.0, skinDamping = 0.0;
     BodyShape shape = BodyShape::elastic;
     BodyForce driven = BodyForce::coil;
     bool operator==(const BodyChain&) const = default;

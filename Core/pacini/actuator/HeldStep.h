@@ -23,12 +23,8 @@ struct ResonatorState
 /// The matrix is stored without its unit part, which would swallow the digits of the small steps of high rates.
 struct HeldStep
 {
-    double xx = 0.0;
-    double xv = 0.0;
-    double vx = 0.0;
-    double vv = 0.0;
-    double driveToX = 0.0;
-    double driveToV = 0.0;
+    double xx = 0.0, xv = 0.0, vx = 0.0, vv = 0.0;
+    double driveToX = 0.0, driveToV = 0.0;
 
     /// Where the resonator is after the step if nothing drives it.
     [[nodiscard]] ResonatorState free(const ResonatorState& z) const noexcept

@@ -39,11 +39,8 @@ struct BiquadParams
 /// H(z) = (b0 + b1 z^-1 + b2 z^-2) / (1 + a1 z^-1 + a2 z^-2). As constructed it passes everything unchanged.
 struct BiquadCoefficients
 {
-    double b0 = 1.0;
-    double b1 = 0.0;
-    double b2 = 0.0;
-    double a1 = 0.0;
-    double a2 = 0.0;
+    double b0 = 1.0, b1 = 0.0, b2 = 0.0;
+    double a1 = 0.0, a2 = 0.0;
     bool operator==(const BiquadCoefficients&) const = default;
 
     /// The complex gain at frequency f for the sample rate fs (Hz).

@@ -47,12 +47,8 @@ public:
     }
 
 private:
-    double share = 0.0;
-    double kept = 1.0;
-    double first = 0.0;
-    double second = 0.0;
-    double y = 0.0;
-    double last = 0.0;
+    double share = 0.0, kept = 1.0;
+    double first = 0.0, second = 0.0, y = 0.0, last = 0.0;
     bool started = false;
 };
 

@@ -51,26 +51,26 @@ namespace detail
 
 inline constexpr double peakOfMean = 2.0; ///< peak of the bands relative to a mean over 10 ms
 
-/// The largest value of a curve from `first` to `last` s.
-inline double largestWithin(const Curve& curve, double first, double last) noexcept
+/// The largest value of a curve from `first` to `last` s; the smallest where `pick` is the minimum.
+template <typename Pick>
+double extremeWithin(const Curve& curve, double first, double last, Pick pick) noexcept
 {
-    double largest = std::max(valueAt(curve, first), valueAt(curve, last));
+    double extreme = pick(valueAt(curve, first), valueAt(curve, last));
     for (auto p = std::lower_bound(curve.begin(), curve.end(), first,
                                    [](const Breakpoint&point, double time) { return point.time < time; });
          p != curve.end() && p->time <= last; ++p)
-        largest = std::max(largest, p->value);
-    return largest;
+        extreme = pick(extreme, p->value);
+    return extreme;
 }
 
-/// The smallest value of a curve from `first` to `last` s.
+inline double largestWithin(const Curve& curve, double first, double last) noexcept
+{
+    return extremeWithin(curve, first, last, [](double a, double b) { return std::max(a, b); });
+}
+
 inline double smallestWithin(const Curve& curve, double first, double last) noexcept
 {
-    double smallest = std::min(valueAt(curve, first), valueAt(curve, last));
-    for (auto p = std::lower_bound(curve.begin(), curve.end(), first,
-                                   [](const Breakpoint&point, double time) { return point.time < time; });
-         p != curve.end() && p->time <= last; ++p)
-        smallest = std::min(smallest, p->value);
-    return smallest;
+    return extremeWithin(curve, first, last, [](double a, double b) { return std::min(a, b); });
 }
 
 /// How long a gap before `event`, which gets as strong as `full`, has to be open until the ringing of `envelope` is low
