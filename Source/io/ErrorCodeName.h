@@ -4,6 +4,8 @@
 
 #include <pacini/foundation/Result.h>
 
+#include <array>
+#include <cstddef>
 #include <string_view>
 
 namespace pacini
@@ -11,28 +13,11 @@ namespace pacini
 
 [[nodiscard]] constexpr std::string_view errorCodeName(ErrorCode code) noexcept
 {
-    switch (code)
-    {
-    case ErrorCode::invalidArgument:
-        return "invalidArgument";
-    case ErrorCode::invalidData:
-        return "invalidData";
-    case ErrorCode::unsupportedVersion:
-        return "unsupportedVersion";
-    case ErrorCode::truncated:
-        return "truncated";
-    case ErrorCode::notFinite:
-        return "notFinite";
-    case ErrorCode::tooLarge:
-        return "tooLarge";
-    case ErrorCode::io:
-        return "io";
-    case ErrorCode::diskFull:
-        return "diskFull";
-    case ErrorCode::cancelled:
-        return "cancelled";
-    }
-    return "invalidData";
+    constexpr std::array<std::string_view, 9> names{
+        "invalidArgument", "invalidData", "unsupportedVersion", "truncated", "notFinite",
+        "tooLarge",        "io",          "diskFull",           "cancelled"};
+    static_assert(names.size() == static_cast<std::size_t>(ErrorCode::cancelled) + 1);
+    return names[static_cast<std::size_t>(code)];
 }
 
 } // namespace pacini

@@ -67,4 +67,13 @@ inline constexpr bool isReader = requires
     Visitor::reads;
 };
 
+/// Numbers that are needed alike: name, value, name, value and so on.
+template <typename Visitor, typename Number, typename... Rest>
+void visitNumbers(Visitor& visitor, Need need, const char* name, Number& value, Rest&... rest)
+{
+    visitor.number(name, value, need);
+    if constexpr (sizeof...(rest) > 0)
+        visitNumbers(visitor, need, rest...);
+}
+
 } // namespace pacini

@@ -207,9 +207,7 @@ private:
 
 Result<std::string> jsonFromJson5(std::string_view text, std::size_t maximumBytes)
 {
-    if (text.size() > maximumBytes)
-        return Error{ErrorCode::tooLarge, "", "is longer than the longest supported text"};
-    const auto unmarked = utf8Text(text);
+    const auto unmarked = utf8Text(text, maximumBytes);
     if (!unmarked)
         return unmarked.error();
     Converter converter(*unmarked);

@@ -203,9 +203,7 @@ private:
 static Result<void> parseText(std::string_view text, JsonHandler& handler, std::size_t maximumBytes,
                               ReadWarnings* warnings)
 {
-    if (text.size() > maximumBytes)
-        return Error{ErrorCode::tooLarge, "", "is longer than the longest supported text"};
-    const auto unmarked = utf8Text(text);
+    const auto unmarked = utf8Text(text, maximumBytes);
     if (!unmarked)
         return unmarked.error();
     JsonSource source(*unmarked);

@@ -74,4 +74,8 @@ private:
 /// with its path for a name that an object has twice.
 [[nodiscard]] Result<nlohmann::json> readJsonTree(std::string_view text, std::size_t maximumBytes);
 
+/// The same for a document that must be an object; for others invalidData with `otherwise`.
+[[nodiscard]] Result<nlohmann::json> readJsonObject(std::string_view text, std::size_t maximumBytes,
+                                                    std::string_view otherwise);
+
 } // namespace pacini

@@ -241,17 +241,13 @@ Result<FoundMarkers> readLabelText(std::string_view text)
 Result<FoundMarkers> readLabels(const std::filesystem::path& path)
 {
     const auto text = readWholeFile(path, largestFile);
-    if (!text)
-        return text.error();
-    return readLabelText(*text);
+    return text ? readLabelText(*text) : text.error();
 }
 
 Result<Onsets> readOnsets(const std::filesystem::path& path)
 {
     const auto text = readWholeFile(path, largestFile);
-    if (!text)
-        return text.error();
-    return readOnsetText(*text);
+    return text ? readOnsetText(*text) : text.error();
 }
 
 } // namespace pacini

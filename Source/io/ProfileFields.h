@@ -26,15 +26,6 @@ inline constexpr std::array<Choice<EqualizerType>, 4> equalizerTypes{{{"peak", E
                                                                       {"highShelf", EqualizerType::highShelf},
                                                                       {"highpass", EqualizerType::highpass}}};
 
-/// Numbers that are needed alike: name, value, name, value and so on.
-template <typename Visitor, typename Number, typename... Rest>
-void visitNumbers(Visitor& visitor, Need need, const char* name, Number& value, Rest&... rest)
-{
-    visitor.number(name, value, need);
-    if constexpr (sizeof...(rest) > 0)
-        visitNumbers(visitor, need, rest...);
-}
-
 /// The entries of a measurement, see visitFields().
 template <typename AnyMeasurement, typename Visitor>
 void visitMeasurement(AnyMeasurement& measurement, Visitor& visitor)
@@ -43,22 +34,21 @@ void visitMeasurement(AnyMeasurement& measurement, Visitor& visitor)
     visitor.integer("fittings", measurement.placements, "must be a whole number, 1 to 1000000");
     visitor.number("drive", measurement.drive, usual);
     visitor.optionalNumber("distortionDrive", measurement.distortionDrive);
-    visitor.optionalObject("linearity", measurement.linearity,
-                           [&](auto& linearity)
-                           {
-                               visitNumbers(visitor, required, "lowFrequency", linearity.lowFrequency, "highFrequency",
-                                            linearity.highFrequency, "tolerance", linearity.tolerance, "level",
-                                            linearity.level, "meanDeviation", linearity.meanDeviation,
-                                            "standardDeviation", linearity.standardDeviation, "worstDeviation",
-                                            linearity.worstDeviation, "worstFrequency", linearity.worstFrequency);
-                               visitor.list("outliers", linearity.outliers, ProfileMeasurement::maxOutliers, "outliers",
-                                            [&](auto& outlier)
-                                            {
-                                                visitor.number("lowFrequency", outlier.lowFrequency, required);
-                                                visitor.number("highFrequency", outlier.highFrequency, required);
-                                                visitor.number("deviation", outlier.deviation, required);
-                                            });
-                           });
+    visitor.optionalObject(
+        "linearity", measurement.linearity,
+        [&](auto& linearity)
+        {
+            visitNumbers(visitor, required, "lowFrequency", linearity.lowFrequency, "highFrequency",
+                         linearity.highFrequency, "tolerance", linearity.tolerance, "level", linearity.level,
+                         "meanDeviation", linearity.meanDeviation, "standardDeviation", linearity.standardDeviation,
+                         "worstDeviation", linearity.worstDeviation, "worstFrequency", linearity.worstFrequency);
+            visitor.list("outliers", linearity.outliers, ProfileMeasurement::maxOutliers, "outliers",
+                         [&](auto& outlier)
+                         {
+                             visitNumbers(visitor, required, "lowFrequency", outlier.lowFrequency, "highFrequency",
+                                          outlier.highFrequency, "deviation", outlier.deviation);
+                         });
+        });
     visitor.list("points", measurement.points, ProfileMeasurement::maxPoints, "points",
                  [&](auto& point)
                  {
@@ -85,9 +75,8 @@ void visitFields(AnyProfile& profile, Visitor& visitor)
     visitor.object("range", profile.range, usual,
                    [&](auto& range)
                    {
-                       visitor.number("lowFrequency", range.lowFrequency, usual);
-                       visitor.number("highFrequency", range.highFrequency, usual);
-                       visitor.number("dynamicRange", range.dynamicRange, usual);
+                       visitNumbers(visitor, usual, "lowFrequency", range.lowFrequency, "highFrequency",
+                                    range.highFrequency, "dynamicRange", range.dynamicRange);
                    });
     visitor.object("response", profile.response, optional,
                    [&](auto& response)

@@ -12,11 +12,9 @@ namespace pacini
 
 Result<Profile> readProfileJson(std::string_view text, ReadWarnings* warnings)
 {
-    const auto document = readJsonTree(text, largestProfileText);
+    const auto document = readJsonObject(text, largestProfileText, "is not a profile, as it is not a JSON object");
     if (!document)
         return document.error();
-    if (!document->is_object())
-        return Error{ErrorCode::invalidData, "", "is not a profile, as it is not a JSON object"};
     FieldsReader reader(*document, warnings);
     reader.format(profileFormatName, profileFormatVersion);
     Profile profile;

@@ -136,9 +136,7 @@ Result<FrequencyResponse> readResponseTable(std::string_view bytes)
 Result<FrequencyResponse> readResponse(const std::filesystem::path& path)
 {
     const auto text = readWholeFile(path, largestResponseText);
-    if (!text)
-        return text.error();
-    return readResponseTable(*text);
+    return text ? readResponseTable(*text) : text.error();
 }
 
 std::string tableText(std::span<const TableColumn> columns)

@@ -89,11 +89,9 @@ void readSettingsFields(FieldsReader& reader, Settings& settings)
 
 Result<Settings> readSettings(std::string_view text, ReadWarnings* warnings)
 {
-    const auto document = readJsonTree(text, largestSettingsText);
+    const auto document = readJsonObject(text, largestSettingsText, "must be an object in braces");
     if (!document)
         return document.error();
-    if (!document->is_object())
-        return Error{ErrorCode::invalidData, "", "must be an object in braces"};
     FieldsReader reader(*document, warnings);
     Settings settings;
     readSettingsFields(reader, settings);

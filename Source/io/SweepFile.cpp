@@ -23,11 +23,8 @@ void visitFields(AnySweep& file, Visitor& visitor)
 {
     using enum Need;
     auto& sweep = file.sweep;
-    visitor.number("lowFrequency", sweep.lowFrequency, required);
-    visitor.number("highFrequency", sweep.highFrequency, required);
-    visitor.number("duration", sweep.duration, required);
-    visitor.number("fadeIn", sweep.fadeIn, required);
-    visitor.number("fadeOut", sweep.fadeOut, required);
+    visitNumbers(visitor, required, "lowFrequency", sweep.lowFrequency, "highFrequency", sweep.highFrequency,
+                 "duration", sweep.duration, "fadeIn", sweep.fadeIn, "fadeOut", sweep.fadeOut);
     visitor.integer("repeats", sweep.repeats, "must be a whole number, 1 to 100");
     visitor.number("pause", sweep.pause, required);
     visitor.numbers("levels", sweep.levels, maxLevels);
@@ -40,11 +37,10 @@ void visitFields(AnySweep& file, Visitor& visitor)
 
 Result<SweepFile> readSweepJson(std::string_view text)
 {
-    const auto document = readJsonTree(text, largestSweepText);
+    const auto document =
+        readJsonObject(text, largestSweepText, "is not the description of a sweep, as it is not a JSON object");
     if (!document)
         return document.error();
-    if (!document->is_object())
-        return Error{ErrorCode::invalidData, "", "is not the description of a sweep, as it is not a JSON object"};
     FieldsReader reader(*document);
     reader.format(sweepFormatName, sweepFormatVersion);
     SweepFile file;
@@ -69,9 +65,7 @@ std::string sweepJson(const SweepFile& sweep)
 Result<SweepFile> readSweepFile(const std::filesystem::path& path)
 {
     const auto text = readWholeFile(path, largestSweepText);
-    if (!text)
-        return text.error();
-    return readSweepJson(*text);
+    return text ? readSweepJson(*text) : text.error();
 }
 
 Result<std::size_t> writeSweepFile(const std::filesystem::path& path, const SweepFile& sweep)

@@ -7,6 +7,7 @@
 #include <pacini/foundation/Result.h>
 
 #include <array>
+#include <cstddef>
 #include <string>
 #include <string_view>
 
@@ -25,6 +26,14 @@ namespace pacini
     if (bytes.starts_with("\xEF\xBB\xBF"sv))
         bytes.remove_prefix(3);
     return bytes;
+}
+
+/// The same of at most `maximumBytes`, else tooLarge.
+[[nodiscard]] inline Result<std::string_view> utf8Text(std::string_view bytes, std::size_t maximumBytes)
+{
+    if (bytes.size() > maximumBytes)
+        return Error{ErrorCode::tooLarge, "", "is longer than the longest supported text"};
+    return utf8Text(bytes);
 }
 
 /// Whether all of a text is UTF-8.

@@ -27,11 +27,8 @@ void visitMeasurement(AnyMeasurement& measured, Visitor& visitor)
     visitor.number("sampleRate", measured.sampleRate, usual);
     auto& latency = measured.latency;
     visitor.number("delay", latency.delay, required);
-    visitor.number("deviation", latency.deviation, usual);
-    visitor.number("largest", latency.largest, usual);
-    visitor.number("drift", latency.drift, usual);
-    visitor.number("soundLevel", latency.soundLevel, usual);
-    visitor.number("touchLevel", latency.touchLevel, usual);
+    visitNumbers(visitor, usual, "deviation", latency.deviation, "largest", latency.largest, "drift", latency.drift,
+                 "soundLevel", latency.soundLevel, "touchLevel", latency.touchLevel);
     visitor.integer("bursts", latency.bursts, "must be a whole number");
     visitor.integer("missed", latency.missed, "must be a whole number");
 }
@@ -55,11 +52,10 @@ Result<std::vector<MeasuredLatency>> readLatencies(const std::filesystem::path& 
 
 Result<std::vector<MeasuredLatency>> latenciesOfText(std::string_view text)
 {
-    const auto document = readJsonTree(text, largestLatencyFile);
+    const auto document =
+        readJsonObject(text, largestLatencyFile, "is no list of measured delays, which is a JSON object");
     if (!document)
         return document.error();
-    if (!document->is_object())
-        return Error{ErrorCode::invalidData, "", "is no list of measured delays, which is a JSON object"};
     FieldsReader reader(*document);
     reader.format(latencyFormatName, latencyFormatVersion);
     std::vector<MeasuredLatency> list;

@@ -40,10 +40,8 @@ inline constexpr std::size_t mostNames = studyLimits::stimuli;
 template <typename AnyTone, typename Visitor>
 void visitTone(AnyTone& tone, Visitor& visitor)
 {
-    visitor.number("frequency", tone.frequency, Need::usual);
-    visitor.number("duration", tone.duration, Need::usual);
-    visitor.number("fade", tone.fade, Need::usual);
-    visitor.number("level", tone.level, Need::usual);
+    visitNumbers(visitor, Need::usual, "frequency", tone.frequency, "duration", tone.duration, "fade", tone.fade,
+                 "level", tone.level);
 }
 
 template <typename AnyStimulus, typename Visitor>
@@ -68,9 +66,7 @@ void visitStimulus(AnyStimulus& stimulus, Visitor& visitor)
 template <typename AnyScale, typename Visitor>
 void visitScale(AnyScale& scale, Visitor& visitor)
 {
-    visitor.number("low", scale.low, Need::usual);
-    visitor.number("high", scale.high, Need::usual);
-    visitor.number("step", scale.step, Need::usual);
+    visitNumbers(visitor, Need::usual, "low", scale.low, "high", scale.high, "step", scale.step);
     visitor.texts("lowLabel", scale.lowLabel);
     visitor.texts("highLabel", scale.highLabel);
 }
@@ -80,11 +76,8 @@ void visitAdaptive(AnyAdaptive& adaptive, Visitor& visitor)
 {
     visitor.choice("procedure", adaptive.procedure, procedures, Need::usual);
     visitor.choice("variable", adaptive.variable, variables, Need::usual);
-    visitor.number("start", adaptive.start, Need::usual);
-    visitor.number("lowest", adaptive.lowest, Need::usual);
-    visitor.number("highest", adaptive.highest, Need::usual);
-    visitor.number("step", adaptive.step, Need::usual);
-    visitor.number("finalStep", adaptive.finalStep, Need::usual);
+    visitNumbers(visitor, Need::usual, "start", adaptive.start, "lowest", adaptive.lowest, "highest", adaptive.highest,
+                 "step", adaptive.step, "finalStep", adaptive.finalStep);
     visitor.integer("down", adaptive.down, "must be a whole number, 1 to 4");
     visitor.integer("reversals", adaptive.reversals, "must be a whole number, 2 to 100");
     visitor.integer("trials", adaptive.trials, "must be a whole number, 5 to 1000");
@@ -142,9 +135,8 @@ void visitStudy(AnyStudy& study, Visitor& visitor)
     visitor.object("masking", study.masking, Need::usual,
                    [&](auto& masking)
                    {
-                       visitor.number("level", masking.level, Need::usual);
-                       visitor.number("lowFrequency", masking.lowFrequency, Need::usual);
-                       visitor.number("highFrequency", masking.highFrequency, Need::usual);
+                       visitNumbers(visitor, Need::usual, "level", masking.level, "lowFrequency", masking.lowFrequency,
+                                    "highFrequency", masking.highFrequency);
                    });
     visitor.object("limits", study.limits, Need::usual,
                    [&](auto& limits)

@@ -186,11 +186,9 @@ Result<void> validate(const Study& study)
 
 Result<Study> readStudyJson(std::string_view text, ReadWarnings* warnings)
 {
-    const auto document = readJsonTree(text, largestStudyText);
+    const auto document = readJsonObject(text, largestStudyText, "is no study, which is a JSON object");
     if (!document)
         return document.error();
-    if (!document->is_object())
-        return Error{ErrorCode::invalidData, "", "is no study, which is a JSON object"};
     FieldsReader reader(*document, warnings);
     reader.format(studyFormatName, studyFormatVersion);
     Study study;
