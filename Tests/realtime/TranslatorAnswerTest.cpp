@@ -95,8 +95,7 @@ TEST_CASE("the translator guards, is bypassed and changes its actuator as before
 {
     TranslatorSetup guarded;
     Profile& profile = guarded.profile.emplace(test::actuatorOf(Technology::vca, {67.0, 4.0}, {40.0, 400.0, 50.0}));
-    profile.drive = {
-        .impedance = 8.0, .maxVoltageRms = 1.0, .maxPower = 0.05, .maxExcursion = 0.001, .excursion = 0.0006};
+    profile.drive = {8.0, 1.0, 0.05, {}, 0.001, 0.0006}; // ohm, V, W, s, m, m
     TranslatorParams loud;
     loud.intensity = 9.0;
     pinTranslator("guarded", guarded, loud, 48000.0);
