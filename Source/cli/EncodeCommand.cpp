@@ -163,8 +163,11 @@ CLI::App* EncodeCommand::declare(CLI::App& app)
     std::vector<std::string> names;
     for (const MethodInfo& info : methodTable)
         names.emplace_back(info.name);
-    addOption(*command, "inputs", inputs,
-              "Audio files (WAV, AIFF, FLAC, Ogg, MP3 ...), folders of audio files, or - for standard input", "IN");
+    addOption(
+        *command, "inputs", inputs,
+        "Audio files (WAV, AIFF, FLAC, Ogg, MP3 ...), films where ffmpeg is installed, folders of these, or - for "
+        "standard input",
+        "IN");
     const auto group = [this](const char* heading)
     {
         command->option_defaults()->group(heading);

@@ -1,6 +1,7 @@
 #include "io/AudioReader.h"
 
 #include "io/ByteWindow.h"
+#include "io/FilmSound.h"
 #include "io/InputFile.h"
 #include "io/RateRaiser.h"
 #include "io/SoundHandle.h"
@@ -17,6 +18,7 @@
 #include <cerrno>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -110,23 +112,9 @@ std::optional<Error> brokenPromise(const SoundPart& part, const SF_INFO& info)
     return truncated(std::min(part.presentBytes / frameBytes, delivers), *part.promisedBytes / frameBytes);
 }
 
-/// Whether a file is of a kind that the program ffmpeg reads and libsndfile does not: MP4, MOV and M4A (ISO/IEC
-/// 14496-12), Matroska and WebM (RFC 9559), AVI, or AAC in frames (ISO/IEC 13818-7).
-bool isForFfmpeg(std::FILE* opened)
-{
-    using namespace std::string_view_literals;
-    ByteWindow file(opened);
-    const bool aac = file.has(0, "\xFF\xF1"sv) || file.has(0, "\xFF\xF9"sv);
-    return aac || file.has(4, "ftyp") || file.has(0, "\x1A\x45\xDF\xA3"sv) ||
-           (file.has(0, "RIFF") && file.has(8, "AVI "));
-}
-
 /// Why libsndfile could not open a file that exists.
-Error openingFailed(const SoundPart& part, std::FILE* file)
+Error openingFailed(const SoundPart& part)
 {
-    if (sf_error(nullptr) == SF_ERR_UNRECOGNISED_FORMAT && isForFfmpeg(file))
-        return invalid(
-            "is video or AAC, which Pacini does not read; take its sound out with 'ffmpeg -i FILE sound.wav'");
     if (sf_error(nullptr) == SF_ERR_UNRECOGNISED_FORMAT)
         return invalid("is not audio in a supported format; convert it to WAV, AIFF, FLAC, Ogg or CAF");
     if (!part.isWhole && part.promisedBytes)
@@ -157,8 +145,42 @@ struct AudioReader::State
     bool ended = false;
     std::vector<std::string> warnings;
     FoundMarkers markers; // of the parts up to the current one
+    SpecialChannels special;
     bool markersAreTold = false;
     std::optional<RateRaiser> raiser;
+    std::optional<FilmSound> film; // instead of parts, view and sound
+
+    /// Opens a sound that ffmpeg decodes.
+    Result<void> openFilm(const fs::path& path)
+    {
+        auto opened = FilmSound::open(path, file.get(), options.allowTruncated);
+        if (!opened)
+            return opened.error();
+        film.emplace(std::move(*opened));
+        info.samplerate = film->sampleRate();
+        info.channels = film->channels();
+        special = film->specialChannels();
+        pacini::addMarkers(markers, film->takeMarkers(), 0.0);
+        addWarnings(film->takeWarnings());
+        return checkRange();
+    }
+
+    void addWarnings(std::vector<std::string> more)
+    {
+        warnings.insert(warnings.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+    }
+
+    /// Whether channels and rate are supported.
+    [[nodiscard]] Result<void> checkRange() const
+    {
+        if (info.channels > limits::channels)
+            return invalid(fmt::format("has {} channels, but only 1 to {} are supported; mix it down", info.channels,
+                                       limits::channels));
+        if (info.samplerate < limits::slowestSound || info.samplerate > limits::highestSampleRate)
+            return invalid(fmt::format("has a sample rate of {} Hz, but only {} to {} Hz are supported; resample it",
+                                       info.samplerate, limits::slowestSound, limits::highestSampleRate));
+        return {};
+    }
 
     /// Fills `interleaved` at the rate of the file.
     Result<std::size_t> read(std::span<float> interleaved);
@@ -244,16 +266,12 @@ struct AudioReader::State
         if (!part().countedFrames || part().promisedFrames || !openView(true))
             openView(false);
         if (!sound)
-            return openingFailed(part(), file.get());
+            return openingFailed(part());
         if (info.channels < 1 || info.samplerate < 1)
             return invalid(fmt::format("has a damaged header, which names no {}; get a complete copy",
                                        info.channels < 1 ? "channels" : "sample rate"));
-        if (info.channels > limits::channels)
-            return invalid(fmt::format("has {} channels, but only 1 to {} are supported; mix it down", info.channels,
-                                       limits::channels));
-        if (info.samplerate < limits::slowestSound || info.samplerate > limits::highestSampleRate)
-            return invalid(fmt::format("has a sample rate of {} Hz, but only {} to {} Hz are supported; resample it",
-                                       info.samplerate, limits::slowestSound, limits::highestSampleRate));
+        if (const auto range = checkRange(); !range)
+            return range;
         const auto broken = brokenPromise(part(), info);
         if (broken && !options.allowTruncated)
             return *broken;
@@ -457,13 +475,21 @@ Result<AudioReader> AudioReader::open(const fs::path& path, AudioReadOptions opt
     auto state = std::make_unique<State>();
     state->file = std::move(*file);
     state->options = options;
-    state->parts = soundParts(state->file.get());
-    if (state->parts.empty())
-        return invalid("is empty; choose a file with audio");
-    if (const auto opened = state->openPart(); !opened)
+    bool film = isFilm(state->file.get(), 0);
+    if (!film)
+    {
+        state->parts = soundParts(state->file.get());
+        if (state->parts.empty())
+            return invalid("is empty; choose a file with audio");
+        film = isFilm(state->file.get(), state->parts.front().begin); // behind a tag
+    }
+    if (const auto opened = film ? state->openFilm(path) : state->openPart(); !opened)
         return opened.error();
-    state->warnOfGap();
-    state->findMarkers();
+    if (!film)
+    {
+        state->warnOfGap();
+        state->findMarkers();
+    }
     if (const int rate = state->info.samplerate; rate < options.lowestSampleRate)
     {
         state->raiser.emplace(rate, options.lowestSampleRate, static_cast<std::size_t>(state->info.channels));
@@ -521,10 +547,10 @@ int AudioReader::channels() const noexcept
 
 std::optional<std::uint64_t> AudioReader::frames() const noexcept
 {
-    auto frames = state->partFrames();
+    auto frames = state->film ? state->film->frames() : state->partFrames();
     if (frames && state->raiser)
         *frames *= static_cast<std::uint64_t>(state->raiser->multiple());
-    if (!frames || state->parts.size() == 1 || state->view.size() == 0)
+    if (!frames || state->film || state->parts.size() == 1 || state->view.size() == 0)
         return frames;
     double bytes = 0.0;
     for (const SoundPart& part : state->parts)
@@ -549,11 +575,19 @@ Result<std::size_t> AudioReader::State::read(std::span<float> interleaved)
     {
         const auto rest = interleaved.subspan(done * channels);
         sf_count_t count = 0;
+        if (film)
+        {
+            const auto read = film->read(rest);
+            if (!read)
+                return read.error();
+            count = static_cast<sf_count_t>(*read);
+        }
+        else
         {
             const SoundLibraryCall inside;
             count = sf_readf_float(sound.get(), rest.data(), static_cast<sf_count_t>(wanted - done));
         }
-        if (isFormat(SF_FORMAT_FLAC) && sf_error(sound.get()) != SF_ERR_NO_ERROR && endBeforeNextFlac())
+        if (!film && isFormat(SF_FORMAT_FLAC) && sf_error(sound.get()) != SF_ERR_NO_ERROR && endBeforeNextFlac())
             continue;
         const auto got = static_cast<std::size_t>(std::max<sf_count_t>(count, 0));
         if (!options.keepNan)
@@ -563,6 +597,12 @@ Result<std::size_t> AudioReader::State::read(std::span<float> interleaved)
         done += got;
         if (done == wanted)
             break;
+        if (film)
+        {
+            addWarnings(film->takeWarnings());
+            ended = true;
+            break;
+        }
         if (auto end = explainEnd(); !end)
             return end.error();
         ended = !openNext();

@@ -40,8 +40,9 @@ inline constexpr int lowestWrittenRate = 2000;   ///< Hz: drive signals may be s
 } // namespace limits
 
 /// An open audio file: WAV, RF64, BW64, AIFF, CAF, W64, AU, FLAC, Ogg (Vorbis, Opus) and, where libsndfile was built
-/// with it, MP3. The content decides the format, not the name. Memory does not grow with what a header claims. All of
-/// the sound is read, also where a header states less, and sounds of one rate that lie one behind the other in a file.
+/// with it, MP3; and what ffmpeg decodes where it is installed (FilmSound). The content decides the format, not the
+/// name. Memory does not grow with what a header claims. All of the sound is read, also where a header states less, and
+/// sounds of one rate that lie one behind the other in a file.
 class AudioReader
 {
 public:

@@ -126,8 +126,14 @@ TEST_CASE("Files that are no audio are refused with one clear line", "[io][audio
                               "RIFF\0\x10\0\0"
                               "AVI LIST"s,
                               "\xFF\xF1\x50\x80"s})
-        CHECK(failureOf(folder, start + std::string(2000, '\0')).message ==
-              "is video or AAC, which Pacini does not read; take its sound out with 'ffmpeg -i FILE sound.wav'");
+    {
+        // What ffmpeg says of them differs by its version, and it may not be installed.
+        const auto error = failureOf(folder, start + std::string(2000, '\0'));
+        CHECK(error.code == ErrorCode::invalidData);
+        CHECK((error.message.starts_with("cannot be read by ffmpeg (") ||
+               error.message.starts_with("is a film or has a codec that is decoded by ffmpeg, but") ||
+               error.message.starts_with("has no sound that ffmpeg knows")));
+    }
     const auto onlyStart = failureOf(folder, wavBytes({}, "").substr(0, 30));
     CHECK(onlyStart.code == ErrorCode::invalidData);
     CHECK(onlyStart.message.find('\n') == std::string::npos);

@@ -1,0 +1,428 @@
+#include "io/FilmSound.h"
+
+#include "io/ByteWindow.h"
+#include "io/Utf8.h"
+
+#include <pacini/foundation/ParseNumber.h>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+namespace pacini
+{
+
+namespace fs = std::filesystem;
+
+namespace
+{
+using Json = nlohmann::json;
+using namespace std::string_view_literals;
+
+constexpr double shortest = 0.1; // s that are missing before it is said: codecs are primed and filled up with less
+constexpr std::uint64_t longestBlock = 4096; // frames of any codec
+constexpr double latest = 24.0 * 3600.0;     // s after the picture that a sound may begin
+
+Error invalid(std::string message)
+{
+    return {ErrorCode::invalidData, "", std::move(message)};
+}
+
+/// The first error that a program told, without its own names of parts and of the file:
+/// `[mov,mp4 @ 0x55] [error] moov atom not found`.
+std::string complaintOf(std::string_view text, std::string_view name)
+{
+    for (const std::string_view level : {"[error] "sv, "[fatal] "sv, "[panic] "sv})
+    {
+        const auto at = text.find(level);
+        if (at == std::string_view::npos)
+            continue;
+        auto line = text.substr(at + level.size());
+        line = line.substr(0, line.find_first_of("\r\n"));
+        if (line.starts_with(name) && line.substr(name.size()).starts_with(": "))
+            line.remove_prefix(name.size() + 2);
+        while (line.ends_with('.') || line.ends_with(' '))
+            line.remove_suffix(1);
+        return wellFormedUtf8(line.substr(0, 200));
+    }
+    return {};
+}
+
+/// The sum of the numbers that stand between two words wherever they do.
+double sumOf(std::string_view text, std::string_view before, std::string_view behind)
+{
+    double sum = 0.0;
+    for (auto at = text.find(before); at != std::string_view::npos; at = text.find(before, at + 1))
+    {
+        const auto rest = text.substr(at + before.size());
+        const auto digits = rest.substr(0, rest.find_first_not_of("0123456789"));
+        if (rest.substr(digits.size()).starts_with(behind))
+            sum += parseNumber(digits).value_or(0.0);
+    }
+    return sum;
+}
+
+Error notInstalled(std::string_view program)
+{
+    return invalid(fmt::format("is a film or has a codec that is decoded by ffmpeg, but the program {} is not "
+                               "installed; install ffmpeg, or convert the sound to WAV elsewhere",
+                               program));
+}
+
+/// How the programs are to open the film: nothing that it names elsewhere, and no more memory than a block needs.
+std::vector<std::string> safely(const char* level)
+{
+    return {"-v", level, "-protocol_whitelist", "file,pipe", "-max_alloc", "134217728"};
+}
+
+std::string textOf(const Json& object, const char* name)
+{
+    const auto found = object.find(name);
+    return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
+}
+
+/// A number that is one in JSON, or a text.
+std::optional<double> numberOf(const Json& object, const char* name)
+{
+    const auto found = object.find(name);
+    if (found == object.end())
+        return {};
+    const auto number = found->is_number()   ? std::optional(found->get<double>())
+                        : found->is_string() ? parseNumber(found->get_ref<const std::string&>())
+                                             : std::nullopt;
+    return number && std::isfinite(*number) ? number : std::nullopt;
+}
+
+const Json& partOf(const Json& object, const char* name)
+{
+    static const Json nothing = Json::object();
+    const auto found = object.find(name);
+    return found != object.end() && found->is_object() ? *found : nothing;
+}
+
+/// Objects of a list.
+std::vector<const Json*> listOf(const Json& object, const char* name)
+{
+    std::vector<const Json*> all;
+    if (const auto found = object.find(name); found != object.end() && found->is_array())
+        for (const Json& one : *found)
+            if (one.is_object())
+                all.push_back(&one);
+    return all;
+}
+
+/// s of a tag such as `00:00:04.701000000`.
+std::optional<double> secondsOfTag(std::string_view text)
+{
+    double seconds = 0.0;
+    for (;;)
+    {
+        const auto colon = text.find(':');
+        const auto part = parseNumber(text.substr(0, colon));
+        if (!part || !(*part >= 0.0 && *part < 1e9))
+            return {};
+        seconds = 60.0 * seconds + *part;
+        if (colon == std::string_view::npos)
+            return seconds;
+        text.remove_prefix(colon + 1);
+    }
+}
+
+/// By the names that ffmpeg has for layouts of loudspeakers.
+SpecialChannels specialChannelsOf(std::string_view layout)
+{
+    struct Known
+    {
+        std::string_view name;
+        SpecialChannels channels;
+    };
+    constexpr SpecialChannels centre{.lowFrequency = {}, .centre = 2};
+    constexpr SpecialChannels both{.lowFrequency = 3, .centre = 2};
+    constexpr SpecialChannels low{.lowFrequency = 2, .centre = {}};
+    static constexpr std::array known = std::to_array<Known>({
+        {"2.1", low},        {"3.0", centre},          {"3.1", both},          {"4.0", centre},
+        {"4.1", both},       {"5.0", centre},          {"5.0(side)", centre},  {"5.1", both},
+        {"5.1(side)", both}, {"6.0", centre},          {"6.1", both},          {"6.1(back)", both},
+        {"6.1(front)", low}, {"7.0", centre},          {"7.0(front)", centre}, {"7.1", both},
+        {"7.1(wide)", both}, {"7.1(wide-side)", both}, {"5.1.2", both},        {"5.1.4", both},
+        {"7.1.2", both},     {"7.1.4", both},
+    });
+    const auto found = std::find_if(known.begin(), known.end(), [&](const Known& one) { return one.name == layout; });
+    return found != known.end() ? found->channels : SpecialChannels{};
+}
+
+/// Bytes that the chunks of an AVI state and the file lacks.
+std::uint64_t missingBytesOfAvi(std::FILE* opened)
+{
+    ByteWindow file(opened);
+    std::uint64_t end = 0;
+    while (file.has(end, "RIFF") && file.number(end + 4, 4, false) > 0)
+        end += 8 + file.number(end + 4, 4, false);
+    return end > file.size() ? end - file.size() : 0;
+}
+
+/// What a person calls a track: `2 (eng, 5.1)`.
+std::string trackText(std::size_t number, const Json& stream)
+{
+    std::string text;
+    for (const std::string& part : {textOf(partOf(stream, "tags"), "language"), textOf(partOf(stream, "tags"), "title"),
+                                    textOf(stream, "channel_layout")})
+        if (!part.empty() && part != "und")
+            text += (text.empty() ? "" : ", ") + part.substr(0, 60);
+    return fmt::format("{}{}", number, text.empty() ? "" : " (" + wellFormedUtf8(text) + ")");
+}
+} // namespace
+
+bool isFilm(std::FILE* opened, std::uint64_t begin)
+{
+    ByteWindow file(opened);
+    const auto at = [&](std::uint64_t offset, std::string_view text)
+    {
+        return file.has(begin + offset, text);
+    };
+    for (const std::string_view box : {"ftyp"sv, "moov"sv, "mdat"sv, "wide"sv, "free"sv, "skip"sv, "pnot"sv})
+        if (at(4, box))
+            return true;
+    constexpr std::uint64_t packet = 188; // bytes of an MPEG transport stream
+    return at(0, "\x1A\x45\xDF\xA3"sv) || (at(0, "RIFF") && at(8, "AVI ")) || at(0, "\xFF\xF1"sv) ||
+           at(0, "\xFF\xF9"sv) || at(0, "\x0B\x77"sv) || at(0, "\0\0\1\xBA"sv) ||
+           (at(0, "G") && at(packet, "G") && at(2 * packet, "G"));
+}
+
+Result<FilmSound> FilmSound::open(const fs::path& path, std::FILE* file, bool allowTruncated)
+{
+    // What came through a pipe has no name. Its copy has none either, but the child is given it.
+    std::error_code unknown;
+    const bool named = path != "-" && fs::is_regular_file(path, unknown);
+    if (!named && !seekStream(file, 0, SEEK_SET))
+        return invalid("is a film, which cannot be read from a pipe here; save it to a file first");
+    std::FILE* const input = named ? nullptr : file;
+    const auto place = fs::absolute(path, unknown).u8string();
+    // With its protocol, so that no name is taken for an option or an address.
+    const std::string name = "file:" + (named ? std::string(place.begin(), place.end()) : "/dev/fd/0");
+
+    auto words = safely("level+error");
+    for (const char* word :
+         {"-of", "json", "-show_chapters", "-show_entries",
+          "stream=index,codec_type,codec_name,sample_rate,channels,channel_layout,start_time,duration:"
+          "stream_disposition=default,attached_pic:stream_tags:format=format_name,duration:"
+          "chapter=start_time:chapter_tags=title"})
+        words.emplace_back(word);
+    words.push_back(name);
+    auto started = ChildProgram::start("ffprobe", words, input);
+    if (!started)
+        return started.error();
+    if (*started == nullptr)
+        return notInstalled("ffprobe");
+    const std::string printed = allOutput(**started, std::size_t(1) << 24);
+    const auto ending = (*started)->wait();
+    const Json found = Json::parse(printed, nullptr, false);
+    if (!ending.succeeded || !found.is_object())
+    {
+        const std::string why = complaintOf(ending.complaint, name);
+        return invalid(fmt::format("cannot be read by ffmpeg ({}); get a complete copy",
+                                   why.empty() ? "it did not say why" : why));
+    }
+
+    FilmSound sound;
+    sound.takesTruncated = allowTruncated;
+    std::vector<const Json*> tracks;
+    std::optional<double> picture;
+    bool hasPicture = false;
+    for (const Json* stream : listOf(found, "streams"))
+    {
+        const std::string kind = textOf(*stream, "codec_type");
+        if (kind == "audio")
+            tracks.push_back(stream);
+        if (kind != "video" || numberOf(partOf(*stream, "disposition"), "attached_pic").value_or(0.0) != 0.0)
+            continue;
+        hasPicture = true;
+        if (!picture)
+            picture = numberOf(*stream, "start_time");
+    }
+    if (tracks.empty())
+        return invalid(hasPicture ? "is a film without sound; choose one with sound"
+                                  : "has no sound that ffmpeg knows; convert it to WAV elsewhere");
+    const auto chosen = std::find_if(tracks.begin(), tracks.end(),
+                                     [](const Json* one)
+                                     { return numberOf(partOf(*one, "disposition"), "default").value_or(0.0) != 0.0; });
+    const Json& track = chosen != tracks.end() ? **chosen : *tracks.front();
+    if (tracks.size() > 1)
+        sound.warnings.push_back(fmt::format(
+            "has {} tracks of sound; {} is read, track {}; save another as a file of its own", tracks.size(),
+            chosen != tracks.end() ? "the default one" : "the first one",
+            trackText(static_cast<std::size_t>((chosen != tracks.end() ? chosen : tracks.begin()) - tracks.begin()) + 1,
+                      track)));
+
+    const double rate = numberOf(track, "sample_rate").value_or(0.0);
+    const double channels = numberOf(track, "channels").value_or(0.0);
+    if (!(rate >= 1.0 && rate < 1e9) || !(channels >= 1.0 && channels < 1e6))
+        return invalid("has a sound whose sample rate or channels ffmpeg cannot tell; get a complete copy");
+    sound.rate = static_cast<int>(rate);
+    sound.width = static_cast<int>(channels);
+    sound.special = specialChannelsOf(textOf(track, "channel_layout"));
+
+    const double begins = numberOf(track, "start_time").value_or(0.0);
+    const double zero = picture.value_or(std::max(begins, 0.0)); // codecs are primed before 0
+    if (!(std::abs(begins - zero) < latest))
+        return invalid("has a damaged header, by which its sound begins more than a day from its picture; get a "
+                       "complete copy");
+    sound.late = begins - zero;
+    if (begins < zero - shortest)
+        sound.warnings.push_back(
+            fmt::format("has a sound that begins before its picture; the first {:.3f} s are left out", zero - begins));
+
+    // What states a duration, and how reliably, differs by kind.
+    const std::string kind = textOf(partOf(found, "format"), "format_name");
+    std::optional<double> end;
+    if (kind.find("mov") != std::string::npos)
+    {
+        sound.duration = Duration::exact;
+        end = numberOf(track, "duration");
+        if (end)
+            *end += begins;
+    }
+    else if (kind.find("matroska") != std::string::npos)
+    {
+        sound.duration = Duration::atLeast;
+        end = secondsOfTag(textOf(partOf(track, "tags"), "DURATION"));
+    }
+    if (!end)
+    {
+        sound.duration = Duration::estimated;
+        end = numberOf(partOf(found, "format"), "duration");
+        if (end)
+            *end += zero;
+    }
+    if (end && *end - zero < latest)
+        sound.stated = static_cast<std::uint64_t>(std::llround(std::max(*end - zero, 0.0) * sound.rate));
+
+    if (const auto missing = kind == "avi" ? missingBytesOfAvi(file) : 0; missing > 0)
+    {
+        auto message = fmt::format("is cut off: {} bytes are missing of what its header states", missing);
+        if (!allowTruncated)
+            return Error{ErrorCode::truncated, "", message + "; get a complete copy"};
+        sound.warnings.push_back(std::move(message));
+    }
+
+    std::size_t number = 0;
+    for (const Json* chapter : listOf(found, "chapters"))
+    {
+        ++number;
+        const auto time = numberOf(*chapter, "start_time");
+        std::string title = wellFormedUtf8(textOf(partOf(*chapter, "tags"), "title"));
+        if (time && *time - zero > -0.0005)
+            sound.markers.markers.push_back(
+                {std::max(*time - zero, 0.0), title.empty() ? fmt::format("chapter {}", number) : std::move(title)});
+        else
+            sound.markers.warnings.push_back(
+                fmt::format("has a chapter before its picture, {}, which is left out", number));
+    }
+
+    words = safely("level+verbose"); // which tells of samples that were added or left out
+    words.insert(words.begin(), {"-nostdin", "-nostats", "-hide_banner", "-copyts"});
+    words.insert(words.end(),
+                 {"-i", name, "-map", fmt::format("0:{}", static_cast<int>(numberOf(track, "index").value_or(0.0))),
+                  "-af", fmt::format("aresample=async=1:first_pts={}", std::llround(zero * sound.rate)), "-ar",
+                  fmt::format("{}", sound.rate), "-ac", fmt::format("{}", sound.width), "-f",
+                  std::endian::native == std::endian::little ? "f32le" : "f32be", "-"});
+    if (input != nullptr && !seekStream(file, 0, SEEK_SET))
+        return invalid("is a film, which cannot be read from a pipe here; save it to a file first");
+    auto decoder = ChildProgram::start("ffmpeg", words, input);
+    if (!decoder)
+        return decoder.error();
+    if (*decoder == nullptr)
+        return notInstalled("ffmpeg");
+    sound.ffmpeg = std::move(*decoder);
+    return sound;
+}
+
+std::size_t FilmSound::readFrames(std::span<float> interleaved)
+{
+    const auto frameBytes = sizeof(float) * static_cast<std::size_t>(width);
+    return ffmpeg->read({reinterpret_cast<char*>(interleaved.data()), interleaved.size_bytes()}) / frameBytes;
+}
+
+Result<std::size_t> FilmSound::read(std::span<float> interleaved)
+{
+    const auto perFrame = static_cast<std::size_t>(width);
+    std::size_t done = 0; // samples
+    while (done < interleaved.size() && !(ended && handedOn == behind.size()))
+    {
+        auto rest = interleaved.subspan(done);
+        if (handedOn < behind.size())
+        {
+            rest = rest.first(std::min(rest.size(), behind.size() - handedOn));
+            std::copy_n(behind.begin() + static_cast<std::ptrdiff_t>(handedOn), rest.size(), rest.begin());
+            handedOn += rest.size();
+            done += rest.size();
+            delivered += rest.size() / perFrame;
+            continue;
+        }
+        const bool beforeEnd = duration == Duration::exact && stated && delivered < *stated;
+        if (beforeEnd && rest.size() / perFrame > *stated - delivered)
+            rest = rest.first(static_cast<std::size_t>(*stated - delivered) * perFrame);
+        const auto got = readFrames(rest);
+        done += got * perFrame;
+        delivered += got;
+        ended = got * perFrame < rest.size();
+        if (!ended && beforeEnd && delivered == *stated)
+        {
+            // The last block of a codec is filled up. More than that is sound that the header does not count.
+            behind.resize(longestBlock * perFrame);
+            const auto more = readFrames(behind);
+            ended = more < longestBlock;
+            behind.resize(ended ? 0 : more * perFrame);
+            handedOn = 0;
+        }
+    }
+    if (ended && handedOn == behind.size() && ffmpeg)
+        if (const auto end = explainEnd(); !end)
+            return end.error();
+    return done / perFrame;
+}
+
+Result<void> FilmSound::explainEnd()
+{
+    const auto ending = ffmpeg->wait();
+    ffmpeg.reset();
+    const double here = static_cast<double>(delivered) / rate;
+    const double promised = static_cast<double>(stated.value_or(delivered)) / rate;
+    const std::string why = complaintOf(ending.complaint, "file:");
+    const std::string said = why.empty() ? "" : fmt::format(" (ffmpeg: {})", why);
+    if (const bool lacks = duration != Duration::estimated && here + shortest < promised; lacks || !ending.succeeded)
+    {
+        if (!takesTruncated)
+            return Error{ErrorCode::truncated, "",
+                         lacks ? fmt::format("is truncated: {:.3f} s of {:.3f} s of its sound can be decoded{}; get a "
+                                             "complete copy",
+                                             here, promised, said)
+                               : fmt::format("is damaged after {:.3f} s{}; get a complete copy", here, said)};
+        warnings.push_back(lacks ? fmt::format("is cut off: {:.3f} s of {:.3f} s are there{}", here, promised, said)
+                                 : fmt::format("is damaged after {:.3f} s{}", here, said));
+    }
+    else if (!why.empty())
+        warnings.push_back(
+            fmt::format("is damaged, or ffmpeg does not know all of it; {:.3f} s were decoded{}", here, said));
+    // Beyond what makes time 0 that of the picture.
+    const double added = sumOf(ending.complaint, "adding ", " audio samples of silence") / rate - std::max(late, 0.0);
+    const double cut = sumOf(ending.complaint, "discarding ", " audio samples") / rate - std::max(-late, 0.0);
+    if (cut > shortest)
+        warnings.push_back(
+            fmt::format("has {:.3f} s of sound whose times are those of other sound; they are left out", cut));
+    if (added > shortest)
+        warnings.push_back(fmt::format("has gaps of {:.3f} s in its sound, where silence stands", added));
+    if (duration == Duration::exact && here > promised + shortest)
+        warnings.push_back(fmt::format("has a header that states {:.3f} s, but {:.3f} s are there and all of them are "
+                                       "read; save it anew",
+                                       promised, here));
+    return {};
+}
+
+} // namespace pacini

@@ -1,0 +1,87 @@
+#pragma once
+
+// Sounds of films, and of codecs that libsndfile does not know, decoded by the programs ffprobe and ffmpeg.
+
+#include "io/ChildProgram.h"
+#include "io/FoundMarkers.h"
+#include "io/SpecialChannels.h"
+
+#include <pacini/foundation/Result.h>
+
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace pacini
+{
+
+/// Whether the file from byte `begin` on is of a kind that ffmpeg reads and libsndfile does not, by its first bytes:
+/// MP4, MOV, M4A and 3GP (ISO/IEC 14496-12), Matroska and WebM (RFC 9559), AVI, MPEG program and transport streams, or
+/// AAC and AC-3 in frames. Moves the stream's position.
+[[nodiscard]] bool isFilm(std::FILE* file, std::uint64_t begin);
+
+/// An open sound of a film. Its time 0 is the time of the first picture, with the starts and edit lists of both tracks:
+/// silence stands for what the sound begins later, and what it begins earlier is left out, from 0.1 s on with a
+/// warning. Without a picture it is the start of the sound. Of several tracks the default one is read, with a warning.
+/// Silence of more than 0.1 s stands for what is missing between the blocks of its codec.
+class FilmSound
+{
+public:
+    /// `file` is what was opened at `path`; the programs open the path themselves unless it is a pipe. Errors:
+    /// invalidData (no ffmpeg installed, no sound, damaged header); io.
+    [[nodiscard]] static Result<FilmSound> open(const std::filesystem::path& path, std::FILE* file,
+                                                bool allowTruncated);
+
+    [[nodiscard]] int sampleRate() const noexcept { return rate; } ///< Hz
+    [[nodiscard]] int channels() const noexcept { return width; }
+    [[nodiscard]] const SpecialChannels& specialChannels() const noexcept { return special; }
+
+    /// Frames that the file states; an estimate.
+    [[nodiscard]] std::optional<std::uint64_t> frames() const noexcept { return stated; }
+
+    /// Chapters.
+    [[nodiscard]] FoundMarkers takeMarkers() noexcept { return std::move(markers); }
+
+    /// Fills `interleaved` with the next frames; returns how many came, fewer than fit only at the end. Errors:
+    /// truncated, invalidData.
+    [[nodiscard]] Result<std::size_t> read(std::span<float> interleaved);
+
+    /// Those of which the reader has not been told yet, each a sentence about the file.
+    [[nodiscard]] std::vector<std::string> takeWarnings() noexcept { return std::exchange(warnings, {}); }
+
+private:
+    /// How far what a kind of file states of its duration can be relied on.
+    enum class Duration
+    {
+        exact,    ///< to a block of the codec, whose filling is left out
+        atLeast,  ///< less is missing sound
+        estimated ///< only for bars of progress
+    };
+
+    FilmSound() = default;
+    [[nodiscard]] std::size_t readFrames(std::span<float> interleaved);
+    [[nodiscard]] Result<void> explainEnd();
+
+    int rate = 0;
+    int width = 0;
+    SpecialChannels special;
+    std::optional<std::uint64_t> stated;
+    Duration duration = Duration::estimated;
+    bool takesTruncated = false;
+    double late = 0.0; ///< s by which the sound begins after the picture
+    FoundMarkers markers;
+    std::vector<std::string> warnings;
+    std::unique_ptr<ChildProgram> ffmpeg;
+    std::vector<float> behind; ///< what came behind the stated end, until it is known whether it is filling
+    std::size_t handedOn = 0;  ///< samples of those
+    std::uint64_t delivered = 0;
+    bool ended = false;
+};
+
+} // namespace pacini

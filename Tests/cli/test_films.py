@@ -1,0 +1,231 @@
+"""End to end: sounds of films, and of codecs that ffmpeg decodes."""
+import json
+import math
+import os
+import random
+import shutil
+import signal
+import struct
+import subprocess
+import time
+import unittest
+from pathlib import Path
+
+from command import COMMAND, CommandTest, wav
+
+RATE = 48000
+HITS = (0.5, 1.5, 2.5)
+PICTURE = ("-f", "lavfi", "-i", "mandelbrot=size=160x120:rate=25")
+MUTATIONS = int(os.environ.get("PACINI_MUTATIONS", "60"))
+
+
+def hits(times=HITS, seconds=4.0, frequency=120.0):
+    samples = [0.0] * round(seconds * RATE)
+    for at in times:
+        for i in range(4800):
+            samples[round(at * RATE) + i] += 0.7 * math.sin(2 * math.pi * frequency * i / RATE) * math.exp(-i / 1500)
+    return samples
+
+
+@unittest.skipUnless(shutil.which("ffmpeg") and shutil.which("ffprobe"), "ffmpeg is not installed")
+class FilmTest(CommandTest):
+    """A test with `sound.wav`, three hits in 4 s."""
+
+    def setUp(self):
+        super().setUp()
+        self.put("sound.wav", wav(hits()))
+
+    def ffmpeg(self, *arguments):
+        subprocess.run(["ffmpeg", "-nostdin", "-v", "error", "-y", *arguments], cwd=self.folder, check=True, timeout=120)
+
+    def film(self, name, *options, before_picture=(), before_sound=(), sound="sound.wav"):
+        """A film of 4 s; made of parts, since encoders undo what is to be tested."""
+        if not (self.folder / "picture.mp4").exists():
+            self.ffmpeg(*PICTURE, "-t", "4", "-c:v", "mpeg4", "-q:v", "3", "picture.mp4")
+        self.ffmpeg(*before_picture, "-i", "picture.mp4", *before_sound, "-i", sound, "-map", "0:v", "-map", "1:a",
+                    "-c:v", "copy", *options, name)
+
+    def events(self, name, *options):
+        """Times of the events of a film's clip; what else is said is in self.said."""
+        self.name_read = name
+        done = self.run_command("encode", name, "-o", "clip.json", "-y", *options)
+        self.said = done.stderr.decode()
+        self.assertEqual(done.returncode, 0, self.said)
+        self.clip_read = json.loads((self.folder / "clip.json").read_text())
+        return [event["time"] for event in self.clip_read["transients"]]
+
+    def assertTimes(self, found, expected, within=0.006):
+        self.assertEqual(len(found), len(expected), found)
+        for one, other in zip(found, expected):
+            self.assertLess(abs(one - other), within, (found, self.name_read))
+
+
+class Films(FilmTest):
+    def test_all_kinds_are_read_whole(self):
+        for name, codec in (("a.mp4", "aac"), ("a.mov", "pcm_s16le"), ("a.mkv", "libopus"), ("a.webm", "libvorbis"),
+                            ("a.avi", "pcm_s16le"), ("a.ts", "aac")):
+            video = ("-c:v", "libvpx", "-b:v", "200k") if name.endswith("webm") else ()
+            self.film(name, "-c:a", codec, *video)
+            self.assertTimes(self.events(name), HITS, 0.008)  # ffmpeg 5 writes Opus 6.5 ms early in Matroska
+            self.assertEqual(self.said, "", name)
+            self.assertLess(abs(self.clip_read["duration"] - 4.0), 0.05, name)
+        for name, codec in (("b.m4a", "aac"), ("b.m4a", "alac"), ("b.mka", "libopus"), ("b.mp4", "libopus")):
+            self.ffmpeg("-i", "sound.wav", "-c:a", codec, name)
+            self.assertTimes(self.events(name), HITS)
+            self.assertEqual(self.said, "", name)
+        # AAC without a file around it says nothing of how it was primed: up to 2112 frames.
+        self.ffmpeg("-i", "sound.wav", "-c:a", "aac", "c.aac")
+        self.assertTimes(self.events("c.aac"), HITS, 0.05)
+
+    def test_the_filling_of_the_last_block_is_left_out(self):
+        self.film("a.mp4", "-c:a", "aac")
+        self.assertEqual(self.report("info", "a.mp4")["files"][0]["frames"], 4 * RATE)
+
+    def test_time_0_is_that_of_the_picture(self):
+        late = [at + 0.7 for at in HITS]
+        for name in ("late.mp4", "late.mov", "late.mkv", "late.ts", "late.avi"):
+            self.film(name, "-c:a", "aac" if name != "late.avi" else "pcm_s16le", before_sound=("-itsoffset", "0.7"))
+            if name == "late.avi":
+                continue  # has no such times
+            self.assertTimes(self.events(name), late)
+        for name in ("early.mp4", "early.mkv"):
+            self.film(name, "-c:a", "aac", before_picture=("-itsoffset", "0.4"))
+            self.assertTimes(self.events(name), [at - 0.4 for at in HITS])
+            self.assertIn("begins before its picture; the first 0.4", self.said)
+
+    def test_edit_lists_are_honoured(self):
+        self.film("whole.mp4", "-c:a", "aac")
+        self.ffmpeg("-ss", "0.32", "-i", "whole.mp4", "-c", "copy", "cut.mp4")
+        self.assertIn(b"elst", (self.folder / "cut.mp4").read_bytes())
+        self.ffmpeg("-i", "cut.mp4", "-map", "0:a", "-f", "f32le", "reference.raw")
+        samples = (self.folder / "reference.raw").read_bytes()
+        values = struct.unpack(f"<{len(samples) // 4}f", samples)
+        rate = 48000
+        first = next(i for i, x in enumerate(values) if abs(x) > 0.05) / rate
+        self.assertTimes(self.events("cut.mp4")[:1], [first])
+        self.assertLess(first, 0.4)
+
+    def test_the_default_track_is_read_with_a_word(self):
+        self.put("other.wav", wav(hits((1.0,))))
+        self.ffmpeg("-i", "sound.wav", "-i", "other.wav", "-map", "0", "-map", "1", "-c:a", "aac", "-disposition:a:0", "0",
+                    "-disposition:a:1", "default", "-metadata:s:a:1", "language=eng", "two.m4a")
+        self.assertTimes(self.events("two.m4a"), [1.0])
+        self.assertIn("warning: has 2 tracks of sound; the default one is read, track 2 (eng, mono)", self.said)
+
+    def test_chapters_are_markers(self):
+        self.put("chapters.txt", ";FFMETADATA1\n[CHAPTER]\nTIMEBASE=1/1000\nSTART=0\nEND=1500\ntitle=door\n"
+                                 "[CHAPTER]\nTIMEBASE=1/1000\nSTART=1500\nEND=4000\ntitle=rain\n")
+        self.ffmpeg("-i", "sound.wav", "-i", "chapters.txt", "-map", "0:a", "-map_metadata", "1", "-c:a", "aac", "a.m4a")
+        self.events("a.m4a")
+        self.assertEqual([(marker["time"], marker["name"]) for marker in self.clip_read["markers"]],
+                         [(0, "door"), (1.5, "rain")])
+
+    def test_a_film_that_is_cut_off_is_refused_or_read_with_a_word(self):
+        for name, codec in (("a.mp4", "aac"), ("a.mkv", "aac"), ("a.avi", "pcm_s16le")):
+            self.film(name, "-c:a", codec, *(("-movflags", "+faststart") if name == "a.mp4" else ()))
+            content = (self.folder / name).read_bytes()
+            self.put("cut" + name, content[:len(content) * 6 // 10])
+            self.fails(1, ["encode", "cut" + name], f"pacini: cut{name}: ", "get a complete copy", "--allow-truncated")
+            self.warns("encode", "cut" + name, "--allow-truncated", "-o", "cut.json", "-y", says="is cut off")
+        self.put("start.mp4", (self.folder / "a.mp4").read_bytes()[:300])
+        self.fails(1, ["encode", "start.mp4"], "pacini: start.mp4: ")
+
+    def test_a_damaged_film_says_so(self):
+        self.ffmpeg("-i", "sound.wav", "-c:a", "aac", "-movflags", "+faststart", "a.m4a")
+        content = bytearray((self.folder / "a.m4a").read_bytes())
+        start = content.index(b"mdat") + 2000
+        content[start:start + 3000] = random.Random(1).randbytes(3000)
+        self.put("b.m4a", bytes(content))
+        done = self.run_command("info", "b.m4a")
+        self.assertRegex(done.stderr.decode(), r"^pacini: b.m4a: (warning: )?.*(damaged|truncated)")
+
+    def test_what_has_no_sound_or_no_ffmpeg_says_so(self):
+        self.ffmpeg(*PICTURE, "-t", "1", "-c:v", "mpeg4", "mute.mp4")
+        self.fails(1, ["encode", "mute.mp4"], "pacini: mute.mp4: is a film without sound; choose one with sound")
+        self.ffmpeg("-i", "sound.wav", "-c:a", "aac", "a.m4a")
+        self.fails(1, ["encode", "a.m4a"], "pacini: a.m4a: is a film or has a codec that is decoded by ffmpeg, but the "
+                                           "program ffprobe is not installed; install ffmpeg",
+                   env={**os.environ, "PATH": str(self.folder)})
+
+    def test_names_are_names_and_no_options_or_addresses(self):
+        self.ffmpeg("-i", "sound.wav", "-c:a", "aac", "a.m4a")
+        content = (self.folder / "a.m4a").read_bytes()
+        for name in ("-i.m4a", "http:x.m4a", "a b;$(touch evil).m4a", "%d.m4a", "é\n.m4a"):
+            self.put(name, content)
+            self.assertTimes(self.events("./" + name), HITS)
+        self.assertFalse((self.folder / "evil").exists())
+
+    def test_films_come_through_pipes(self):
+        self.film("a.mp4", "-c:a", "aac")
+        with open(self.folder / "a.mp4", "rb") as film:
+            self.succeeds("encode", "-", "-o", "piped.json", "-q", stdin=film)
+        self.events("a.mp4")
+        piped = json.loads((self.folder / "piped.json").read_text())
+        self.assertEqual(piped["transients"], self.clip_read["transients"])
+
+    def test_other_doors_read_them_too(self):
+        self.film("a.mp4", "-c:a", "alac")
+        self.ffmpeg("-i", "a.mp4", "-map", "0:a", "same.wav")
+        self.assertEqual(self.report("compare", "a.mp4", "same.wav")["files"][0]["lsd"], 0)
+        self.put("films/a.mp4", (self.folder / "a.mp4").read_bytes())
+        self.put("films/b.wav", (self.folder / "same.wav").read_bytes())
+        self.succeeds("encode", "films", "-o", "clips", "-q")
+        a, b = (json.loads((self.folder / f"clips/{name}.json").read_text()) for name in "ab")
+        self.assertEqual(a["bands"], b["bands"])
+        self.fails(2, ["encode", "sound.wav", "-o", "x.mp4"], "has the extension of a sound")
+
+    def test_ffmpeg_ends_with_the_command(self):
+        self.ffmpeg("-f", "lavfi", "-i", "anoisesrc=duration=3600:sample_rate=8000", "-c:a", "pcm_s16le", "long.mov")
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGKILL):
+            place = str(self.folder)
+            running = subprocess.Popen([COMMAND, "encode", "long.mov", "-o", "long.json"], cwd=self.folder,
+                                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            self.assertTrue(self.until(lambda: self.children_of(place)))
+            running.send_signal(number)
+            running.wait(10)
+            self.assertTrue(self.until(lambda: not self.children_of(place)))
+            self.assertFalse((self.folder / "long.json").exists())
+
+    @staticmethod
+    def until(holds):
+        for _ in range(200):
+            if holds():
+                return True
+            time.sleep(0.05)
+        return False
+
+    @staticmethod
+    def children_of(place):
+        """Whether a program ffmpeg runs on a file there."""
+        for one in os.listdir("/proc"):
+            try:
+                words = Path(f"/proc/{one}/cmdline").read_bytes().split(b"\0") if one.isdigit() else []
+            except OSError:
+                continue
+            if words and words[0].endswith(b"ffmpeg") and any(place.encode() in word for word in words[1:]):
+                return True
+        return False
+
+    def test_mutated_headers_lose_nothing_in_silence(self):
+        self.ffmpeg("-i", "sound.wav", "-ac", "1", "-ar", "16000", "-c:a", "aac", "-movflags", "+faststart", "a.m4a")
+        self.ffmpeg("-i", "sound.wav", "-ac", "1", "-c:a", "libopus", "a.mka")
+        for name, header in (("a.m4a", (self.folder / "a.m4a").read_bytes().index(b"mdat")), ("a.mka", 600)):
+            content = (self.folder / name).read_bytes()
+            for seed in range(MUTATIONS // 2):
+                source = random.Random(seed)
+                mutated = bytearray(content)
+                for _ in range(source.choice((1, 2, 4))):
+                    mutated[source.randrange(8, header)] = source.choice((0, 1, 127, 128, 255, source.randrange(256)))
+                self.put(f"in/{seed}{name}", bytes(mutated))
+        done = self.run_command("encode", "in", "-o", "out", "--json", "-j", "2")
+        self.assertIn(done.returncode, (0, 1))
+        report = json.loads(done.stdout)
+        said = {entry["input"] for entry in report.get("warnings", [])}
+        silent = [one for one in report["files"] if one["input"] not in said]
+        self.assertGreater(len(silent), MUTATIONS // 20)
+        short = [(one["input"], one["duration"]) for one in silent if one["duration"] < 3.85]
+        self.assertEqual(short, [])
+
+
+if __name__ == "__main__":
+    unittest.main()
