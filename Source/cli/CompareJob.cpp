@@ -96,8 +96,10 @@ std::variant<CompareResult, InputFailure> CompareJob::run(const ComparePair& pai
                                                           const std::function<void(double)>& progress)
 {
     // What no sound has counts as silence after resampling, so it must come through; the command warns of it.
-    const AudioReadOptions reading{
-        .allowTruncated = settings.allowTruncated, .keepNan = true, .lowestSampleRate = lowestResamplerRate};
+    const AudioReadOptions reading{.allowTruncated = settings.allowTruncated,
+                                   .keepNan = true,
+                                   .lowestSampleRate = lowestResamplerRate,
+                                   .lowFrequencyGain = lowFrequencyEffectsGain};
     Stopwatch work;
     const auto analyze = [&](const fs::path& path, const Result<MonoSound>& sound,
                              Result<void> (Comparer::*set)(std::span<const float>, int),

@@ -10,6 +10,7 @@
 #include "cli/Options.h"
 #include "cli/Overwrite.h"
 #include "cli/RayRun.h"
+#include "cli/SceneFiles.h"
 #include "cli/Task.h"
 #include "cli/TaskRunner.h"
 #include "io/EncoderPresets.h"
@@ -52,6 +53,7 @@ nlohmann::ordered_json toJson(const EncodeTask& task)
             {"bytesPerSecond", r.duration > 0.0 ? static_cast<double>(r.bytes) / r.duration : 0.0},
             {"breakpoints", r.breakpoints},
             {"transients", r.transients},
+            {"scenes", r.scenes},
             {"upToDate", r.upToDate}};
 }
 
@@ -146,6 +148,8 @@ struct EncodeCommand : Command
     std::string format;
     std::string markersFile;
     ExportOptions exporting;
+    double scenes = 0.0;
+    bool withoutCentre = false;
     bool allowNan = false;
     bool allowTruncated = false;
     bool force = false;
@@ -203,6 +207,14 @@ CLI::App* EncodeCommand::declare(CLI::App& app)
         "Text file of times in s and labels, such as Audacity's, that become markers of the clip besides those of "
         "the sound; for one sound",
         "FILE");
+    addOption(
+        *command, "--scenes", scenes,
+        "Cut long sounds at silences into clips of at least so many seconds, and write a scene that plays them at "
+        "the times of the sound; needs a folder as OUT",
+        numberFrom(1.0, 86400.0), "S");
+    command->add_flag(
+        "--without-centre", withoutCentre,
+        "Leave out the centre channel, where films have their speech, of sounds that name their channels");
     group("Other formats");
     exporting.declare(*command);
     group("Files");
@@ -230,7 +242,8 @@ CLI::App* EncodeCommand::declare(CLI::App& app)
                            "  pacini encode song.flac --preset music       the beat first\n"
                            "  pacini encode --bands 8 --print-settings > mine.json\n"
                            "  pacini encode sounds/ -o clips/ --settings mine.json\n"
-                           "  pacini encode door.wav --method lowpass      writes door.lowpass.wav");
+                           "  pacini encode door.wav --method lowpass      writes door.lowpass.wav\n"
+                           "  pacini encode film.mp4 -o clips/ --scenes 10 a clip for each scene of a film");
 }
 
 std::optional<Settings> EncodeCommand::chosenSettings(Console& console) const
@@ -276,6 +289,10 @@ Result<void> EncodeCommand::checkOptions(const MethodInfo& method) const
             return wrongUsage("--markers", fmt::format("is for clips, but the method {} writes a WAV file; these "
                                                        "methods write clips: {}",
                                                        method.name, clips));
+        if (command->count("--scenes") > 0)
+            return wrongUsage("--scenes", fmt::format("is for clips, but the method {} writes a WAV file; these "
+                                                      "methods write clips: {}",
+                                                      method.name, clips));
         if (!format.empty())
             return wrongUsage(
                 "--format",
@@ -298,6 +315,8 @@ Result<void> EncodeCommand::checkOptions(const MethodInfo& method) const
     }
     else if (auto formatKnown = checkFormat(); !formatKnown)
         return formatKnown;
+    if (command->count("--scenes") > 0 && (output.empty() || !namesFolder(output)))
+        return wrongUsage("--scenes", "writes several files; name a folder for them with -o, such as -o clips/");
     return {};
 }
 
@@ -357,7 +376,11 @@ InputFiles EncodeCommand::findSounds() const
 
 Exit EncodeCommand::readOutput(Console& console, const Settings& chosen, EncodeSettings& settings) const
 {
-    settings.reading = {allowTruncated, allowNan};
+    settings.reading.allowTruncated = allowTruncated;
+    settings.reading.allowNan = allowNan;
+    settings.reading.withoutCentre = withoutCentre;
+    if (command->count("--scenes") > 0)
+        settings.shortestScene = scenes;
     settings.force = force;
     settings.dryRun = dryRun;
     const ClipFormat* target = clipFormatNamed(format);
@@ -378,7 +401,8 @@ void EncodeCommand::tell(Console& console, const EncodeTask& task) const
 {
     const EncodeResult& result = *task.result;
     if (!result.upToDate && !dryRun)
-        console.wrote(task.output, bytesText(static_cast<double>(result.bytes)));
+        console.wrote(task.output, (result.scenes > 0 ? counted(result.scenes, "scene, ", "scenes, ") : "") +
+                                       bytesText(static_cast<double>(result.bytes)));
     console.warnings(task.input.string(), result.warnings);
     if (result.replacedSamples > 0)
         console.warning(task.input.string(),
@@ -447,6 +471,8 @@ Exit EncodeCommand::run(Console& console)
         return read;
     const std::string extension(settings.format->extension);
     OutputNames names{output, extension, extension};
+    if (settings.shortestScene)
+        names = {output, std::string(sceneExtension), std::string(sceneExtension)};
     if (method.output == MethodOutput::signal) // beside its recording a signal must not replace it
         names = {output, ".wav", fmt::format(".{}.wav", method.name)};
 

@@ -1,6 +1,7 @@
 #include "cli/EncodeJob.h"
 
 #include "cli/ReadingAdvice.h"
+#include "cli/SceneFiles.h"
 #include "cli/Task.h"
 #include "io/AudioWriter.h"
 #include "io/ClipFile.h"
@@ -51,6 +52,8 @@ Result<EncodeResult> EncodeJob::run(const fs::path& input, const fs::path& outpu
         target.origin = originOf(input, output, method.text());
         existing = mayReplace(output, target.origin, replaceable);
     }
+    else if (settings.shortestScene)
+        existing = Existing::keep; // see writeScenes()
     else if (settings.format->isOwn())
         existing = lookAt(input, target, result);
     if (!existing)
@@ -103,6 +106,18 @@ Result<std::size_t> EncodeJob::write(Clip clip, const Target& target, Stopwatch&
     result.duration = clip.duration;
     result.breakpoints = breakpointCount(clip);
     result.transients = clip.transients.size();
+    if (settings.shortestScene)
+    {
+        std::optional<Result<SceneFiles>> files;
+        work.run(
+            [&] {
+                files = sceneFiles(clip, target.output, *settings.shortestScene, *settings.format, settings.exporting);
+            });
+        if (!*files)
+            return files->error();
+        result.scenes = (*files)->scenes;
+        return writeSceneFiles(**files, target.replaceable);
+    }
     if (settings.format->isOwn())
     {
         const auto written = writeClip(target.output, std::move(clip), *settings.format, target.existing);
@@ -143,6 +158,14 @@ Result<std::size_t> EncodeJob::write(std::span<const float> signal, int sampleRa
 }
 
 std::vector<EncoderParameter> EncodeJob::expectedRecord(const Clip& clip) const
+{
+    auto record = methodRecord(clip);
+    if (settings.reading.withoutCentre)
+        record.push_back({std::string(withoutCentreName), true});
+    return record;
+}
+
+std::vector<EncoderParameter> EncodeJob::methodRecord(const Clip& clip) const
 {
     if (settings.method == Method::a2vt)
         return encoderRecord(settings.params);

@@ -25,6 +25,7 @@ struct EncodeSettings : SoundEncoderParams
     const ClipFormat* format = &jsonFormat(); ///< never null
     ExportParams exporting;                   ///< for formats of others
     std::optional<FoundMarkers> markers;      ///< besides those of the sound
+    std::optional<double> shortestScene;      ///< s: a file for each scene, none shorter
     bool dryRun = false;                      ///< only look at the sound, write nothing
     bool force = false; ///< encode even what is up to date; signals and formats of others, which have no record of the
                         ///< method, always are
@@ -41,6 +42,7 @@ struct EncodeResult
     std::uint64_t replacedSamples = 0; ///< NaN and infinite ones
     std::vector<std::string> warnings; ///< of the sound
     std::filesystem::path stray;       ///< see strayCompanion()
+    std::size_t scenes = 0;            ///< files of scenes beside the output
     bool upToDate = false;             ///< nothing was done
 };
 
@@ -82,6 +84,7 @@ private:
 
     /// Returns the encoder record of a new clip, without the parts that depend on the sound.
     [[nodiscard]] std::vector<EncoderParameter> expectedRecord(const Clip& clip) const;
+    [[nodiscard]] std::vector<EncoderParameter> methodRecord(const Clip& clip) const;
 
     /// Write a clip, or a signal, and return the size of the file or files.
     [[nodiscard]] Result<std::size_t> write(Clip clip, const Target& target, Stopwatch& work,

@@ -22,13 +22,6 @@ bool isHidden(const fs::path& path)
     return !name.empty() && name.front() == '.';
 }
 
-/// Whether `output` is or is to be a folder.
-bool namesFolder(const std::string& output)
-{
-    std::error_code unknown;
-    return output.back() == '/' || output.back() == fs::path::preferred_separator || fs::is_directory(output, unknown);
-}
-
 /// Whether files of this extension are what the command writes or reads.
 bool isFileExtension(const std::string& extension)
 {
@@ -65,6 +58,12 @@ void addFolder(const fs::path& folder, const std::vector<std::string>& extension
         found.failures.push_back({folder, {ErrorCode::invalidData, "", "contains no files that this command reads"}});
 }
 } // namespace
+
+bool namesFolder(const std::string& output)
+{
+    std::error_code unknown;
+    return output.back() == '/' || output.back() == fs::path::preferred_separator || fs::is_directory(output, unknown);
+}
 
 InputFiles findInputs(const std::vector<std::string>& named, const std::vector<std::string>& extensions)
 {

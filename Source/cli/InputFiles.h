@@ -40,6 +40,9 @@ struct InputFiles
 /// The extensions of audio files that are looked for in folders.
 [[nodiscard]] const std::vector<std::string>& audioExtensions();
 
+/// Whether `output`, which is not empty, is or is to be a folder.
+[[nodiscard]] bool namesFolder(const std::string& output);
+
 /// Naming of results.
 struct OutputNames
 {

@@ -71,7 +71,7 @@ struct ServeCommand : Command
     void showPicture(Console& console, const phone::PhoneServer& server) const;
     void serve(Console& console, phone::PhoneServer& server, Interruption& interruption) const;
 
-    std::string input, address;
+    std::string input, address, film;
     int port = 0;
     bool inverted = false;
 };
@@ -81,6 +81,9 @@ CLI::App* ServeCommand::declare(CLI::App& app)
 {
     auto* command = app.add_subcommand("serve", "Play a clip on phones in the local network");
     addOption(*command, "input", input, "A clip of any format", "CLIP");
+    addOption(*command, "--film", film,
+              "Film that the page of the phone shows, in a format of its browser; the clip is felt in time with it",
+              "FILE");
     addOption(*command, "--address", address, "Address to listen on [that of this machine in its network]", "IPV4");
     addOption(*command, "--port", port, "Port to listen on [a free port]", numberFrom(1.0, 65535.0), "N");
     command->add_flag("--inverted", inverted, "Invert the QR code, for terminals with a light background");
@@ -88,7 +91,8 @@ CLI::App* ServeCommand::declare(CLI::App& app)
         "Scan the QR code with the phone. Each code works once; a new one appears for the next phone, up "
         "to 64.\nEnter plays the clip on all connected phones, Ctrl-C ends. Browsers on Android vibrate, "
         "those on\niPhones and Firefox do not. The connection is not encrypted.\n"
-        "Example:\n  pacini serve door.json");
+        "Examples:\n  pacini serve door.json\n"
+        "  pacini serve film.json --film film.mp4       the phone shows the film and vibrates with it");
 }
 
 void ServeCommand::showPicture(Console& console, const phone::PhoneServer& server) const
@@ -147,7 +151,10 @@ Exit ServeCommand::run(Console& console)
     const auto server = phone::PhoneServer::start({address, static_cast<std::uint16_t>(port)});
     if (!server)
         return console.fail("", server.error());
-    (*server)->show(read->clip);
+    if (film.empty())
+        (*server)->show(read->clip);
+    else if (const auto shown = (*server)->show(read->clip, film); !shown)
+        return console.fail("", shown.error());
     console.addToReport({{"input", input}, {"address", (*server)->url()}});
     if (console.isJson())
     {

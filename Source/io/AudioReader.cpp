@@ -112,6 +112,21 @@ std::optional<Error> brokenPromise(const SoundPart& part, const SF_INFO& info)
     return truncated(std::min(part.presentBytes / frameBytes, delivers), *part.promisedBytes / frameBytes);
 }
 
+/// By the map of channels that a WAV or CAF has.
+SpecialChannels specialChannelsOf(SNDFILE* sound, int channels)
+{
+    std::vector<int> map(static_cast<std::size_t>(channels));
+    if (channels < 2 ||
+        sf_command(sound, SFC_GET_CHANNEL_MAP_INFO, map.data(), static_cast<int>(map.size() * sizeof(int))) == SF_FALSE)
+        return {};
+    const auto placeOf = [&map](int role)
+    {
+        const auto found = std::find(map.begin(), map.end(), role);
+        return found != map.end() ? std::optional(static_cast<std::size_t>(found - map.begin())) : std::nullopt;
+    };
+    return {.lowFrequency = placeOf(SF_CHANNEL_MAP_LFE), .centre = placeOf(SF_CHANNEL_MAP_CENTER)};
+}
+
 /// Why libsndfile could not open a file that exists.
 Error openingFailed(const SoundPart& part)
 {
@@ -146,6 +161,7 @@ struct AudioReader::State
     std::vector<std::string> warnings;
     FoundMarkers markers; // of the parts up to the current one
     SpecialChannels special;
+    std::vector<float> gains; ///< of the channels; empty: all 1
     bool markersAreTold = false;
     std::optional<RateRaiser> raiser;
     std::optional<FilmSound> film; // instead of parts, view and sound
@@ -168,6 +184,30 @@ struct AudioReader::State
     void addWarnings(std::vector<std::string> more)
     {
         warnings.insert(warnings.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+    }
+
+    /// Finds the channels whose gains are not 1, of what is open.
+    void findGains()
+    {
+        gains.clear();
+        if (options.withoutCentre && !special.centre)
+            warn("names no centre channel, so nothing is left out");
+        const auto setGain = [this](std::optional<std::size_t> channel, double gain)
+        {
+            if (!channel || gain == 1.0 || *channel >= static_cast<std::size_t>(info.channels))
+                return;
+            gains.resize(static_cast<std::size_t>(info.channels), 1.0f);
+            gains[*channel] = static_cast<float>(gain);
+        };
+        setGain(special.lowFrequency, options.lowFrequencyGain);
+        setGain(special.centre, options.withoutCentre ? 0.0 : 1.0);
+    }
+
+    void applyGains(std::span<float> interleaved) const noexcept
+    {
+        for (std::size_t frame = 0; !gains.empty() && frame < interleaved.size(); frame += gains.size())
+            for (std::size_t c = 0; c < gains.size(); ++c)
+                interleaved[frame + c] *= gains[c];
     }
 
     /// Whether channels and rate are supported.
@@ -490,6 +530,9 @@ Result<AudioReader> AudioReader::open(const fs::path& path, AudioReadOptions opt
         state->warnOfGap();
         state->findMarkers();
     }
+    if (!film)
+        state->special = specialChannelsOf(state->sound.get(), state->info.channels);
+    state->findGains();
     if (const int rate = state->info.samplerate; rate < options.lowestSampleRate)
     {
         state->raiser.emplace(rate, options.lowestSampleRate, static_cast<std::size_t>(state->info.channels));
@@ -593,6 +636,7 @@ Result<std::size_t> AudioReader::State::read(std::span<float> interleaved)
         if (!options.keepNan)
             if (auto finite = checkFinite(rest.first(got * channels)); !finite)
                 return finite.error();
+        applyGains(rest.first(got * channels));
         delivered += got;
         done += got;
         if (done == wanted)

@@ -27,7 +27,13 @@ struct AudioReadOptions
     bool allowNan = false;       ///< replace NaN, infinite and absurd samples by 0 and count them
     bool keepNan = false;        ///< deliver such samples as they are; they are neither an error nor counted
     int lowestSampleRate = 8000; ///< Hz: limits::lowestSampleRate; slower sounds are delivered at a multiple of theirs
+    double lowFrequencyGain = 1.0; ///< of the channel of low-frequency effects, where the file names its channels
+    bool withoutCentre = false;    ///< deliver silence in the place of the centre channel, likewise
 };
+
+/// Of the channel of low-frequency effects against the others: 10 dB, as cinemas and receivers play it (ITU-R BS.775,
+/// annex 7). What is to be felt of a film is in it.
+inline constexpr double lowFrequencyEffectsGain = 3.1622776601683795;
 
 /// The range of files that are read and written.
 namespace limits

@@ -23,6 +23,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -32,8 +33,11 @@ namespace pacini
 /// How sounds are translated and read.
 struct SoundEncoderParams : TranslationParams
 {
-    AudioReadOptions reading;
+    AudioReadOptions reading{.lowFrequencyGain = lowFrequencyEffectsGain};
 };
+
+/// What a clip says of its encoder when the centre channel was left out.
+inline constexpr std::string_view withoutCentreName = "withoutCentre";
 
 /// The parts of an open file. Errors: those of AudioReader.
 class SoundFileParts
@@ -101,6 +105,11 @@ public:
         SoundFileParts file(reader, rest);
         auto clip = clipOf({reader.sampleRate(), reader.channels(), reader.frames().value_or(0), scale}, file,
                            clipNamesOf(input), work);
+        if (clip && settings.reading.withoutCentre)
+        {
+            clip->encoder.push_back({std::string(withoutCentreName), true});
+            sealClip(*clip);
+        }
         if (clip)
             addMarkers(*clip, reader.takeMarkers(clip->duration));
         return clip;

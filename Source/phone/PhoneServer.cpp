@@ -2,8 +2,12 @@
 
 #include "PhonePage.h"
 #include "devices/TouchPlan.h"
+#include "io/FileExtension.h"
+#include "io/FileHandle.h"
 #include "io/JsonTree.h"
 #include "phone/PairingCode.h"
+
+#include <pacini/foundation/ParseNumber.h>
 
 #include <boost/asio/buffer.hpp>
 #include <boost/asio/io_context.hpp>
@@ -23,7 +27,9 @@
 #include <cctype>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <deque>
+#include <filesystem>
 #include <functional>
 #include <iterator>
 #include <memory>
@@ -72,6 +78,52 @@ Result<std::string> localAddress()
     return socket.local_endpoint().address().to_string();
 }
 
+/// A film that is shown; its path is empty when there is none.
+struct Film
+{
+    std::filesystem::path path;
+    std::uint64_t bytes = 0;
+};
+
+/// Its media type.
+std::string_view filmKind(const std::filesystem::path& path)
+{
+    const std::string extension = lowerExtension(path);
+    return extension == ".webm"                         ? "video/webm"
+           : extension == ".mkv" || extension == ".mka" ? "video/x-matroska"
+           : extension == ".mov"                        ? "video/quicktime"
+           : extension == ".mp4" || extension == ".m4v" ? "video/mp4"
+           : extension == ".m4a"                        ? "audio/mp4"
+                                                        : "application/octet-stream";
+}
+
+/// The part of `whole` bytes that a Range field asks for (RFC 9110, section 14), at most so many bytes: its first and
+/// the one behind its last; nothing for what cannot be had.
+std::optional<std::pair<std::uint64_t, std::uint64_t>> rangeOf(std::string_view field, std::uint64_t whole)
+{
+    constexpr std::uint64_t most = 1 << 20; // bytes, of which browsers ask for more by themselves
+    constexpr std::string_view unit = "bytes=";
+    if (whole == 0)
+        return {};
+    std::uint64_t first = 0, last = whole - 1;
+    if (field.starts_with(unit))
+    {
+        field.remove_prefix(unit.size());
+        const auto dash = field.find('-');
+        if (dash == std::string_view::npos || field.find(',') != std::string_view::npos)
+            return {};
+        const auto from = parseNumber<std::uint64_t>(field.substr(0, dash));
+        const auto to = parseNumber<std::uint64_t>(field.substr(dash + 1));
+        if (!from && !to)
+            return {};
+        first = from ? *from : whole - std::min(whole, *to);
+        last = from && to ? std::min(*to, last) : last;
+    }
+    if (first > last)
+        return {};
+    return std::pair(first, std::min(last + 1, first + most));
+}
+
 /// State shared by sessions: used only by the thread of the server, unless noted.
 class Host
 {
@@ -81,6 +133,7 @@ public:
     [[nodiscard]] virtual std::optional<Refusal> refusalOf(std::string_view code) = 0; ///< counts it
     [[nodiscard]] virtual std::string newCookie() = 0;                                 ///< uses the code up
     [[nodiscard]] virtual bool knows(std::string_view cookies) const = 0;
+    [[nodiscard]] virtual const Film& film() const = 0;
 };
 
 /// One phone, from its upgrade on.
@@ -259,7 +312,49 @@ private:
             stream.expires_never();
             return welcome(std::make_shared<Phone>(stream.release_socket()), request);
         }
+        if (target == "/film" && !host.film().path.empty())
+            return sendFilm();
         sendFile(target == "/" ? "/index.html" : target);
+    }
+
+    void sendFilm()
+    {
+        const Film& film = host.film();
+        const auto& request = parser.get();
+        const std::string asked(request[http::field::range]);
+        if (asked.empty()) // browsers ask for parts; this is what saves it
+        {
+            http::response<http::file_body> whole{http::status::ok, request.version()};
+            error_code failed;
+            whole.body().open(film.path.string().c_str(), beast::file_mode::scan, failed);
+            if (failed)
+                return refuse(http::status::not_found, "The film is gone.");
+            whole.set(http::field::content_type, std::string(filmKind(film.path)));
+            whole.set(http::field::accept_ranges, "bytes");
+            stream.expires_after(std::chrono::hours(1));
+            return send(std::move(whole));
+        }
+        const auto range = rangeOf(asked, film.bytes);
+        if (!range)
+        {
+            Response response{http::status::range_not_satisfiable, request.version()};
+            response.set(http::field::content_range, fmt::format("bytes */{}", film.bytes));
+            return send(std::move(response));
+        }
+        const auto [first, end] = *range;
+        Response response{http::status::partial_content, request.version()};
+        response.set(http::field::content_type, std::string(filmKind(film.path)));
+        response.set(http::field::accept_ranges, "bytes");
+        response.body().resize(static_cast<std::size_t>(end - first));
+        const FileHandle file = openStream(film.path, "rb");
+        if (!file || !seekStream(file.get(), static_cast<std::int64_t>(first), SEEK_SET))
+            return refuse(http::status::not_found, "The film is gone.");
+        response.body().resize(std::fread(response.body().data(), 1, response.body().size(), file.get()));
+        if (response.body().empty())
+            return refuse(http::status::not_found, "The film is gone.");
+        response.set(http::field::content_range,
+                     fmt::format("bytes {}-{}/{}", first, first + response.body().size() - 1, film.bytes));
+        send(std::move(response));
     }
 
     void sendFile(std::string_view name)
@@ -284,18 +379,20 @@ private:
         send(std::move(response));
     }
 
-    void send(Response&& response)
+    template <typename Body>
+    void send(http::response<Body>&& response)
     {
         response.set(http::field::cache_control, "no-store");
-        response.set("Content-Security-Policy",
-                     fmt::format("default-src 'none'; script-src 'self'; style-src 'self'; img-src data:; "
-                                 "connect-src ws://{}; frame-ancestors 'none'; base-uri 'none'; form-action 'self'",
-                                 host.place()));
+        response.set(
+            "Content-Security-Policy",
+            fmt::format("default-src 'none'; script-src 'self'; style-src 'self'; img-src data:; media-src 'self'; "
+                        "connect-src ws://{}; frame-ancestors 'none'; base-uri 'none'; form-action 'self'",
+                        host.place()));
         response.set("X-Content-Type-Options", "nosniff");
         response.set("Referrer-Policy", "no-referrer");
         response.keep_alive(false);
         response.prepare_payload();
-        auto kept = std::make_shared<Response>(std::move(response));
+        auto kept = std::make_shared<http::response<Body>>(std::move(response));
         http::async_write(stream, *kept,
                           [self = shared_from_this(), kept](error_code, std::size_t)
                           {
@@ -371,7 +468,19 @@ public:
 
     [[nodiscard]] std::size_t refused(Refusal reason) const override { return refusals[index(reason)]; }
 
-    void show(const Clip& clip) override
+    void show(const Clip& clip) override { showWith(clip, {}); }
+
+    Result<void> show(const Clip& clip, const std::filesystem::path& film) override
+    {
+        std::error_code failed;
+        const auto bytes = std::filesystem::file_size(film, failed);
+        if (failed || !openStream(film, "rb"))
+            return Error{ErrorCode::io, film.string(), "cannot be read; check the name and its permissions"};
+        showWith(clip, {std::filesystem::absolute(film, failed), bytes});
+        return {};
+    }
+
+    void showWith(const Clip& clip, Film film)
     {
         const devices::TouchPlan plan = devices::touchPlan(clip);
         const auto milliseconds = [](double seconds)
@@ -386,10 +495,12 @@ public:
                            {"duration", clip.duration},
                            {"longest", devices::longestTouched.value},
                            {"leftOut", plan.leftOut},
+                           {"film", !film.path.empty()},
                            {"touches", std::move(touches)}};
         tell(std::make_shared<const std::string>(message.dump(-1, ' ', false, Json::error_handler_t::replace)),
-             [this](const Text& text)
+             [this, film = std::move(film)](const Text& text)
              {
+                 shown = film;
                  clipText = text;
                  playText.reset();
              });
@@ -449,6 +560,8 @@ private:
         return std::any_of(secrets.begin(), secrets.end(),
                            [&](const std::string& secret) { return isSameSecret(secret, given); });
     }
+
+    [[nodiscard]] const Film& film() const override { return shown; }
 
     [[nodiscard]] bool knows(std::string_view header) const override
     {
@@ -541,6 +654,7 @@ private:
     // Of the thread.
     std::deque<std::string> cookies, usedCodes;
     std::vector<std::shared_ptr<Phone>> connected;
+    Film shown;
     Text clipText, playText; ///< for phones that come later
     std::thread thread;
 };

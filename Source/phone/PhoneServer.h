@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <string>
 
@@ -35,10 +36,10 @@ inline constexpr std::size_t mostPhones = 64;
 [[nodiscard]] std::string refusalText(Refusal refusal);
 
 /// A page that vibrates, for browsers that have the pairing code: it is in the address, works once, and is then
-/// another. It is used up by a tap on the page that it opens, not by a preview of the link. Nothing else is served, and
-/// only the time of the phone's clock is accepted; unpaired phones are refused. The server runs on its own thread and
-/// ends with the object. Protocol: HTTP and WebSocket (RFC 9110, RFC 6455), not encrypted, so for networks that are
-/// trusted.
+/// another. It is used up by a tap on the page that it opens, not by a preview of the link. Nothing else is served but
+/// the film that is shown, and only the time of the phone's clock is accepted; unpaired phones are refused. The server
+/// runs on its own thread and ends with the object. Protocol: HTTP and WebSocket (RFC 9110, RFC 6455), not encrypted,
+/// so for networks that are trusted.
 class PhoneServer
 {
 public:
@@ -58,6 +59,10 @@ public:
 
     /// What is felt from now on; stops what is played. [message]
     virtual void show(const Clip& clip) = 0;
+
+    /// The same with a film, which the page of the phone shows: the clip is played in time with it. The file is read as
+    /// browsers ask for it. Errors: `io`, when it cannot be opened. [message]
+    [[nodiscard]] virtual Result<void> show(const Clip& clip, const std::filesystem::path& film) = 0;
 
     /// Says that the clip is played from here on, `from` s after its start, and that this began `ago`. [message]
     virtual void play(Seconds from, Seconds ago = Seconds(0.0)) = 0;

@@ -1,8 +1,10 @@
 """End to end: sounds of films, and of codecs that ffmpeg decodes."""
+import http.client
 import json
 import math
 import os
 import random
+import re
 import shutil
 import signal
 import struct
@@ -36,7 +38,8 @@ class FilmTest(CommandTest):
         self.put("sound.wav", wav(hits()))
 
     def ffmpeg(self, *arguments):
-        subprocess.run(["ffmpeg", "-nostdin", "-v", "error", "-y", *arguments], cwd=self.folder, check=True, timeout=120)
+        subprocess.run(["ffmpeg", "-nostdin", "-v", "error", "-y", *arguments], cwd=self.folder, check=True,
+                       timeout=120)
 
     def film(self, name, *options, before_picture=(), before_sound=(), sound="sound.wav"):
         """A film of 4 s; made of parts, since encoders undo what is to be tested."""
@@ -57,7 +60,7 @@ class FilmTest(CommandTest):
     def assertTimes(self, found, expected, within=0.006):
         self.assertEqual(len(found), len(expected), found)
         for one, other in zip(found, expected):
-            self.assertLess(abs(one - other), within, (found, self.name_read))
+            self.assertLess(abs(one - other), within, (found, getattr(self, "name_read", "")))
 
 
 class Films(FilmTest):
@@ -107,15 +110,16 @@ class Films(FilmTest):
 
     def test_the_default_track_is_read_with_a_word(self):
         self.put("other.wav", wav(hits((1.0,))))
-        self.ffmpeg("-i", "sound.wav", "-i", "other.wav", "-map", "0", "-map", "1", "-c:a", "aac", "-disposition:a:0", "0",
-                    "-disposition:a:1", "default", "-metadata:s:a:1", "language=eng", "two.m4a")
+        self.ffmpeg("-i", "sound.wav", "-i", "other.wav", "-map", "0", "-map", "1", "-c:a", "aac",
+                    "-disposition:a:0", "0", "-disposition:a:1", "default", "-metadata:s:a:1", "language=eng", "two.m4a")
         self.assertTimes(self.events("two.m4a"), [1.0])
         self.assertIn("warning: has 2 tracks of sound; the default one is read, track 2 (eng, mono)", self.said)
 
     def test_chapters_are_markers(self):
         self.put("chapters.txt", ";FFMETADATA1\n[CHAPTER]\nTIMEBASE=1/1000\nSTART=0\nEND=1500\ntitle=door\n"
                                  "[CHAPTER]\nTIMEBASE=1/1000\nSTART=1500\nEND=4000\ntitle=rain\n")
-        self.ffmpeg("-i", "sound.wav", "-i", "chapters.txt", "-map", "0:a", "-map_metadata", "1", "-c:a", "aac", "a.m4a")
+        self.ffmpeg("-i", "sound.wav", "-i", "chapters.txt", "-map", "0:a", "-map_metadata", "1", "-c:a", "aac",
+                    "a.m4a")
         self.events("a.m4a")
         self.assertEqual([(marker["time"], marker["name"]) for marker in self.clip_read["markers"]],
                          [(0, "door"), (1.5, "rain")])
@@ -173,6 +177,117 @@ class Films(FilmTest):
         a, b = (json.loads((self.folder / f"clips/{name}.json").read_text()) for name in "ab")
         self.assertEqual(a["bands"], b["bands"])
         self.fails(2, ["encode", "sound.wav", "-o", "x.mp4"], "has the extension of a sound")
+
+    def surround(self, name, **channels):
+        """A film's sound of six channels, silent but for those that are named."""
+        order = ("FL", "FR", "FC", "LFE", "BL", "BR")
+        inputs, panned = [], []
+        for role in order:
+            self.put(f"{role}.wav", wav(channels.get(role, [0.0] * 4 * RATE)))
+            inputs += ["-i", f"{role}.wav"]
+        joined = "".join(f"[{i}:a]" for i in range(6))
+        joined += "join=inputs=6:channel_layout=5.1:map=" + "|".join(f"{i}.0-{role}" for i, role in enumerate(order))
+        self.ffmpeg(*inputs, "-filter_complex", joined + "[all]", "-map", "[all]", "-c:a",
+                    "pcm_s16le" if name.endswith("wav") else "alac", name)
+
+    def level(self, at):
+        """Of the last clip's envelope there."""
+        points = self.clip_read["envelope"]
+        return max((point["amplitude"] for point in points if abs(point["time"] - at) < 0.3), default=0.0)
+
+    def test_the_channels_of_films_count_by_what_they_are(self):
+        for name in ("a.m4a", "a.wav"):  # a film, and a WAV with a map of its channels
+            self.surround(name, LFE=hits((0.5,), frequency=60), FC=hits((2.5,), frequency=60))
+            self.events(name)
+            self.assertEqual(self.said, "")
+            gain = 20 * math.log10(self.level(0.5) / self.level(2.5))
+            self.assertLess(abs(gain - 10), 1.5, (name, gain))
+            self.assertEqual(self.clip_read["source"]["channels"], 6)
+            self.assertEqual(len(self.events(name, "--without-centre")), 1)
+            self.assertLess(self.level(2.5), 0.01)
+            self.assertIs(self.clip_read["encoder"]["withoutCentre"], True)
+            self.report("encode", name, "-o", f"made {name}/")
+            again = self.report("encode", name, "-o", f"made {name}/", "--without-centre", "-y")
+            self.assertFalse(again["files"][0]["upToDate"])
+            again = self.report("encode", name, "-o", f"made {name}/", "--without-centre")
+            self.assertTrue(again["files"][0]["upToDate"])
+        self.events("sound.wav", "--without-centre")
+        self.assertIn("names no centre channel, so nothing is left out", self.said)
+
+    def test_films_are_cut_into_scenes_at_silences(self):
+        self.put("sound.wav", wav(hits((0.5, 11.5, 13, 25, 45), 50.0)))
+        self.film("film.mp4", "-c:a", "aac")
+        self.succeeds("encode", "film.mp4")
+        whole = json.loads((self.folder / "film.json").read_text())
+        self.succeeds("encode", "film.mp4", "-o", "film.ahap")
+        report = self.report("encode", "film.mp4", "-o", "clips/", "--scenes", "10")
+        scene = json.loads((self.folder / "clips/film.scene.json").read_text())
+        self.assertEqual(report["files"][0]["scenes"], len(scene["plays"]))
+        self.assertGreater(len(scene["plays"]), 2)
+        events, end = [], 0.0
+        for play, name in zip(scene["plays"], scene["clips"]):
+            part = json.loads((self.folder / "clips" / name).read_text())
+            self.assertGreaterEqual(part["duration"], 9.99)
+            self.assertAlmostEqual(play["start"], end, 2)
+            end = play["start"] + part["duration"]
+            events += [play["start"] + event["time"] for event in part["transients"]]
+        self.assertAlmostEqual(end, whole["duration"], 2)
+        self.assertTimes(events, [event["time"] for event in whole["transients"]], 0.002)
+        self.succeeds("render", "clips/film.scene.json", "-o", "scene.wav", "-q")
+        self.succeeds("render", "film.json", "-o", "whole.wav", "-q")
+        self.assertGreater(self.report("compare", "whole.wav", "scene.wav")["files"][0]["wideSnr"], 20)
+        # Again: the same; after an edit: not without a word; other formats too.
+        self.succeeds("encode", "film.mp4", "-o", "clips/", "--scenes", "10")
+        part = self.folder / "clips" / scene["clips"][1]
+        part.write_text(part.read_text().replace("film", "mine"))
+        self.fails(1, ["encode", "film.mp4", "-o", "clips/", "--scenes", "10"], "clips/film-0002.json", "exists")
+        self.assertIn("mine", part.read_text())
+        self.succeeds("encode", "film.mp4", "-o", "ios/", "--scenes", "10", "--format", "ahap")
+        self.assertTrue((self.folder / "ios/film-0001.ahap").exists())
+        self.succeeds("info", "ios/film.scene.json")
+        self.fails(2, ["encode", "film.mp4", "-o", "one.json", "--scenes", "10"], "name a folder")
+        self.fails(2, ["encode", "film.mp4", "--scenes", "10"], "name a folder")
+        self.fails(2, ["encode", "film.mp4", "-o", "x/", "--scenes", "10", "--method", "lowpass"], "--scenes")
+
+    def test_phones_get_the_film_in_parts(self):
+        self.film("film.mp4", "-c:a", "aac")
+        self.succeeds("encode", "film.mp4")
+        content = (self.folder / "film.mp4").read_bytes()
+        local = ("--address", "127.0.0.1")
+        self.fails(1, ["serve", "film.json", "--film", "none.mp4", *local], "pacini: none.mp4: cannot be read")
+        serving = subprocess.Popen([COMMAND, "serve", "film.json", "--film", "film.mp4", *local, "--json"],
+                                   cwd=self.folder, stdin=subprocess.PIPE, stdout=subprocess.DEVNULL,
+                                   stderr=subprocess.PIPE)
+        try:
+            line = serving.stderr.readline().decode()
+            place, code = re.search(r"http://([\d.:]+)(/\?code=\w+)", line).groups()
+
+            def ask(target, method="GET", **fields):
+                connection = http.client.HTTPConnection(place, timeout=20)
+                connection.request(method, target, headers=fields)
+                answer = connection.getresponse()
+                return answer, answer.read()
+
+            self.assertEqual(ask("/film")[0].status, 403)
+            cookie = ask(code, "POST")[0].getheader("Set-Cookie").split(";")[0]
+            for field, expected in (("bytes=0-", content[:1 << 20]), ("bytes=100-199", content[100:200]),
+                                    ("bytes=-50", content[-50:]), (f"bytes={len(content) - 1}-", content[-1:])):
+                answer, body = ask("/film", Cookie=cookie, Range=field)
+                self.assertEqual((answer.status, body), (206, expected), field)
+                first = content.rindex(expected) if field != "bytes=0-" else 0
+                self.assertEqual(answer.getheader("Content-Range"),
+                                 f"bytes {first}-{first + len(body) - 1}/{len(content)}")
+                self.assertEqual(answer.getheader("Content-Type"), "video/mp4")
+            for field in (f"bytes={len(content)}-", "bytes=5-4", "bytes=x-", "bytes=-", "bytes=0-1,5-6",
+                          "bytes=99999999999999999999-"):
+                self.assertEqual(ask("/film", Cookie=cookie, Range=field)[0].status, 416, field)
+            answer, body = ask("/film", Cookie=cookie)
+            self.assertEqual((answer.status, body), (200, content))
+            self.assertIn("media-src 'self'", answer.getheader("Content-Security-Policy"))
+            self.assertEqual(ask("/film.js", Cookie=cookie)[0].status, 200)
+        finally:
+            serving.terminate()
+            serving.communicate(timeout=20)
 
     def test_ffmpeg_ends_with_the_command(self):
         self.ffmpeg("-f", "lavfi", "-i", "anoisesrc=duration=3600:sample_rate=8000", "-c:a", "pcm_s16le", "long.mov")

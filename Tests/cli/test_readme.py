@@ -35,6 +35,13 @@ ELSEWHERE = {
                                                                                              '"--raw", "s16", "--rate"'),
     "pacini live --sound-input pulse:@DEFAULT_MONITOR@": ("Tests/hosts/check_live.py", "--sound-input"),
     "pacini serve door.json": ("Tests/web/check_phone.mjs", "['serve', "),
+    # Needs ffmpeg.
+    "pacini encode film.mp4": ("Tests/cli/test_films.py", 'self.succeeds("encode", "film.mp4")'),
+    "pacini encode film.mp4 -o film.ahap": ("Tests/cli/test_films.py", '"film.mp4", "-o", "film.ahap"'),
+    "pacini encode film.mp4 -o clips/ --scenes 10": ("Tests/cli/test_films.py", '"-o", "clips/", "--scenes", "10"'),
+    "pacini encode film.mp4 -o film.json --without-centre": ("Tests/cli/test_films.py", '"--without-centre"'),
+    "pacini render clips/film.scene.json": ("Tests/cli/test_films.py", '"render", "clips/film.scene.json"'),
+    "pacini serve film.json --film film.mp4": ("Tests/cli/test_films.py", '"serve", "film.json", "--film", "film.mp4"'),
     "bash cmake/bootstrap.sh web": ("Tests/web/check_web.py", "build/web"),
     "cmake --preset debug": ("CMakePresets.json", '"name": "debug"'),
     "cmake --preset asan-assertions": ("cmake/bootstrap.sh", "build asan-assertions"),

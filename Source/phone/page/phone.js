@@ -1,5 +1,6 @@
 // The phone: plays what the program at the other end plays, as near to its time as the clocks are known.
 
+import { atSpeed, follow } from './film.js'
 import { touchesOf, vibrateBy } from './vibration.js'
 
 const element = (id) => document.getElementById(id)
@@ -56,6 +57,10 @@ const connect = () => {
       element('clip').textContent = `${name}, ${duration.toFixed(2)} s${duration > longest ? ', of which the first hour is felt' : ''}` +
         (leftOut > 0 ? `; ${leftOut} ${leftOut === 1 ? 'event comes' : 'events come'} too soon after another for a phone` : '')
       element('alone').disabled = !canVibrate
+      if (message.film && !film.src) {
+        film.src = '/film'
+        film.hidden = false
+      }
     } else if (message.kind === 'play' && ready && canVibrate) {
       // At `at` of the other end's clock, `from` s of the clip were played there.
       const began = message.at - (offset ?? message.now - performance.now()) - 1000 * message.from
@@ -64,6 +69,13 @@ const connect = () => {
     else if (message.kind === 'full') goodbye = `${message.most} phones are connected already. Load this page again when one of them has left.`
   }
 }
+
+// A film that is shown here leads, and nothing else is played then.
+const film = element('film')
+follow(film, ({ now, speed }, signal) => {
+  stop()
+  if (canVibrate) vibrateBy(() => now() / speed, atSpeed(touches, speed), signal)
+})
 
 element('ready').addEventListener('click', () => {
   ready = !ready

@@ -56,7 +56,8 @@ SoundEncoderParams paramsOf(const EncodeOptions& options, ReadWarnings& warnings
         settings.encode.set(*parameter, value);
     SoundEncoderParams params;
     static_cast<TranslationParams&>(params) = takeNamed(translationOf(settings));
-    params.reading = {options.allowTruncated, options.allowNan};
+    params.reading.allowTruncated = options.allowTruncated;
+    params.reading.allowNan = options.allowNan;
     return params;
 }
 

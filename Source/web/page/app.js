@@ -8,6 +8,7 @@ import { startEditing } from './editing.js'
 import { withEdit } from './edits.js'
 import { connectController, describeFeel, feel, feelsNow } from './feel.js'
 import { guardNumber, guardSlider } from './fields.js'
+import { follow } from './film.js'
 import { firstPart } from './first-part.js'
 import { canAsk, remembered } from './hid.js'
 import { History } from './history.js'
@@ -149,6 +150,7 @@ const open = async (file, reading) => {
     }
     if (own !== opened) return
     opening = undefined
+    if (document.sound) showFilm() // a clip is put to the film that is shown
     await take(`Open ${file}`, { id: newId(), name, source: file, sound: document.sound, analysis: document.clip, edits: [], clip: document.clip })
     if (own === opened && !turned) say(said)
   } catch (error) {
@@ -522,6 +524,27 @@ const feelIt = () => playThat(async (how) => {
   element('feel-status').textContent = describeFeel()
 })
 
+// ---- film
+
+/** Shows a film, by whose clock the clip is felt whenever it plays; without one hides what was shown. */
+const showFilm = (file) => {
+  const film = element('film')
+  if (film.src) URL.revokeObjectURL(film.src)
+  film.hidden = !file
+  if (file) film.src = URL.createObjectURL(file)
+  else film.removeAttribute('src')
+}
+follow(element('film'), (clock, signal) => {
+  if (!view.clip || !feelsNow()) return
+  stop()
+  feel(view.clip, signal, (...parameters) => side.call(...parameters), clock).catch(complain)
+})
+/** What a person chose or dropped. */
+const openFile = async (file) => {
+  await open(file.name, file.arrayBuffer())
+  if (file.type.startsWith('video/')) showFilm(file)
+}
+
 const live = new Live(() => {
   element('live').setAttribute('aria-pressed', String(live.isOn))
   element('feel-status').textContent = !live.isOn ? describeFeel() : live.latency === 0 ? 'Waiting for the microphone...'
@@ -690,7 +713,7 @@ on('file', 'change', async ({ target }) => {
 const openAll = async (files) => {
   for (const [i, file] of files.entries()) {
     const own = opened + 1
-    await open(file.name, file.arrayBuffer()).catch(complain)
+    await openFile(file).catch(complain)
     if (own !== opened) return // something else was opened meanwhile
     if (files.length > 1) say(`${i + 1} of ${files.length} opened. The others are below "continue with".`)
   }

@@ -1,7 +1,8 @@
 // Touch: game controllers, and phones that vibrate.
 
+import { atSpeed } from './film.js'
 import { choose, chosen, isBluetooth, playReports } from './hid.js'
-import { touchesOf, vibrateBy } from './vibration.js'
+import { touchesOf, vibrateBy, wallClock } from './vibration.js'
 
 /** Controllers that rumble now. */
 export const rumbling = () => [...(navigator.getGamepads?.() ?? [])].filter((pad) => pad?.vibrationActuator)
@@ -24,30 +25,33 @@ export const describeFeel = () => {
 /** Asks for a controller that understands reports. */
 export const connectController = () => choose()
 
-/** Plays on what is there until it ends or `signal` stops it; whether there was anything. `call` calls the core. */
-export const feel = async (clip, signal, call) => {
+/**
+ * Plays on what is there until it ends or `signal` stops it; whether there was anything. `call` calls the core. `clock` is that of
+ * a film (see film.js), or begins when it is played.
+ */
+export const feel = async (clip, signal, call, clock) => {
   const controller = chosen()
   if (controller) {
     const { vendorId: vendor, productId: product } = controller
-    await playReports(controller, await call('reports', clip, { vendor, product, bluetooth: isBluetooth(controller) }), signal)
+    await playReports(controller, await call('reports', clip, { vendor, product, bluetooth: isBluetooth(controller) }), signal, clock)
     return true
   }
   const pads = rumbling()
   if (pads.length === 0) {
     if (typeof navigator.vibrate !== 'function') return false
     const { touches } = await call('touch', clip)
-    const started = performance.now()
-    await vibrateBy(() => (performance.now() - started) / 1000, touchesOf(touches), signal)
+    const { now, speed } = clock ?? wallClock()
+    await vibrateBy(() => now() / speed, atSpeed(touchesOf(touches), speed), signal)
     return true
   }
   const { motors, interval } = await call('rumble', clip)
   if (signal.aborted) return true
-  const started = performance.now()
+  const { now } = clock ?? wallClock()
   signal.addEventListener('abort', () => pads.forEach((pad) => pad.vibrationActuator.reset?.()), { once: true })
   let last = -1
   await new Promise((resolve) => {
     const tick = () => {
-      const index = Math.floor((performance.now() - started) / 1000 / interval)
+      const index = Math.floor(now() / interval)
       if (signal.aborted || 2 * index >= motors.length) return resolve()
       if (index !== last) {
         last = index

@@ -1,5 +1,7 @@
 // Game controllers by WebHID, with the bytes of the core: HD rumble of a Switch controller, DualSense, DualShock 4 and others.
 
+import { wallClock } from './vibration.js'
+
 // Vendors whose controllers the core knows: Nintendo, Sony, Valve. Those of Microsoft are no HID devices on a cable, and
 // browsers rumble them by themselves.
 const filters = [0x057e, 0x054c, 0x28de].map((vendorId) => ({ vendorId }))
@@ -44,13 +46,13 @@ const send = (controller, { bytes, feature }) => {
 }
 
 /** Sends `reports` at their times, until `signal` stops it; silences the controller whatever happens. */
-export const playReports = async (controller, { reports, stops }, signal) => {
+export const playReports = async (controller, { reports, stops }, signal, clock) => {
   if (!controller.opened) await controller.open()
-  const started = performance.now()
+  const { now, speed } = clock ?? wallClock()
   let counter = 0, done = false
   try {
-    for (const report of reports) {
-      const wait = 1000 * report.time - (performance.now() - started)
+    for (const report of clock ? reports.filter(({ time }) => time >= now()) : reports) {
+      const wait = 1000 * (report.time - now()) / speed
       if (wait > 1)
         await new Promise((resolve) => {
           const timer = setTimeout(resolve, wait)

@@ -1,7 +1,7 @@
 // The page without a network, after the first visit: what was fetched from its own place is kept and renewed.
 
-const cacheName = 'pacini-4'
-const first = ['./', 'index.html', 'style.css', 'app.js', 'core.js', 'curve.js', 'editing.js', 'edits.js', 'feel.js', 'fields.js', 'first-part.js', 'hid.js',
+const cacheName = 'pacini-5'
+const first = ['./', 'index.html', 'style.css', 'app.js', 'core.js', 'curve.js', 'editing.js', 'edits.js', 'feel.js', 'fields.js', 'film.js', 'first-part.js', 'hid.js',
   'figures.js', 'guide.html', 'guide.js', 'guide/list.js', 'history.js', 'kinds.js', 'lanes.js', 'live.js',
   'microphone.js', 'peaks.js', 'sound-player.js', 'store.js', 'vibration.js', 'worker.js', 'zip.js',
   'gallery/list.js', 'pacini/index.js', 'pacini/module.js', 'pacini/sound.js', 'pacini/presets.js', 'pacini/profiles.js', 'pacini/encode.wasm', 'pacini/render.wasm', 'pacini/formats.wasm',

@@ -24,11 +24,24 @@ export const patternAt = (touches, time) => {
   return { from, until: at, pattern }
 }
 
+/** A clock that begins now: `now()`, s, and its speed. */
+export const wallClock = () => {
+  const started = performance.now()
+  return { now: () => (performance.now() - started) / 1000, speed: 1 }
+}
+
 /** Waits, or until it is stopped. */
 export const rest = (milliseconds, signal) => new Promise((resolve) => {
   if (signal.aborted) return resolve()
-  const timer = setTimeout(resolve, milliseconds)
-  signal.addEventListener('abort', () => { clearTimeout(timer); resolve() }, { once: true })
+  const stop = () => {
+    clearTimeout(timer)
+    resolve()
+  }
+  const timer = setTimeout(() => {
+    signal.removeEventListener('abort', stop) // a film has thousands of these
+    resolve()
+  }, milliseconds)
+  signal.addEventListener('abort', stop, { once: true })
 })
 
 /** Vibrates as the clock `now()`, s, goes, until the end or until `signal` stops it. */
