@@ -103,7 +103,7 @@ TEST_CASE("A chain has the numbers of its body, with the suspension of its reson
     CHECK(chain.movingMass == 0.02);
     CHECK(chain.suspensionStiffness == Approx(0.02 * w * w).epsilon(1e-14));
     CHECK(chain.suspensionDamping == Approx(0.02 * w / 4.0).epsilon(1e-14));
-    CHECK(test::numbersOf(chain.deviceMass, chain.jointStiffness, chain.jointDamping, chain.skinMass,
+    CHECK(test::asNumbers(chain.deviceMass, chain.jointStiffness, chain.jointDamping, chain.skinMass,
                           chain.skinStiffness, chain.skinDamping) == test::Numbers{0.3, 4e4, 5.0, 0.6, 700.0, 8.0});
     CHECK(chain.jointFrequency().value == Approx(std::sqrt(4e4 * (1.0 / 0.3 + 1.0 / 0.6)) / (2.0 * std::numbers::pi)));
 

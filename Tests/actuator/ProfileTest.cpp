@@ -366,7 +366,7 @@ TEST_CASE("A new profile has the numbers that its fields state", "[actuator]")
     const Profile profile;
     CHECK(profile.name.empty());
     CHECK(profile.technology == Technology::pcm);
-    CHECK(test::numbersOf(profile.resonance.frequency, profile.resonance.q, profile.range.lowFrequency,
+    CHECK(test::asNumbers(profile.resonance.frequency, profile.resonance.q, profile.range.lowFrequency,
                           profile.range.highFrequency,
                           profile.range.dynamicRange) == test::Numbers{67.0, 1.0, 20.0, 1000.0, 60.0});
     CHECK(profile.response == ActuatorResponse{0.0, 0.0});

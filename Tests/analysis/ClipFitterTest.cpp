@@ -277,7 +277,7 @@ TEST_CASE("The record of an encoder has what is not the default, and what older 
     EncoderParams params;
     params.onsets.sensitivity = 2.0;
     CHECK(names(params) == "method bands breakpoints quantise sensitivity audible heard ");
-    CHECK(test::numbersOf(params.bands, params.lowFrequency, params.highFrequency, params.breakpoints, params.quantise,
+    CHECK(test::asNumbers(params.bands, params.lowFrequency, params.highFrequency, params.breakpoints, params.quantise,
                           params.normalise) == test::Numbers{12, 30.0, 1000.0, 20.0, 6, true});
 }
 

@@ -220,7 +220,7 @@ TEST_CASE("Envelopes of bursts are what they were, with steady and with adaptive
                 checkPinned(name + ", start", std::span<const double>(envelope).first(20));
             }
     const EnvelopeFollowerParams usual;
-    CHECK(test::numbersOf(usual.attack.value, usual.hold.value, usual.release.value, usual.crestMemory.value,
+    CHECK(test::asNumbers(usual.attack.value, usual.hold.value, usual.release.value, usual.crestMemory.value,
                           usual.crestAdaptive) == test::Numbers{0.001, 0.010, 0.020, 0.200, false});
     CHECK(EnvelopeFollowerCoefficients{} == EnvelopeFollowerCoefficients{0.0, 0.0, 0, 0.0, 0.0, 0.0});
     const auto longest =

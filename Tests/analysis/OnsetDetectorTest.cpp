@@ -383,7 +383,7 @@ TEST_CASE("Louder neighbours mask by level, distance and salience", "[analysis][
 TEST_CASE("The parameters of onset detection are those that were set on drums", "[analysis][onsets]")
 {
     const OnsetParams usual;
-    CHECK(test::numbersOf(usual.sensitivity, usual.minimumGap.value, usual.maskMargin.value, usual.maskSlope,
+    CHECK(test::asNumbers(usual.sensitivity, usual.minimumGap.value, usual.maskMargin.value, usual.maskSlope,
                           usual.maskRecovery, usual.maskLimit.value,
                           usual.silence.value) == test::Numbers{1.0, 0.010, 8.0, 0.06, 20.0, 27.0, -90.0});
     CHECK(Onset{} == Onset{0.0, 0.0, 0.0, 0.0, 0.0});

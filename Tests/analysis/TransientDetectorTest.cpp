@@ -348,12 +348,12 @@ TEST_CASE("The parameters of transient detection are the documented ones", "[ana
     CHECK(usual.minimumDistance.value == 0.010);
     CHECK(usual.minimumAmplitude == 0.05);
     CHECK(usual.score.reading == TransientScoreReading::absolute);
-    CHECK(test::numbersOf(usual.score.floor, usual.score.fastAttack.value, usual.score.slowAttack.value,
+    CHECK(test::asNumbers(usual.score.floor, usual.score.fastAttack.value, usual.score.slowAttack.value,
                           usual.score.hold.value,
                           usual.score.release.value) == test::Numbers{0.03, 0.001, 0.030, 0.016, 0.100});
     const auto relative = relativeTransientParams();
     CHECK(relative.score.reading == TransientScoreReading::relative);
-    CHECK(test::numbersOf(relative.score.fastAttack.value, relative.score.slowAttack.value, relative.score.hold.value,
+    CHECK(test::asNumbers(relative.score.fastAttack.value, relative.score.slowAttack.value, relative.score.hold.value,
                           relative.score.release.value, relative.threshold, relative.minimumWindow.value,
                           relative.minimumDistance.value) ==
           test::Numbers{0.0005, 0.020, 0.005, 0.010, 2.0, 0.002, 0.008});

@@ -127,7 +127,7 @@ TEST_CASE("Segments cover signals on their grid, in one piece or with their over
     CHECK(many.segments()[1].localIndex(100) == 30);
     CHECK(many.segments()[1].localIndex(100, 10) == 3);
     const SegmentationParams usual;
-    CHECK(test::numbersOf(usual.quantum, usual.lead, usual.padding, usual.overlap, usual.longestCore) ==
+    CHECK(test::asNumbers(usual.quantum, usual.lead, usual.padding, usual.overlap, usual.longestCore) ==
           test::Numbers{1, 0, 0, 0, 1});
     CHECK(Segment{}.begin == 0);
     CHECK(Segment{}.coreBegin == 0);

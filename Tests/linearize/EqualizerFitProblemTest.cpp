@@ -211,9 +211,9 @@ TEST_CASE("A problem has the points in the range, their weights and the bounds o
     REQUIRE(problem.allPoints() == problem.fixed.size());
 
     const EqualizerFitProblem empty;
-    CHECK(test::numbersOf(empty.fs, empty.maxBoost, empty.boostOutside, empty.shelves, empty.lowestFrequency) ==
+    CHECK(test::asNumbers(empty.fs, empty.maxBoost, empty.boostOutside, empty.shelves, empty.lowestFrequency) ==
           test::Numbers{48000.0, 12.0, false, true, 1.0});
-    CHECK(test::numbersOf(empty.highestFrequency, empty.lowestQ, empty.highestQ, empty.dropouts, empty.noise) ==
+    CHECK(test::asNumbers(empty.highestFrequency, empty.lowestQ, empty.highestQ, empty.dropouts, empty.noise) ==
           test::Numbers{20000.0, 0.1, 60.0, 0, 0.0});
     CHECK(empty.outlier == std::numeric_limits<double>::infinity());
 

@@ -291,7 +291,7 @@ TEST_CASE("Parameters of a fit may be at the ends of their ranges but not beyond
     CHECK(defaults.goalMax == 2.0);
     const EqualizerFit none;
     CHECK(none.sections.empty());
-    CHECK(test::numbersOf(none.rms, none.max, none.level, none.boost) == test::Numbers{0.0, 0.0, 0.0, 0.0});
-    CHECK(test::numbersOf(none.points, none.dropouts, none.iterations, none.reachedGoal) ==
+    CHECK(test::asNumbers(none.rms, none.max, none.level, none.boost) == test::Numbers{0.0, 0.0, 0.0, 0.0});
+    CHECK(test::asNumbers(none.points, none.dropouts, none.iterations, none.reachedGoal) ==
           test::Numbers{0, 0, 0, false});
 }

@@ -45,7 +45,7 @@ TEST_CASE("A measurement takes the place of what the profile said, with its sour
     const FrequencyResponse response{{20.0, 60.0, 300.0}, {-10.0, 4.0, 1.5}};
     setMeasurement(profile, response, someFindings(), 7, -6.5);
 
-    CHECK(test::numbersOf(profile.resonance.frequency, profile.resonance.q, profile.range.lowFrequency,
+    CHECK(test::asNumbers(profile.resonance.frequency, profile.resonance.q, profile.range.lowFrequency,
                           profile.range.highFrequency, profile.response.riseTime,
                           profile.response.fallTime) == test::Numbers{71.0, 3.5, 25.0, 900.0, 0.011, 0.022});
     CHECK_FALSE(profile.body.has_value());
@@ -88,7 +88,7 @@ TEST_CASE("What was measured beyond what a profile may hold is moved to its ends
     findings.times = ActuatorResponse{3.0, 1.9};
     Profile profile;
     setMeasurement(profile, {{20.0}, {0.0}}, findings, 3, 0.0);
-    CHECK(test::numbersOf(profile.resonance.frequency, profile.resonance.q, profile.range.lowFrequency,
+    CHECK(test::asNumbers(profile.resonance.frequency, profile.resonance.q, profile.range.lowFrequency,
                           profile.range.highFrequency, profile.response.riseTime,
                           profile.response.fallTime) == test::Numbers{1.0, 100.0, 1.0, 20000.0, 2.0, 1.9});
     findings.features.resonance = {30000.0, 0.001};

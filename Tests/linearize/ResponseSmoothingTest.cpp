@@ -242,9 +242,9 @@ TEST_CASE("Parameters of an analysis may be at the ends of their ranges but not 
     const MeasurementParams defaults;
     CHECK(defaults.fullScale == std::vector<double>{1.0});
     CHECK(defaults.smoothing == 1.0 / 12.0);
-    CHECK(test::numbersOf(defaults.points, defaults.lowFrequency, defaults.highFrequency, defaults.harmonics) ==
+    CHECK(test::asNumbers(defaults.points, defaults.lowFrequency, defaults.highFrequency, defaults.harmonics) ==
           test::Numbers{240, 1.0, 200000.0, 5});
-    CHECK(test::numbersOf(defaults.driftWarning, defaults.driftLimit, defaults.wantedSnr, defaults.equalized) ==
+    CHECK(test::asNumbers(defaults.driftWarning, defaults.driftLimit, defaults.wantedSnr, defaults.equalized) ==
           test::Numbers{20.0, 2000.0, 10.0, false});
 }
 

@@ -57,7 +57,7 @@ TEST_CASE("The rig is by default a wristband with three axes of 12 bits and a cl
     CHECK(rig.polynomial == std::vector<double>{0.0, 1.0});
     CHECK(rig.range == Approx(5.0 * 9.80665));
     CHECK(rig.noiseDensity == Approx(250e-6 * 9.80665));
-    CHECK(test::numbersOf(rig.bits, rig.axes, rig.latency, rig.driftPpm, rig.tail, rig.seed, rig.sampleRate) ==
+    CHECK(test::asNumbers(rig.bits, rig.axes, rig.latency, rig.driftPpm, rig.tail, rig.seed, rig.sampleRate) ==
           test::Numbers{12, 3, 0.0123456, 50.0, 0.5, 1, 48000.0});
 }
 

@@ -202,6 +202,6 @@ TEST_CASE("Fits of a resonance are those that they were", "[linearize]")
     CHECK(fitResonance(few, 50.1, 70.0).error().message == "has fewer than 8 points in the range of the resonance");
     CHECK(fitResonance(few, 50.0, 69.9).error().code == ErrorCode::truncated);
     const ResonanceModel usual;
-    CHECK(test::numbersOf(usual.frequency, usual.q, usual.gain, usual.slope, usual.error) ==
+    CHECK(test::asNumbers(usual.frequency, usual.q, usual.gain, usual.slope, usual.error) ==
           test::Numbers{67.0, 1.0, 0.0, 2, 0.0});
 }

@@ -230,7 +230,7 @@ TEST_CASE("Sweep parameters may be at the ends of their ranges but not beyond", 
                   p.duration = 599.1, p.levels = {0.0, -10.0}, p.repeats = 6;
               }) == "repeats: all sweeps together last more than two hours");
     const SweepParams defaults;
-    CHECK(test::numbersOf(defaults.lowFrequency, defaults.highFrequency, defaults.duration, defaults.fadeIn,
+    CHECK(test::asNumbers(defaults.lowFrequency, defaults.highFrequency, defaults.duration, defaults.fadeIn,
                           defaults.fadeOut, defaults.repeats,
                           defaults.pause) == test::Numbers{10.0, 1500.0, 20.0, 0.1, 0.02, 1, 1.0});
     CHECK(defaults.levels == std::vector<double>{-10.0});

@@ -326,9 +326,9 @@ TEST_CASE("live parameters begin with what is documented", "[realtime]")
     CHECK(p.rumble == RoleParams{0.0, false});
     CHECK(p.texture == RoleParams{0.0, false});
     CHECK(p.transients == RoleParams{0.0, false});
-    CHECK(test::numbersOf(p.brightness, p.transposition, p.direct, p.attack, p.release) ==
+    CHECK(test::asNumbers(p.brightness, p.transposition, p.direct, p.attack, p.release) ==
           test::Numbers{-6.0, 0.0, 1.0, 1.0, 8.0});
-    CHECK(test::numbersOf(p.transientSensitivity, p.transientSharpness, p.gateThreshold, p.gateRelease, p.bypass) ==
+    CHECK(test::asNumbers(p.transientSensitivity, p.transientSharpness, p.gateThreshold, p.gateRelease, p.bypass) ==
           test::Numbers{0.5, 0.0, -75.0, 60.0, false});
 }
 
@@ -351,7 +351,7 @@ TEST_CASE("meters show what was written last", "[realtime]")
     const double silence = -std::numeric_limits<double>::infinity();
     TranslatorMeters meters;
     const auto fresh = meters.read();
-    CHECK(test::numbersOf(fresh.bands, fresh.events, fresh.lastEventFrame, fresh.lastEventLevel, fresh.outputPeak,
+    CHECK(test::asNumbers(fresh.bands, fresh.events, fresh.lastEventFrame, fresh.lastEventLevel, fresh.outputPeak,
                           fresh.gainReduction) == test::Numbers{0, 0, 0, 0.0, 0.0, 0.0});
     CHECK(fresh.overThreshold == silence);
     meters.setOutput(1.0, 0.0);
@@ -370,7 +370,7 @@ TEST_CASE("meters show what was written last", "[realtime]")
     CHECK(reading.bandLevels[0] == Approx(0.0).margin(1e-6));
     CHECK(reading.bandLevels[1] == Approx(-20.0).epsilon(1e-6));
     CHECK(reading.bandLevels[2] == silence);
-    CHECK(test::numbersOf(reading.bandLevels[3], reading.events, reading.lastEventFrame, reading.lastEventLevel,
+    CHECK(test::asNumbers(reading.bandLevels[3], reading.events, reading.lastEventFrame, reading.lastEventLevel,
                           reading.outputPeak,
                           reading.gainReduction) == test::Numbers{0.0, 2, 6000000000u, 0.25, 0.5, 3.25});
     CHECK(reading.overThreshold == Approx(42.0 - 6.0206).epsilon(1e-5));
@@ -380,6 +380,6 @@ TEST_CASE("meters show what was written last", "[realtime]")
     CHECK(after.bands == 3); // of the set-up, which stays
     for (std::size_t k = 0; k < 3; ++k)
         CHECK(after.bandLevels[k] == silence);
-    CHECK(test::numbersOf(after.events, after.lastEventFrame, after.lastEventLevel, after.outputPeak,
+    CHECK(test::asNumbers(after.events, after.lastEventFrame, after.lastEventLevel, after.outputPeak,
                           after.gainReduction) == test::Numbers{0, 0, 0.0, 0.0, 0.0});
 }

@@ -476,7 +476,7 @@ TEST_CASE("parameters outside their ranges count as the nearest end, those that 
     params.gateThreshold = nan;
     params.transientSensitivity = nan;
     const auto valid = clamped(params);
-    CHECK(test::numbersOf(valid.inputGain, valid.intensity, valid.transposition, valid.direct, valid.attack) ==
+    CHECK(test::asNumbers(valid.inputGain, valid.intensity, valid.transposition, valid.direct, valid.attack) ==
           test::Numbers{48.0, 0.0, 0.0, 0.0, 0.0});
     struct Range
     {

@@ -11,7 +11,7 @@ using Numbers = std::vector<double>;
 
 /// `values` as numbers; false is 0, true 1.
 template <typename... Values>
-[[nodiscard]] Numbers numbersOf(Values... values)
+[[nodiscard]] Numbers asNumbers(Values... values)
 {
     return {static_cast<double>(values)...};
 }

@@ -270,7 +270,7 @@ TEST_CASE("A play is decoded with its pitch, speed and seed, at a rate for all i
     REQUIRE(plan.ok());
     REQUIRE(plan->plays.size() == 1);
     const DecoderParams& decoder = plan->plays[0].decoder;
-    CHECK(test::numbersOf(decoder.sampleRate, decoder.transposition, decoder.stretch, decoder.variation.seed,
+    CHECK(test::asNumbers(decoder.sampleRate, decoder.transposition, decoder.stretch, decoder.variation.seed,
                           decoder.variation.amount) == test::Numbers{8000.0, 3.0, 1.5, 17, 0.0});
     CHECK(decoder.carriers == CarrierMode::pitch);
     CHECK(decoder.reach == 650.0);

@@ -62,9 +62,9 @@ TEST_CASE("What a decoder does unless told otherwise", "[synthesis]")
     const DecoderParams params;
     CHECK(params.sampleRate == 48000.0);
     CHECK(params.carriers == CarrierMode::pitch);
-    CHECK(test::numbersOf(params.followEnvelope, params.fullRate, params.transposition, params.stretch) ==
+    CHECK(test::asNumbers(params.followEnvelope, params.fullRate, params.transposition, params.stretch) ==
           test::Numbers{true, false, 0.0, 1.0});
-    CHECK(test::numbersOf(params.gain, params.delay, params.headroom, params.reach) ==
+    CHECK(test::asNumbers(params.gain, params.delay, params.headroom, params.reach) ==
           test::Numbers{1.0, 0.0, 0.0, 0.0});
     const DecoderReport report;
     CHECK(report.innerRate == 0.0);

@@ -56,9 +56,9 @@ TEST_CASE("What a scene, a play and a change are unless told otherwise", "[scene
     CHECK(scene.panLaw == PanLaw::constantPower);
     CHECK(scene.panDelay == 0.01);
     const ScenePlay play;
-    CHECK(test::numbersOf(play.clip, play.start, play.loop, play.passes, play.gain, play.pan, play.transposition) ==
+    CHECK(test::asNumbers(play.clip, play.start, play.loop, play.passes, play.gain, play.pan, play.transposition) ==
           test::Numbers{0, 0.0, 0.0, 0, 0.0, 0.5, 0.0});
-    CHECK(test::numbersOf(play.stretch, play.tones, play.events, play.noise, play.priority, play.variation.amount) ==
+    CHECK(test::asNumbers(play.stretch, play.tones, play.events, play.noise, play.priority, play.variation.amount) ==
           test::Numbers{1.0, 0.0, 0.0, 0.0, 0, 0.0});
     CHECK(play.variation.scope == VariationScope::breakpoint);
     CHECK(play.variation.seed == 0);

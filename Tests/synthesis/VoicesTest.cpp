@@ -79,7 +79,7 @@ TEST_CASE("Voices are served by priority, then power, then index, as far as they
     // Of equals the first.
     CHECK(voiceLosses(std::vector<VoiceClaim>(2, {0.0, 1.0, 1, 0, 0.5}), 1) == std::vector<Losses>{{}, all});
     const VoiceClaim usual;
-    CHECK(test::numbersOf(usual.from, usual.to, usual.voices, usual.priority, usual.power) ==
+    CHECK(test::asNumbers(usual.from, usual.to, usual.voices, usual.priority, usual.power) ==
           test::Numbers{0.0, 0.0, 1, 0, 0.0});
     const VoiceLoss none;
     CHECK(none.from == 0.0);

@@ -309,11 +309,11 @@ TEST_CASE("Parameters of methods have the defaults of their sources", "[methods]
     CHECK(ThirdOctaveVocoderParams{}.range.low.value == 5.0);
     CHECK(std::isinf(ThirdOctaveVocoderParams{}.range.high.value));
     const CentroidFlatnessParams flat;
-    CHECK(test::numbersOf(flat.range.low.value, flat.lowCentroid.value, flat.highCentroid.value, flat.lowPitch.value,
+    CHECK(test::asNumbers(flat.range.low.value, flat.lowCentroid.value, flat.highCentroid.value, flat.lowPitch.value,
                           flat.highPitch.value,
                           flat.highestPartial.value) == test::Numbers{5.0, 100.0, 10e3, 40.0, 400.0, 1e3});
     const MethodCurveParams curves;
-    CHECK(test::numbersOf(curves.follower.attack.value, curves.follower.hold.value, curves.follower.release.value,
+    CHECK(test::asNumbers(curves.follower.attack.value, curves.follower.hold.value, curves.follower.release.value,
                           curves.trackRate.value,
                           curves.breakpoints) == test::Numbers{0.002, 0.010, 0.030, 1000.0, 20.0});
     CHECK(BandLimitParams{}.low.value == 5.0);

@@ -732,7 +732,7 @@ TEST_CASE("AHAP: what is out of range is limited, refused or left out in these w
              control("HapticIntensityControl", "0.75", "0") + "," + control("HapticSharpnessControl", "0.5", "0.25") +
              "," + event("HapticContinuous", "1.25", "0.25", parameter("HapticIntensity", "0.5"))));
     REQUIRE(stepped.clip.bands.size() == 1);
-    CHECK(test::numbersOf(stepped.clip.bands[0].lowFrequency, stepped.clip.bands[0].centreFrequency,
+    CHECK(test::asNumbers(stepped.clip.bands[0].lowFrequency, stepped.clip.bands[0].centreFrequency,
                           stepped.clip.bands[0].highFrequency, stepped.clip.bands[0].priority,
                           stepped.clip.duration) == test::Numbers{65.0, 182.5, 300.0, 0, 1.5});
     const Curve& amplitude = stepped.clip.bands[0].amplitude;
