@@ -677,7 +677,7 @@ extern "C"
         case PACINI_STALE:
             return "a handle is not in use (any more)";
         case PACINI_BAD_DATA:
-            return "this is no clip, scene or profile";
+            return "this is not a clip, scene or profile";
         case PACINI_NEWER:
             return "this was written by a newer version";
         case PACINI_TOO_MANY:

@@ -53,7 +53,7 @@ Result<std::vector<MeasuredLatency>> readLatencies(const std::filesystem::path& 
 Result<std::vector<MeasuredLatency>> latenciesOfText(std::string_view text)
 {
     const auto document =
-        readJsonObject(text, largestLatencyFile, "is no list of measured delays, which is a JSON object");
+        readJsonObject(text, largestLatencyFile, "is not a list of measured delays, as it is not a JSON object");
     if (!document)
         return document.error();
     FieldsReader reader(*document);

@@ -76,9 +76,8 @@ Record recordOf(const Json& line)
 Result<SessionHead> headOf(const Json& line, std::string_view where)
 {
     if (valueOr(line, "format", std::string()) != sessionFormatName)
-        return Error{
-            ErrorCode::invalidData, std::string(where),
-            fmt::format("is no session of a study, whose first line has \"format\": \"{}\"", sessionFormatName)};
+        return Error{ErrorCode::invalidData, std::string(where),
+                     fmt::format("is not a session of a study: \"format\" must be \"{}\"", sessionFormatName)};
     if (const int version = valueOr(line, "version", 0); version > sessionFormatVersion)
         return Error{ErrorCode::unsupportedVersion, std::string(where),
                      fmt::format("was written by a newer version ({}) of the format; this program reads version {}",
@@ -162,7 +161,7 @@ Result<LoggedSession> sessionOfText(std::string_view text)
         const std::string where = fmt::format("line {}", ++number);
         const auto line = readJsonTree(text.substr(start, end - start), largestLine);
         if (!line || !line->is_object())
-            return Error{ErrorCode::invalidData, where, line ? "is no JSON object" : line.error().text()};
+            return Error{ErrorCode::invalidData, where, line ? "is not a JSON object" : line.error().text()};
         const std::string type = valueOr(*line, "type", std::string());
         if (number == 1)
         {
@@ -184,7 +183,7 @@ Result<LoggedSession> sessionOfText(std::string_view text)
         session.goodBytes = start;
     }
     if (number == 0)
-        return Error{ErrorCode::invalidData, "", "is no session of a study: it has no line"};
+        return Error{ErrorCode::invalidData, "", "is not a session of a study: it is empty"};
     return session;
 }
 

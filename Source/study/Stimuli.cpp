@@ -257,9 +257,9 @@ std::optional<Error> StimulusMaker::calibrate(std::vector<float>& touch, const S
         return Error{ErrorCode::invalidArgument, name, std::move(message)};
     };
     if (!settings.profile)
-        return problem("needs the profile of the actuator, which tells what is felt of it");
+        return problem("needs the profile of the actuator, to know what is felt");
     if (stimulus.acceleration && !feltModelParams(*settings.profile))
-        return problem("needs a profile with a body, which tells the acceleration that is felt");
+        return problem("needs a profile with a body, to know the felt acceleration");
     const double wanted =
         stimulus.sensationLevel
             ? Decibels(*stimulus.sensationLevel - settings.profile->range.dynamicRange + stimulus.touchLevel).gain()

@@ -89,7 +89,7 @@ void checkStimulus(Rules& rules, const Stimulus& stimulus, const std::string& wh
     }
     rules.that(
         stimulus.method.empty() || methodNamed(stimulus.method), where + ".method",
-        fmt::format("is '{}', which is no translation method; see pacini help methods", shownText(stimulus.method)));
+        fmt::format("'{}' is not a translation method; see pacini encode --list-methods", shownText(stimulus.method)));
     if (stimulus.bands)
         rules.range(*stimulus.bands, 1.0, 32.0, where + ".bands");
     if (stimulus.breakpoints)
@@ -186,7 +186,7 @@ Result<void> validate(const Study& study)
 
 Result<Study> readStudyJson(std::string_view text, ReadWarnings* warnings)
 {
-    const auto document = readJsonObject(text, largestStudyText, "is no study, which is a JSON object");
+    const auto document = readJsonObject(text, largestStudyText, "is not a study, as it is not a JSON object");
     if (!document)
         return document.error();
     FieldsReader reader(*document, warnings);

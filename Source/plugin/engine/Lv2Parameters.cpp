@@ -185,7 +185,7 @@ Result<std::string> describeLv2Parameters(std::string_view turtle)
         const auto row = std::find_if(parameterTable.begin(), parameterTable.end(),
                                       [id](const ParameterRow& each) { return id == each.id; });
         if (row == parameterTable.end())
-            return Error{ErrorCode::invalidData, std::string(id), "is no parameter of the plugin"};
+            return Error{ErrorCode::invalidData, std::string(id), "is not a parameter of the plugin"};
         found[static_cast<std::size_t>(row->parameter)] = true;
     }
     // One gap whatever stood here, so that what is described again stays as it is.

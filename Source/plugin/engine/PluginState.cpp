@@ -54,7 +54,7 @@ void readValues(const Json& named, ParameterValues& values, std::string& note)
         }
         if (!found->is_number() || !std::isfinite(found->get<double>()))
         {
-            addNote(note, std::string(row.name) + " is no number and has its default");
+            addNote(note, std::string(row.name) + " is not a number; the default is used");
             continue;
         }
         const double value = clampTo(found->get<double>(), row.low, row.high);
@@ -130,7 +130,7 @@ Result<ReadState> readState(std::string_view text)
     if (!tree)
         return tree.error();
     if (!tree->is_object() || tree->value("format", Json()) != Json(stateFormatName))
-        return Error{ErrorCode::invalidData, "format", "is no state of Pacini's plugin"};
+        return Error{ErrorCode::invalidData, "format", "is not a state of Pacini's plugin"};
     const auto version = tree->find("version");
     if (version == tree->end() || !version->is_number() || !(version->get<double>() >= 1.0))
         return Error{ErrorCode::invalidData, "version", "is missing or no version"};

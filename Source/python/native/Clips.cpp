@@ -194,7 +194,7 @@ const ClipFormat& formatNamed(const std::string& name)
     const ClipFormat* format = clipFormatNamed(name);
     if (format == nullptr || !format->isWritten())
         raise({ErrorCode::invalidArgument, "format",
-               format == nullptr ? "is none of those that pacini.formats() lists" : "is read, but not written"});
+               format == nullptr ? "is not a format; pacini.formats() lists them" : "is read, but not written"});
     return *format;
 }
 

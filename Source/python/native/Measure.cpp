@@ -130,7 +130,7 @@ nb::object simulate(const SoundArray& array, double rate, const ProfileHandle& p
                                         [](float sample) { return !areWithinLimit(std::span(&sample, 1)); });
         wrong != played.end())
         raise({ErrorCode::notFinite, "sound[" + std::to_string(wrong - played.begin()) + "]",
-               "is no number, or far beyond full scale"});
+               "is not a number, or is far beyond full scale"});
     auto recorded = abandonable([samples = std::move(played), rig] { return recordOnRig(samples, rig); });
     const std::size_t channels = recorded.size();
     const std::size_t frames = recorded.front().size();

@@ -110,7 +110,7 @@ ClipLoader loaderOf(const std::vector<ClipHandle>& clips)
         {
         }
         if (index >= clips.size())
-            return Error{ErrorCode::invalidData, "", "is none of the clips"};
+            return Error{ErrorCode::invalidData, "", "is not one of the clips"};
         return clips[index].clip();
     };
 }

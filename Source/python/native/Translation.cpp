@@ -53,7 +53,7 @@ void set(TranslatorParams& params, const std::string& name, nb::handle value)
         parameter.set(params, number);
         return;
     }
-    raise({ErrorCode::invalidArgument, name, "is no parameter of the translator" + meantText(name, names)});
+    raise({ErrorCode::invalidArgument, name, "is not a parameter of the translator" + meantText(name, names)});
 }
 
 /// A translator with its parameters, for creating it again. One thread at a time; others wait.

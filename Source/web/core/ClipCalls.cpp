@@ -33,7 +33,7 @@ Result<ExportedClip> exported(Call& call)
     const ClipFormat* format = clipFormatNamed(name);
     if (format == nullptr || !format->isWritten())
         return Error{ErrorCode::invalidArgument, "format",
-                     fmt::format("'{}' is no format that is written; formats() lists them", name)};
+                     fmt::format("'{}' is not a format that can be written; formats() lists them", name)};
     GivenParameters given;
     readParameters(call.reader, exportParameterInfos(), given);
     const std::string title = call.word("name", "");

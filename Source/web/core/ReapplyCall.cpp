@@ -23,7 +23,10 @@ struct EditReader : FieldsReader
 {
     using FieldsReader::FieldsReader;
 
-    void clip(const char* name, ClipPointer&) { fail(name, "is a clip within an edit, which is not taken in here"); }
+    void clip(const char* name, ClipPointer&)
+    {
+        fail(name, "is a clip within an edit; such edits are not supported here");
+    }
 };
 
 struct EditWriter : FieldsWriter

@@ -24,7 +24,7 @@ Result<Scene> sceneOfInputs(const Call& call, std::size_t firstClip)
         char* end = nullptr;
         const auto index = static_cast<std::size_t>(std::strtoul(file.c_str(), &end, 10));
         if (file.empty() || *end != '\0' || firstClip + index >= call.inputs())
-            return Error{ErrorCode::invalidData, "", "is none of the clips"};
+            return Error{ErrorCode::invalidData, "", "is not one of the clips"};
         return clipOf(call, firstClip + index);
     };
     return readSceneJson(call.text(0), loader);

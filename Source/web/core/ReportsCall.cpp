@@ -79,7 +79,7 @@ Result<void> listReports(Call& call)
     const auto haptics = devices::controllerHaptics(maker, product);
     if (!haptics || *haptics == devices::ControllerHaptics::waveforms)
         return Error{ErrorCode::invalidArgument, fmt::format("{:04x}:{:04x}", maker, product),
-                     "is no controller whose reports are known"};
+                     "is not a controller with known reports"};
     const auto model = devices::usualModel(
         *haptics, devices::transportByProduct(*haptics, product)
                       .value_or(bluetooth ? devices::Transport::bluetooth : devices::Transport::usb));

@@ -53,7 +53,7 @@ public:
         for (std::size_t i = 0; i < samples.size(); ++i)
             if (!areWithinLimit(samples.subspan(i, 1)))
                 return Error{ErrorCode::notFinite, fmt::format("frame {}, channel {}", done + i / width, i % width),
-                             std::isfinite(samples[i]) ? "is far beyond full scale" : "is no finite number"};
+                             std::isfinite(samples[i]) ? "is far beyond full scale" : "is not a finite number"};
         done += got;
         return samples;
     }

@@ -69,7 +69,7 @@ public:
             XML_ParserCreate(nullptr), XML_ParserFree);
         parser = opened.get();
         if (parser == nullptr)
-            return Error{ErrorCode::io, "", "there is no memory to read it"};
+            return Error{ErrorCode::io, "", "out of memory"};
         XML_SetUserData(parser, this);
         XML_SetElementHandler(parser, start, end);
         // A document type could name entities that expand without end.

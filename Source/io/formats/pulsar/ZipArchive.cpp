@@ -20,7 +20,7 @@ Error damagedArchive(std::string_view message)
 
 Error noArchive()
 {
-    return {ErrorCode::io, "", "there is no memory for an archive"};
+    return {ErrorCode::io, "", "out of memory for the archive"};
 }
 } // namespace
 
