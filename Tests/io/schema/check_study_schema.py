@@ -26,7 +26,7 @@ BEYOND_SCHEMA = (
     "leaves nothing",
     "needs two at least",
     "too many for one page",
-    "no translation method",
+    "not a translation method",
 )
 # Ranges that hang on other members.
 PLACES_BEYOND_SCHEMA = (".adaptive.start", ".scale.step", "masking.highFrequency", ".tone.fade", ".adaptive.highest")
