@@ -57,7 +57,7 @@ using BenchRun = std::function<Exit(const BenchOptions&, Console&)>;
 [[nodiscard]] std::unique_ptr<Command> verifySubcommand();
 [[nodiscard]] std::unique_ptr<Command> simulateSubcommand();
 
-/// Those of `pacini study`.
+/// The steps of `pacini study`.
 [[nodiscard]] std::unique_ptr<Command> newStudySubcommand();
 [[nodiscard]] std::unique_ptr<Command> checkStudySubcommand();
 [[nodiscard]] std::unique_ptr<Command> simulateStudySubcommand();

@@ -21,8 +21,8 @@ struct CompareTask
     std::optional<InputFailure> failure;
 };
 
-/// Aligned columns of the pairs that have results, and the means of every column in the last row; "-" where a measure
-/// says nothing. The column of F1 is there when any pair has one.
+/// Aligned columns of the pairs that have results, and the means of every column in the last row; "-" for undefined
+/// measures. The column of F1 appears if any pair has one.
 [[nodiscard]] std::string compareTable(const std::vector<CompareTask>& tasks);
 
 /// All measures of one pair that has a result.

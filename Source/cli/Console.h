@@ -41,7 +41,7 @@ public:
     void beStrict() { strict = true; }
     [[nodiscard]] bool isStrict() const { return strict; }
 
-    /// From now on everything is collected for one JSON object, and no text goes to stdout.
+    /// Collects everything for one JSON object from now on; no text goes to stdout.
     void beJson(std::string command) { report.emplace(std::move(command)); }
 
     /// Whether text would not be seen, as a program asked.

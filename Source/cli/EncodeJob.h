@@ -67,7 +67,7 @@ private:
     using Path = std::filesystem::path;
     using Progress = std::function<void(double)>;
 
-    /// Where the result goes.
+    /// Target of the result.
     struct Target
     {
         const Path& output;

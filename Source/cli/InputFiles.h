@@ -58,9 +58,9 @@ struct OutputPlace
     bool named = false; ///< the user named this very file
 };
 
-/// Where the result for `input` goes: beside it when nothing is given; into the folder `given` when it is one, ends in
-/// a slash or several inputs were named; else to `given` itself. Folders are made as needed, if `makeFolders`. Errors:
-/// io.
+/// Returns the path of the result for `input`: beside it without a given output; in the given folder, if it is one,
+/// ends in a slash or several inputs were named; else the given path itself. Creates folders as needed, if
+/// `makeFolders`. Errors: io.
 [[nodiscard]] Result<OutputPlace> outputFor(const InputFile& input, const OutputNames& names, bool several,
                                             bool makeFolders = true);
 

@@ -21,7 +21,7 @@ class JsonReport
 public:
     using Json = nlohmann::ordered_json;
 
-    /// Version of the shape: it changes when a program that reads reports would have to.
+    /// Version of the structure. It changes when programs that read reports have to change.
     static constexpr int version = 1;
 
     /// `command` is the command as typed, such as "measure fit"; empty if none was given.
@@ -34,7 +34,7 @@ public:
     void addFailure(std::string_view input, const Error& error);
     void addWarning(std::string_view input, std::string_view message);
 
-    /// All of it; failures and warnings in order of their input, whichever thread came first.
+    /// The whole report; failures and warnings in order of their input, independent of threads.
     [[nodiscard]] std::string text(bool ok) const;
 
 private:

@@ -59,7 +59,7 @@ template <typename Integer>
     return wholeNumberFrom(std::uint64_t(0), std::numeric_limits<std::uint64_t>::max(), "0 to 2^64 - 1");
 }
 
-/// One of these names; of another, the nearest is said.
+/// Accepts one of these names; for others, the error names the nearest.
 [[nodiscard]] inline CLI::Validator oneOf(std::vector<std::string> names)
 {
     auto set = fmt::format("{{{}}}", fmt::join(names, ","));

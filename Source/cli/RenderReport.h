@@ -19,7 +19,8 @@ namespace pacini::cli
 /// all skipped parts.
 [[nodiscard]] nlohmann::ordered_json planLists(const RenderResult& result);
 
-/// All of it in lines of text without the last line's end; of long lists the first entries and how many more there are.
+/// The whole report in lines of text, without a line end at the end; of long lists the first entries and the number of
+/// further ones.
 [[nodiscard]] std::string planText(const RenderResult& result, const CompileParams& params);
 
 } // namespace pacini::cli

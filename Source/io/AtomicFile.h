@@ -83,7 +83,7 @@ private:
 [[nodiscard]] Result<std::size_t> writeFileAtomically(const std::filesystem::path& path, std::string_view text,
                                                       Existing existing = Existing::replace);
 
-/// Whether `path` stands for standard output: `-` or a name that the system has for it.
+/// Whether `path` means standard output: `-` or a name that the system has for it.
 [[nodiscard]] bool isStandardOutput(const std::filesystem::path& path);
 
 /// Whether `path` is written as a stream: standard output, a pipe or a device. A stream has no content to lose or to

@@ -31,7 +31,7 @@ public:
     /// The number of `count` bytes at `offset`; 0 where the file has ended.
     [[nodiscard]] std::uint64_t number(std::uint64_t offset, std::size_t count, bool bigEndian);
 
-    /// Where `text` is next in [from, to), or `to`.
+    /// Returns the next place of `text` in [from, to), or `to`.
     [[nodiscard]] std::uint64_t find(std::string_view text, std::uint64_t from, std::uint64_t to);
 
 private:

@@ -56,7 +56,8 @@ struct ClipReadParams
 /// extension.
 [[nodiscard]] bool looksLikeClip(const std::filesystem::path& path);
 
-/// Which of Pacini's own formats a file starts as, be it a damaged clip; null when it is neither or cannot be read.
+/// Returns the one of Pacini's own formats that a file, even a damaged clip, starts with; null if it is neither or
+/// unreadable.
 [[nodiscard]] const ClipFormat* ownFormatOf(const std::filesystem::path& path);
 
 /// The extensions of all files that readClip() can tell.
@@ -76,7 +77,7 @@ writeExport(const std::filesystem::path& main, const ExportedClip& exported, Exi
 /// The path of one of the files of an export whose main file is `main`, which has no suffix.
 [[nodiscard]] std::filesystem::path exportPath(const std::filesystem::path& main, std::string_view suffix);
 
-/// The file that `path` is the companion of, if that is there; else empty.
+/// Returns the existing file that `path` is the companion of; else empty.
 [[nodiscard]] std::filesystem::path companionOf(const std::filesystem::path& path);
 
 /// Returns the companion (see ClipFormat) beside `main` that does not belong to this export but would be read with it:

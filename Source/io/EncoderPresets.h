@@ -29,7 +29,7 @@ struct EncoderPreset
 /// The name of a preset as options and documents have it: in lower case, with hyphens.
 [[nodiscard]] std::string optionName(const EncoderPreset& preset);
 
-/// Those names of all presets, in their order.
+/// Returns these names of all presets, in their order.
 [[nodiscard]] std::vector<std::string> presetNames();
 
 /// The preset of this name, as windows or as options have it; case does not matter. Errors: invalidArgument at

@@ -80,10 +80,10 @@ public:
         }
     }
 
-    /// From now on numbers may stand in quotes, as some programs write them.
+    /// Accepts numbers in quotes from now on, as some programs write them.
     void takeTextsAsNumbers() { textsMayBeNumbers = true; }
 
-    /// How many numbers were in quotes.
+    /// Returns the number of numbers in quotes.
     [[nodiscard]] std::size_t textsTaken() const noexcept { return numbersInTexts; }
 
     void truth(const char* name, bool& value)
@@ -106,7 +106,7 @@ public:
             value = read ? 1.0 : 0.0;
     }
 
-    /// Of the entries of the current object.
+    /// Returns the names of the entries of the current object.
     [[nodiscard]] std::vector<std::string> names() const
     {
         std::vector<std::string> all;
@@ -243,7 +243,7 @@ public:
               });
     }
 
-    /// To be called when all entries of the document have been visited: doubts those that have not.
+    /// Call this after all entries of the document have been visited. Warns of entries that were not.
     void finish() { doubtOthers(); }
 
     /// Checks the entries `format` and `version` of a document; versions are whole numbers from 1.

@@ -30,7 +30,7 @@ namespace pacini
 class FieldsWriter
 {
 public:
-    /// Where the entries of an object stand.
+    /// Layout of the entries of an object.
     enum class Layout
     {
         lines,  ///< each on its own

@@ -61,7 +61,7 @@ void readParametersOf(FieldsReader& reader, const Table& table, Params& params)
 /// Description of a parameter for programs: name, option, unit, range, default and so on.
 [[nodiscard]] nlohmann::ordered_json descriptionJson(const ParameterInfo& parameter);
 
-/// Those of several, in their order.
+/// The descriptions of several parameters, in their order.
 [[nodiscard]] nlohmann::ordered_json descriptionsJson(std::span<const ParameterInfo* const> parameters);
 
 } // namespace pacini

@@ -42,7 +42,7 @@ public:
     /// Why stop() was called; its `where` still lacks the path of the value.
     [[nodiscard]] const Error& reason() const noexcept { return failure; }
 
-    /// Where warnings go; null: nowhere, which takes no time.
+    /// Sets the collector of warnings; null: no warnings, which takes no time.
     void setWarnings(ReadWarnings* collector) noexcept { warnings = collector; }
 
     /// Returns the objection to the last key, if any.
@@ -56,7 +56,7 @@ protected:
         return false;
     }
 
-    /// From openObject(): `other` gets the object with all events up to its close instead, and then passedOn() is
+    /// Call this in openObject(): `other` gets all events of the object up to its close instead, and then passedOn() is
     /// called.
     bool passOn(JsonHandler& other) noexcept
     {

@@ -25,7 +25,7 @@ struct MpegRun
     std::uint64_t rest = 0;                    ///< bytes of a frame behind `end` that is cut off
 };
 
-/// All runs between `begin` and `end`; none where there is no MPEG audio. Bytes behind the last run that are neither
+/// Returns all runs between `begin` and `end`; none without MPEG audio. Bytes after the last run that are neither
 /// frames nor tags are a run without frames.
 [[nodiscard]] std::vector<MpegRun> mpegRuns(ByteWindow& file, std::uint64_t begin, std::uint64_t end);
 

@@ -27,10 +27,11 @@ enum class Replaceable
     any,   ///< everything
 };
 
-/// Whether something stands at `path` that could be lost; a stream has nothing to lose.
+/// Whether there is content at `path` that could be lost; a stream has none.
 [[nodiscard]] bool isOccupied(const std::filesystem::path& path);
 
-/// How a file with that origin may be written to `output`. Errors: io, with the place and why not: "exists, and ...".
+/// Returns how a file with that origin may be written to `output`. Errors: io, with the place and the reason: "exists,
+/// and ...".
 [[nodiscard]] Result<Existing> mayOverwrite(const std::filesystem::path& output, const FileOrigin& origin,
                                             Replaceable allowed);
 
@@ -55,7 +56,7 @@ enum class FileKind
     other
 };
 
-/// By its content. [worker]
+/// Determines the kind by the content. [worker]
 [[nodiscard]] FileKind kindOf(const std::filesystem::path& path);
 
 struct StandingFile
@@ -64,13 +65,13 @@ struct StandingFile
     FileKind kind = FileKind::other;
 };
 
-/// Those of `results` where a file stands that could be lost. [worker]
+/// Returns those of `results` that exist and could be lost. [worker]
 [[nodiscard]] std::vector<StandingFile> standingAt(std::span<const std::filesystem::path> results);
 
 /// The same for all ways of naming one file, whether it exists or not.
 [[nodiscard]] std::filesystem::path sameFileKey(const std::filesystem::path& path);
 
-/// Where a file really is, with its own links resolved too, as far as they can be.
+/// Returns the real path of a file, with its own links resolved too, as far as possible.
 [[nodiscard]] std::filesystem::path realPlace(const std::filesystem::path& path);
 
 /// Whether both are one file, also through links of any kind.

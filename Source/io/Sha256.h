@@ -21,7 +21,7 @@ public:
 
     void add(std::string_view bytes);
 
-    /// Of all that was added, as 64 hexadecimal digits. Nothing may be added afterwards.
+    /// Returns the hash of all added bytes, as 64 hexadecimal digits. Nothing may be added afterwards.
     [[nodiscard]] std::string text();
 
 private:

@@ -30,7 +30,7 @@ struct NamedProfile
 /// Reads the profile in a slot; none for a free slot. Not for the audio thread. [any]
 [[nodiscard]] std::optional<Profile> builtInProfile(std::size_t slot);
 
-/// All of them. Not for the audio thread. [any]
+/// Returns all shipped profiles. Not for the audio thread. [any]
 [[nodiscard]] std::vector<NamedProfile> builtInProfiles();
 
 /// The file of a profile.

@@ -30,7 +30,7 @@
 namespace pacini
 {
 
-/// How sounds are translated and read.
+/// Parameters of the translation and reading of sounds.
 struct SoundEncoderParams : TranslationParams
 {
     AudioReadOptions reading{.lowFrequencyGain = lowFrequencyEffectsGain};
@@ -186,7 +186,7 @@ private:
         return static_cast<double>(reader.frames().value_or(0)) > seconds * reader.sampleRate();
     }
 
-    /// How much of the time of encoding a long sound its survey takes.
+    /// Returns the share of the survey in the time of encoding a long sound.
     [[nodiscard]] double shareOfSurvey() const { return settings.params.audible > 0.0 ? 0.4 : 0.2; }
 
     template <typename Next>

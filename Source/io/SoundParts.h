@@ -40,8 +40,8 @@ struct SoundPart
     bool endsInFrame = false;                    ///< it ends within a frame of its codec
 };
 
-/// At least one unless it is empty: what libsndfile is to read of `file`, in order. Moves the stream's position; trusts
-/// no number.
+/// Returns the parts of `file` for libsndfile to read, in order; at least one unless the file is empty. Moves the
+/// stream's position; trusts no number.
 [[nodiscard]] std::vector<SoundPart> soundParts(std::FILE* file);
 
 /// The FLAC stream that begins between `offset` and `end`, where the decoder of another lost its way.

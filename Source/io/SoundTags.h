@@ -13,7 +13,7 @@ namespace pacini
 /// file has.
 [[nodiscard]] std::uint64_t tagBytesAt(ByteWindow& file, std::uint64_t offset);
 
-/// Where a sound must end that is followed by tags up to `end`.
+/// Returns the end of a sound that is followed by tags up to `end`.
 [[nodiscard]] std::uint64_t endBeforeTags(ByteWindow& file, std::uint64_t begin, std::uint64_t end);
 
 } // namespace pacini

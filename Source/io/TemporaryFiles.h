@@ -56,9 +56,9 @@ private:
 /// whose marks may not be seen here, must also be a day old. Each folder is looked at once in the life of a process.
 void removeStaleTemporaries(const std::filesystem::path& folder);
 
-/// From now on SIGINT, SIGTERM and SIGHUP first remove the listed files, then end the program as they would have. A
-/// signal that the program was started to ignore stays ignored, and further signals wait until all are removed. Does
-/// nothing on Windows, where an open file cannot be removed. Call once, from the main function.
+/// Installs handlers for SIGINT, SIGTERM and SIGHUP that first remove the listed files, then end the program as usual.
+/// A signal that the program was started to ignore stays ignored, and further signals wait until all files are removed.
+/// Does nothing on Windows, where an open file cannot be removed. Call once, from the main function.
 void removeTemporariesOnSignals() noexcept;
 
 } // namespace pacini

@@ -22,7 +22,7 @@ enum class HandleKind : std::uint8_t
     play = 0xB1
 };
 
-/// A play's handle taken apart: kind, 6 bits of engine, 12 of the engine's generation, 14 of slot, 24 of generation.
+/// The fields of a play's handle: kind, 6 bits of engine, 12 of the engine's generation, 14 of slot, 24 of generation.
 struct PlayHandle
 {
     std::uint32_t engine = 0, engineGeneration = 0, slot = 0, generation = 0;
@@ -34,7 +34,7 @@ struct PlayHandle
                static_cast<std::uint64_t>(slot & 0x3FFFu) << 24 | (generation & 0xFFFFFFu);
     }
 
-    /// Of a number of whatever kind.
+    /// Decodes a number of any kind.
     [[nodiscard]] static constexpr PlayHandle of(std::uint64_t number) noexcept
     {
         return {static_cast<std::uint32_t>(number >> 50) & 0x3Fu, static_cast<std::uint32_t>(number >> 38) & 0xFFFu,
@@ -42,7 +42,7 @@ struct PlayHandle
     }
 };
 
-/// Any other handle taken apart: kind, 24 bits of index, 32 bits of generation.
+/// The fields of any other handle: kind, 24 bits of index, 32 bits of generation.
 struct Handle
 {
     HandleKind kind = HandleKind::clip;
@@ -155,13 +155,14 @@ public:
         T* object = nullptr;
     };
 
-    /// The generation of a slot now, odd while something is there.
+    /// Returns the present generation of a slot, odd while it is in use.
     [[nodiscard]] std::uint32_t generationOf(std::uint32_t at) const noexcept
     {
         return at < Count ? slots[at].generation.load(std::memory_order_relaxed) : 0;
     }
 
-    /// The index and the generation, odd while it is there; index Count when all are taken. One thread at a time.
+    /// Adds an object. Returns its index and generation, odd while it is in use; index Count if all are taken. One
+    /// thread at a time.
     [[nodiscard]] std::pair<std::uint32_t, std::uint32_t> add(T* object) noexcept
     {
         for (std::uint32_t i = 0; i < Count; ++i)

@@ -15,7 +15,7 @@
 namespace pacini::study
 {
 
-/// How simulated participants judge.
+/// Parameters of simulated participants.
 struct ObserverParams
 {
     double effect = 1.0;      ///< difference of the last group from the others, in points of the scale
@@ -66,8 +66,8 @@ struct PowerEstimate
     std::size_t runs = 0;
 };
 
-/// Power of the comparison of the last group with each other one, of so many simulated studies; none for a single group
-/// or without ratings.
+/// Returns the power of the comparison of the last group with each other one, over simulated studies; none for a single
+/// group or without ratings.
 [[nodiscard]] std::vector<PowerEstimate> estimatePower(const Study& study, const ObserverParams& params,
                                                        std::size_t runs);
 

@@ -28,7 +28,7 @@ struct Trial
 /// fills all groups, in a random order.
 [[nodiscard]] std::size_t groupOfSlot(const Study& study, std::size_t slot);
 
-/// Which row of a Latin square the slot gets: its number within its group.
+/// Returns the row of the Latin square for a slot: its number within its group.
 [[nodiscard]] std::size_t rowOfSlot(const Study& study, std::size_t slot);
 
 /// Returns row `row` of a square of `count` elements. Each element comes once at each place and, over 2 * count rows

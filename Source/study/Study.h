@@ -16,7 +16,7 @@ namespace pacini::study
 /// A text in several languages: pairs of a code such as "en" and its text, in the order of the codes.
 using Text = std::vector<std::pair<std::string, std::string>>;
 
-/// In `language`, else in English, else in the first; empty for no text.
+/// Returns the text in `language`, else in English, else in the first language; empty for no text.
 [[nodiscard]] std::string_view inLanguage(const Text& text, std::string_view language);
 
 /// Task of a participant in a trial.
@@ -33,7 +33,7 @@ enum class Task
     sorting        ///< into as many heaps as there are kinds
 };
 
-/// How a stimulus with sound and touch is presented.
+/// Presentation of a stimulus with sound and touch.
 enum class Presentation
 {
     sound,       ///< the sound alone

@@ -74,7 +74,7 @@ public:
     /// Whether everything has been played to its end at least once.
     [[nodiscard]] bool canAnswer() const;
 
-    /// How often it may still be played; nothing: any number.
+    /// Returns the number of remaining plays; none: any number.
     [[nodiscard]] std::optional<int> playsLeft(std::size_t part = 0) const;
 
     /// Completes the answer with times, replays, onsets and exposure, and keeps it. Errors: those of Session::answer().

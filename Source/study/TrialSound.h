@@ -25,7 +25,7 @@ struct TrialSound
 {
     std::vector<float> sound; ///< for both ears
     std::vector<float> touch; ///< drive signal
-    /// Of each stimulus of the trial, or of each that is presented one after the other, where it plays.
+    /// Range of each stimulus of the trial, or of each consecutive part.
     std::vector<FrameRange> parts;
     std::optional<std::size_t> soundOnset, touchOnset; ///< frames until the first sample that is not zero
 };

@@ -31,14 +31,14 @@ struct Description
 class WordCategories
 {
 public:
-    /// Of a table with lines `category,word`; the first may be such names; UTF-8, or else Latin-1.
-    /// Errors (invalidData) at `line 3`.
+    /// Reads a table with lines `category,word`; the first line may be a heading; UTF-8, or else Latin-1. Errors
+    /// (invalidData) at `line 3`.
     [[nodiscard]] static Result<WordCategories> ofCsv(std::string_view bytes);
 
     /// Empty for none. Of beginnings the longest counts.
     [[nodiscard]] std::string categoryOf(std::string_view word) const;
 
-    /// In the order of the table.
+    /// The categories in the order of the table.
     [[nodiscard]] const std::vector<std::string>& names() const noexcept { return ordered; }
 
 private:

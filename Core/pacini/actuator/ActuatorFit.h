@@ -28,7 +28,7 @@ struct ActuatorFitParams
     bool operator==(const ActuatorFitParams&) const = default;
 };
 
-/// How an actuator is played.
+/// Result of the fit: flattening, equalizer and range of an actuator.
 struct ActuatorFit
 {
     std::optional<Flattening> flattening;

@@ -15,7 +15,7 @@
 namespace pacini
 {
 
-/// How the continuous chain becomes a discrete one. Both have the exact poles exp(p / fs).
+/// Methods of discretising the continuous chain. Both have the exact poles exp(p / fs).
 enum class BodyHold
 {
     corrected, ///< true to the continuous response from 0 to 1000 Hz

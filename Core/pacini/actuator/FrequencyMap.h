@@ -30,7 +30,7 @@ public:
 
     FrequencyMap() = default;
 
-    /// Of a valid profile.
+    /// Maps into the range of a valid profile.
     explicit FrequencyMap(const Profile& profile) noexcept
         : mapping(profile.frequencyMapping),
           low(profile.range.lowFrequency),

@@ -26,7 +26,7 @@ struct HeldStep
     double xx = 0.0, xv = 0.0, vx = 0.0, vv = 0.0;
     double driveToX = 0.0, driveToV = 0.0;
 
-    /// Where the resonator is after the step if nothing drives it.
+    /// Returns the state of the resonator after the step without a drive.
     [[nodiscard]] ResonatorState free(const ResonatorState& z) const noexcept
     {
         return {z.displacement + (xx * z.displacement + xv * z.velocity),

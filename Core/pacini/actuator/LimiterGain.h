@@ -103,7 +103,7 @@ struct SoftKnee
         return ratioSquared < endSquared ? gainAt(into(ratioSquared)) : 1.0 / std::sqrt(ratioSquared);
     }
 
-    /// How far into the knee that is, in nepers: exp and log take a third of the time of powers of 10.
+    /// Returns the distance into the knee, in nepers: exp and log take a third of the time of powers of 10.
     [[nodiscard]] static double into(double ratioSquared) noexcept { return 0.5 * std::log(ratioSquared) + half; }
 
     /// The gain so far into it, up to its end.
@@ -248,7 +248,7 @@ private:
 
 inline constexpr double longestLimiterHold = 0.05; // s
 
-/// How long a limiter holds where `low` is the lowest tone, s: half its period, within 2 to 50 ms.
+/// Returns the hold time of a limiter for the lowest tone `low`, s: half its period, within 2 to 50 ms.
 [[nodiscard]] inline double limiterHold(Hertz low) noexcept
 {
     return clampTo(0.5 / clampTo(low.value, 1.0, 20000.0), 0.002, longestLimiterHold);

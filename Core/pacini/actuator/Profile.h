@@ -18,7 +18,7 @@ namespace pacini
 {
 
 /// Source of the number at `path`, or of all numbers below it: `{"drive", "datasheet of ..."}`. A text that starts with
-/// "assumed" marks numbers that nobody measured.
+/// "assumed" marks numbers without a measurement.
 struct ProfileSource
 {
     std::string path; ///< as in the file, such as `resonance.frequency` or `equalizer[1]`

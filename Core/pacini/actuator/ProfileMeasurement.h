@@ -31,7 +31,7 @@ struct LinearityOutlier
     bool operator==(const LinearityOutlier&) const = default;
 };
 
-/// How flat a response is: deviations are those from its own mean over the logarithm of frequency.
+/// Flatness of a response: its deviations from its mean over the logarithm of frequency.
 struct Linearity
 {
     double lowFrequency = 0.0;              ///< Hz, the range that was judged

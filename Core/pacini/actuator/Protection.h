@@ -168,7 +168,7 @@ private:
     static constexpr std::size_t longestStretch = flushInterval;
     static constexpr std::size_t lineRoom = 4 * longestStretch; ///< long enough that the line rarely moves
 
-    /// How many of the next `frames` are taken at once: whole groups wherever that is possible.
+    /// Returns how many of the next `frames` are processed at once: whole groups if possible.
     [[nodiscard]] std::size_t stretch(std::size_t frames) const noexcept
     {
         if (framesIntoGroup > 0)

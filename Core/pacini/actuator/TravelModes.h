@@ -31,12 +31,12 @@ struct TravelMode
     double toV = 0.0;
     bool single = false;
 
-    /// Where x and v rest under a drive of 1.
+    /// Returns the rest position of x and v under a drive of 1.
     [[nodiscard]] ResonatorState rest() const noexcept
     {
         return single ? ResonatorState{toX / w, 0.0} : ResonatorState{(toX / q + toV) / w, -toX / w};
     }
-    /// By how much the amplitude grows at most, per second at a drive of 1.
+    /// Returns the largest growth of the amplitude, per second at a drive of 1.
     [[nodiscard]] double push() const noexcept { return std::hypot(toX, toV); }
 
     /// The largest |x| in metres that a drive within +-1 can cause: the integral of the size of the impulse response.

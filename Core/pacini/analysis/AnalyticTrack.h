@@ -24,7 +24,7 @@ struct AnalyticFrame
     std::complex<double> rotation; ///< of conj(z[n]) z[n + 1]: its angle is the power-weighted mean frequency
 };
 
-/// Which means are wanted; the others stay 0, since a square root or four products per sample count.
+/// The means to compute. The others stay 0, since a square root or four products per sample count.
 enum class FrameContent
 {
     magnitude,
@@ -35,8 +35,8 @@ enum class FrameContent
 class AnalyticTrack
 {
 public:
-    /// Frames stand `step` seconds apart, which must be a multiple of half a sample at `rate` Hz; a Hann window of
-    /// `window` seconds weighs the samples around each.
+    /// Frames are `step` seconds apart, which must be a multiple of half a sample at `rate` Hz. A Hann window of
+    /// `window` seconds weights the samples around each.
     AnalyticTrack(int rate, double window, double step)
         : samplesPerSecond(rate), halfSamplesPerFrame(static_cast<std::int64_t>(std::llround(2.0 * step * rate)))
     {

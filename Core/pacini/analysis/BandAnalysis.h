@@ -109,7 +109,7 @@ struct BandAnalysisResult
     std::vector<std::vector<float>>
         noise; ///< linear RMS, a frame every bandStep, of each noise band of the clip, if any
 
-    /// Up to where all frames are there, s. O(bands).
+    /// Returns the time up to which all frames are complete, s. O(bands).
     [[nodiscard]] double seconds() const noexcept
     {
         std::size_t frames = tracks.front().amplitude.size();

@@ -21,7 +21,7 @@ namespace pacini
 class ClipFitter
 {
 public:
-    /// At most `breakpoints` per second of sound and band, noise bands included.
+    /// Fits at most `breakpoints` points per second of sound and band, noise bands included.
     explicit ClipFitter(double breakpoints) : pointsPerSecond(breakpoints) {}
 
     /// Prepares for a clip of about that length, 0 if that is not known.
@@ -176,7 +176,7 @@ private:
         return !curve.empty() && curve.back().time > time - 0.5 * BandAnalysisResult::envelopeStep;
     }
 
-    /// Where both have a point at `start`, they meet half-way.
+    /// Appends a curve. If both have a point at `start`, they meet half-way.
     void append(Curve& curve, const Curve& next, double start) const
     {
         double first = next.front().value;

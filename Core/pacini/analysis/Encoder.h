@@ -176,7 +176,7 @@ private:
         {
         }
 
-        /// As next() of both has it.
+        /// As next() of HeardBeside and HeardInstead.
         void next(BandAnalysisResult& found, std::span<const HeardFrame> values, std::size_t end,
                   std::span<const TrainSpan> trains, const SoundScale& scale)
         {

@@ -16,7 +16,7 @@
 namespace pacini
 {
 
-/// How sound above the range of touch is felt.
+/// Translation of sound above the range of touch.
 enum class HeardRole
 {
     beside,  ///< as a tone beside the low part of the sound, see HeardBeside

@@ -15,8 +15,8 @@
 namespace pacini
 {
 
-/// When the follower takes the signal as rising. The thesis says "the discrete derivative" (section 4.3.1), and its
-/// pseudo-code is lost.
+/// Criterion for a rising signal. The thesis says "the discrete derivative" (section 4.3.1), and its pseudo-code is
+/// lost.
 enum class RisingSlope
 {
     level,      ///< |x| >= envelope: the reading that gives an envelope

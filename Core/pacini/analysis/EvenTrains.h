@@ -30,7 +30,7 @@ inline constexpr double trainGapSeconds = 0.045;
     return rest;
 }
 
-/// From the first to the last event of a train, s.
+/// Time range from the first to the last event of a train, s.
 struct TrainSpan
 {
     double first = 0.0;

@@ -58,7 +58,7 @@ public:
         return frame;
     }
 
-    /// The mean of `values`, one for each of the envelope, in frame `j`; 0 where there are none.
+    /// Returns the mean in frame `j` of `values`, one for each value of the envelope; 0 if there are none.
     [[nodiscard]] double mean(std::size_t j, std::span<const float> values) const
     {
         double weights = 0.0;

@@ -80,7 +80,7 @@ public:
 private:
     static constexpr std::ptrdiff_t phases = 64;
 
-    /// How often the rate is halved to come below 40 kHz.
+    /// Returns the number of halvings that bring the rate below 40 kHz.
     static int stageCount(double sampleRate) noexcept
     {
         int count = 0;

@@ -18,7 +18,7 @@ struct OnsetFrame
 {
     static constexpr double rate = 900.0; ///< frames per second, at every sample rate
     static constexpr std::size_t bandCount = 7;
-    /// Where the power of a band sits, in Hz: geometric mean of its edges.
+    /// Centre of each band, Hz: the geometric mean of its edges.
     static constexpr std::array<double, bandCount> bandCentres{56.0, 159.0, 318.0, 636.0, 1273.0, 2546.0, 6600.0};
 
     float power = 0.0f;                       ///< of the full band, without its mean (DC)

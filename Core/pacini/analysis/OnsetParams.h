@@ -21,7 +21,7 @@ struct OnsetParams
     Decibels maskMargin{8.0};
     /// ... and this much more (a fraction of the threshold) for each further dB.
     double maskSlope = 0.06;
-    /// How fast a neighbour loses its power to mask with the distance in time, dB/s, before it as after it.
+    /// Decay of masking with the distance in time of a neighbour, before and after it, dB/s.
     double maskRecovery = 20.0;
     /// An event further than this below its neighbours (with recovery) is dropped however clear it is.
     Decibels maskLimit{27.0};

@@ -35,8 +35,8 @@ inline void replaceSorted(std::span<float> sorted, float leaving, float entering
     return sorted[sorted.size() / 2];
 }
 
-/// Which of `size` values (at least one) stands at `index` of their endless reflection about both ends, d c b a | a b c
-/// d | d c b a: how windows go on beyond the ends. [any]
+/// Returns the index of the value, of `size` (at least one), at `index` of their endless reflection about both ends, d
+/// c b a | a b c d | d c b a: the continuation of windows beyond the ends. [any]
 [[nodiscard]] constexpr std::size_t reflectedIndex(std::ptrdiff_t index, std::size_t size) noexcept
 {
     const auto period = static_cast<std::ptrdiff_t>(2 * size);

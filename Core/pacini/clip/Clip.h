@@ -17,8 +17,8 @@
 namespace pacini
 {
 
-/// One frequency band. Amplitudes are linear with 1 = full drive; pitch is the carrier's frequency in Hz (empty: the
-/// carrier stands at centreFrequency).
+/// One frequency band. Amplitudes are linear with 1 = full drive; pitch is the carrier's frequency in Hz (empty:
+/// centreFrequency).
 struct Band
 {
     double lowFrequency = 0.0;    ///< Hz

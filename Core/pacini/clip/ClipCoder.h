@@ -199,7 +199,7 @@ private:
         codeCurve(clip.centroid, centroidCoder, grids.pitches, {});
     }
 
-    /// The code that stands for silence: one below the lowest level in the clip's envelope and bands.
+    /// Returns the code of silence: one below the lowest level in the clip's envelope and bands.
     std::int64_t codeFloor(const Clip& clip)
     {
         const std::int64_t lowest = reading ? 1 : grids.lowestLevel(clip);

@@ -60,7 +60,7 @@ public:
         return static_cast<double>(tick) / static_cast<double>(ticks);
     }
 
-    /// The lowest level above silence in a clip's envelope and bands; the highest of the grid where there is none.
+    /// Returns the lowest level above silence in a clip's envelope and bands; the highest of the grid if there is none.
     [[nodiscard]] std::int64_t lowestLevel(const Clip& clip) const
     {
         std::int64_t lowest = levels.topCode();

@@ -172,7 +172,7 @@ public:
         return analyze(mono, sampleRate, target, target.hts);
     }
 
-    /// When events happen in the candidate, s.
+    /// Times of the events in the candidate, s.
     [[nodiscard]] const std::vector<double>& onsets() const noexcept { return target.judge.onsets; }
 
     /// The comparison over the reference's length. After setCandidate().

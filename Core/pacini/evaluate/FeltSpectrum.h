@@ -44,7 +44,7 @@ public:
             power.resize(bands.back().firstBin + bands.back().weights.size() - bands.front().firstBin);
     }
 
-    /// As many frames as cover x, at least one; silence after the end.
+    /// Returns the frames that cover x, at least one; x is silent after its end.
     [[nodiscard]] std::vector<Frame> analyze(std::span<const float> x)
     {
         const std::size_t count = x.size() <= frameSize ? 1 : (x.size() - frameSize + hop - 1) / hop + 1;

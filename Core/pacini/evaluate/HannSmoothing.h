@@ -73,7 +73,7 @@ public:
     }
 
 private:
-    /// Of the continuous kernel from its start to `distance` beyond its centre.
+    /// Integral of the continuous kernel from its start to `distance` beyond its centre.
     [[nodiscard]] double integralTo(double distance) const noexcept
     {
         const double u = std::clamp(distance / zero, -1.0, 1.0);

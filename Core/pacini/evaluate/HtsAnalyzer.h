@@ -21,7 +21,7 @@
 namespace pacini
 {
 
-/// Which side of the comparison a signal is on: only of a source the audible envelope and events are needed.
+/// Side of a signal in the comparison. The audible envelope and the events are only computed for a source.
 enum class HtsRole
 {
     source,

@@ -29,7 +29,7 @@ struct Segment
     }
 };
 
-/// How to cut; all lengths in samples, all multiples of `quantum`.
+/// Parameters of segmentation; all lengths in samples, all multiples of `quantum`.
 struct SegmentationParams
 {
     std::size_t quantum = 1;     ///< every piece begins on a multiple of it and the transform size is one
@@ -62,7 +62,7 @@ public:
     /// Samples of every transform: quantum times an even number without prime factors above 5.
     [[nodiscard]] std::size_t size() const noexcept { return transformSize; }
 
-    /// In order; at least one, whose core may be empty.
+    /// The pieces, in order; at least one, whose core may be empty.
     [[nodiscard]] std::span<const Segment> segments() const noexcept { return pieces; }
 
 private:

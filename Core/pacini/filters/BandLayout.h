@@ -47,8 +47,8 @@ struct BandLayout
 
     [[nodiscard]] std::size_t bands() const noexcept { return centres.size(); }
 
-    /// Where band k begins: its lower crossover. The first band, which has none, is as wide below its centre as above
-    /// (a single band is taken to reach down to half its centre), but does not pass 0.
+    /// Returns the start of band k: its lower crossover. The first band has none: it is as wide below its centre as
+    /// above (a single band reaches down to half its centre), but does not pass 0.
     [[nodiscard]] Hertz lowerEdge(std::size_t k) const noexcept
     {
         if (k > 0)
@@ -56,7 +56,7 @@ struct BandLayout
         return crossovers.empty() ? Hertz(centres[0].value / 2.0) : mirrored(crossovers[0], centres[0]);
     }
 
-    /// Where band k ends, by the same rule (a single band reaches up to twice its centre).
+    /// Returns the end of band k, by the same rule (a single band reaches up to twice its centre).
     [[nodiscard]] Hertz upperEdge(std::size_t k) const noexcept
     {
         if (k < crossovers.size())

@@ -201,7 +201,7 @@ public:
     {
     }
 
-    /// By a design, not null, that others may use at the same time.
+    /// Uses a design, not null, that others may use at the same time.
     explicit PolyphaseInterpolator(std::shared_ptr<const InterpolatorDesign> shared)
         : design(std::move(shared)), history(design->taps())
     {

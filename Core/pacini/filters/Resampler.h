@@ -94,7 +94,8 @@ template <typename Sample>
 class Resampler
 {
 public:
-    /// Both rates in Hz, above 0 (resample() checks the documented range). Holds about 20 max(rates) / gcd(rates) taps.
+    /// Both rates are in Hz, above 0 (resample() checks the documented range). Stores about 20 max(rates) / gcd(rates)
+    /// taps.
     Resampler(int inputRate, int outputRate)
         : up(outputRate / std::gcd(inputRate, outputRate)), down(inputRate / std::gcd(inputRate, outputRate))
     {

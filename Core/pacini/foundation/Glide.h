@@ -55,7 +55,7 @@ public:
             next();
     }
 
-    /// As skip(), in one step: rounds otherwise, but takes no longer for many frames. [audio]
+    /// As skip(), in one step: rounds differently, but takes constant time. [audio]
     void jump(std::size_t frames) noexcept
     {
         if (frames >= left)

@@ -48,7 +48,7 @@ public:
             delete std::exchange(node, node->next);
     }
 
-    /// Whether an object is there to be received. [audio]
+    /// Whether an object is waiting to be received. [audio]
     [[nodiscard]] bool waiting() const noexcept { return incoming.load(std::memory_order_relaxed) != nullptr; }
 
     /// The newest object, or null; the receiver owns it until it gives it back. [audio]

@@ -24,8 +24,8 @@ concept HasFromChars = requires(const char* text, Number& number)
     std::from_chars(text, text, number);
 };
 
-/// What std::from_chars makes of a whole text. std::strtod wants the decimal point of the process's locale: here it
-/// gets the digits without one, and an exponent.
+/// std::from_chars for a whole text, by std::strtod. std::strtod expects the decimal point of the process's locale, so
+/// it gets the digits without a point and with an exponent.
 inline std::optional<double> parseByStrtod(std::string_view text)
 {
     const bool negative = text.starts_with('-');

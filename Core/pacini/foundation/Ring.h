@@ -44,7 +44,7 @@ public:
         return true;
     }
 
-    /// How many values fit in at least. [the thread that pushes]
+    /// Returns the number of values that fit in at least. [the thread that pushes]
     [[nodiscard]] std::size_t room() const noexcept
     {
         const std::size_t used =

@@ -25,7 +25,7 @@ namespace pacini
     return tangent * tangent;
 }
 
-/// Where the derivatives of one section's level go, one value per point.
+/// Derivatives of one section's level, one value per point.
 struct SectionSlopes
 {
     std::span<double> frequency; ///< dB per unit of ln(frequency)

@@ -15,7 +15,7 @@
 namespace pacini
 {
 
-/// Finds where the points of a problem are too far apart for the sections that a fit has come to, and adds guards.
+/// Finds places where the points of a problem are too sparse for the sections of a fit, and adds guards.
 class EqualizerWatch
 {
 public:
@@ -81,7 +81,7 @@ private:
     std::vector<double> power;
 };
 
-/// How flat response and sections together are.
+/// Flatness of response and sections together.
 struct Flatness
 {
     double level = 0.0; ///< dB, their mean

@@ -81,7 +81,7 @@ namespace detail
     }
     return centre;
 }
-/// Where most values lie.
+/// The range of most values.
 struct Concentration
 {
     double centre = 0.0;

@@ -65,7 +65,7 @@ inline void warnOfResponses(std::span<const NoisyPower> channels, const SweepPar
     }
 }
 
-/// Where the signal stands out too little, one warning for each range.
+/// Warns of ranges with a low signal-to-noise ratio, one warning for each.
 inline void warnOfSnr(const FrequencyResponse& snr, double wanted, std::vector<MeasurementWarning>& warnings)
 {
     for (std::size_t i = 0; i < snr.size();)

@@ -133,7 +133,7 @@ struct ArrivalStrength
 }
 } // namespace detail
 
-/// How far clocks may differ for sweeps to be looked for: more than a measurement is accepted with.
+/// Largest difference of clocks for which sweeps are searched: more than a measurement accepts.
 inline constexpr double widestDrift = 0.005;
 
 /// Finds the schedule in a recording: the start that correlates best with the strengths of all sweeps, each allowed to
@@ -195,8 +195,8 @@ inline constexpr double widestDrift = 0.005;
     return found;
 }
 
-/// The sample rate, Hz, at which a recording seems to have been made when that is not the one it is said to have: the
-/// usual rate under which the sweeps stand out four times as much and short. Nothing when the stated one is as good.
+/// Returns the probable sample rate of a recording, Hz, if it is not the stated one: the usual rate at which the sweeps
+/// are four times as prominent and short. None if the stated rate is as good.
 [[nodiscard]] inline std::optional<double> likelierRate(const RecordedChannels& recording,
                                                         const SweepSchedule& schedule, const SweepParams& params,
                                                         double statedRate, const SweepPosition& stated)

@@ -33,7 +33,7 @@ namespace pacini
 class CarrierSection
 {
 public:
-    /// Of a design, which stays where it is. Silence follows.
+    /// Takes a design, which must outlive this. Silence follows.
     void adopt(const TranslatorDesign& wanted) noexcept
     {
         design = &wanted;
@@ -222,7 +222,7 @@ private:
                lag(directEdges[1]);
     }
 
-    /// How much of a pitch (Hz) the direct path plays: 1 in its range, 0 from 15 % beyond its ends on.
+    /// Returns the share of a pitch (Hz) that the direct path plays: 1 in its range, 0 from 15 % beyond its ends on.
     [[nodiscard]] double partInDirect(double pitch) const noexcept
     {
         if (!design->anyDirect)

@@ -80,7 +80,7 @@ public:
         double cosine = 0.0;
     };
 
-    /// At the end of a hop.
+    /// Ends a hop and returns its measurements.
     [[nodiscard]] Heard hear() noexcept
     {
         slow[0] += pitchShare * (means - slow[0]);
@@ -127,8 +127,8 @@ public:
         amplitude.jump(0.0);
     }
 
-    /// At the start of a hop: the amplitude goes the part `share` of the way to `target`, the pitch that to `frequency`
-    /// (cycles per frame, below 0.5) within the hop; from silence it is there at once.
+    /// Starts a hop: the amplitude moves by the fraction `share` of the distance to `target`. The pitch moves to
+    /// `frequency` (cycles per frame, below 0.5) within the hop, from silence at once.
     void aim(double target, double share, double frequency) noexcept
     {
         const bool begins = amplitude.silent();
@@ -167,7 +167,7 @@ public:
         im = other.im;
     }
 
-    /// By how much its phase at the newest frame is behind `phase`, -pi to pi.
+    /// Returns the lag of its phase at the newest frame behind `phase`, -pi to pi.
     [[nodiscard]] double behind(double phase) const noexcept
     {
         const double sine = std::sin(phase), cosine = std::cos(phase);

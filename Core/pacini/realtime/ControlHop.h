@@ -16,15 +16,15 @@ inline constexpr std::size_t controlHop = 8; ///< inner frames, 0.7 to 1.3 ms
 class HopRamp
 {
 public:
-    /// To `target` at once.
+    /// Sets the value to `target` at once.
     void jump(double target) noexcept
     {
         from = goal = target;
         step = 0.0;
     }
 
-    /// At the start of a hop: goes the part `share` (0 to 1) of the way to `target` until its end. The last millionth
-    /// is jumped, so that a gain arrives.
+    /// Starts a hop: the value moves by the fraction `share` (0 to 1) of the distance to `target` until its end. The
+    /// last millionth is jumped, so that a gain arrives.
     void aim(double target, double share) noexcept
     {
         from = goal;
@@ -32,7 +32,7 @@ public:
         step = (goal - from) / static_cast<double>(controlHop);
     }
 
-    /// At frame `frame` of the hop, 0 to controlHop - 1.
+    /// Returns the value at frame `frame` of the hop, 0 to controlHop - 1.
     [[nodiscard]] double at(std::size_t frame) const noexcept { return from + static_cast<double>(frame + 1) * step; }
     [[nodiscard]] double start() const noexcept { return from; }
     [[nodiscard]] double end() const noexcept { return goal; }
@@ -53,7 +53,7 @@ class HopCurve
 public:
     void jump(double target) noexcept { points = {target, target, target}; }
 
-    /// At the start of a hop: the next point goes the part `share` of the way to `target`. The last millionth is
+    /// Starts a hop: the next point moves by the fraction `share` of the distance to `target`. The last millionth is
     /// jumped.
     void aim(double target, double share) noexcept
     {

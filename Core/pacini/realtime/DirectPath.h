@@ -54,7 +54,7 @@ public:
             weights[i].jump(wanted[i]);
     }
 
-    /// At the start of a hop: the weights that the gains have go the part `share` of their way.
+    /// Starts a hop: the weights of the gains move by the fraction `share` of the distance to their targets.
     void aim(double below, double above, double share) noexcept
     {
         const Weights wanted = weightsFor(below, above);

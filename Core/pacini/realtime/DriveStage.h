@@ -24,7 +24,7 @@ class DriveStage
 public:
     DriveStage() { limiter.prepare(0, static_cast<std::size_t>(limiterHoldSeconds * highestInnerRate)); }
 
-    /// Of a design, which stays where it is. Silence follows.
+    /// Takes a design, which must outlive this. Silence follows.
     void adopt(const TranslatorDesign& wanted) noexcept
     {
         design = &wanted;
@@ -63,8 +63,8 @@ public:
         levels.jump(1.0);
     }
 
-    /// At the start of a hop: intensity (linear), the share of the way that gains go, and of late's drive its peak and
-    /// the energy of the last hop.
+    /// Starts a hop. `intensity` is linear, `share` the fraction of the distance by which gains move; `peak` and
+    /// `energy` are those of the drive in the last hop.
     void aim(double intensity, double share, double peak, double energy) noexcept
     {
         drive.aim(intensity, share);
@@ -76,7 +76,7 @@ public:
             state.flush();
     }
 
-    /// Of a motor: strength for as long as it needs to spin up.
+    /// Starts a burst of a motor: the strength lasts for its spin-up time.
     void beginBurst(double level) noexcept
     {
         burst = level;

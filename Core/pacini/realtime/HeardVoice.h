@@ -50,13 +50,13 @@ public:
         pitch = low;
     }
 
-    /// How far it goes, 0 to 1, at once.
+    /// Sets its amount, 0 to 1, at once.
     void jump(double audible) noexcept { wanted.jump(audible); }
 
     /// Whether the voice is off and has decayed. process() may then be skipped.
     [[nodiscard]] bool silent() const noexcept { return wanted.silent() && oscillator.silent(); }
 
-    /// How much of it is wanted in the coming hop, 0 to 1.
+    /// Returns its amount in the coming hop, 0 to 1.
     [[nodiscard]] double share() const noexcept { return wanted.end(); }
 
     /// Starts a hop. `audible` (0 to 1) moves by the fraction `gainShare` of the distance to its target; `gain` is that
@@ -133,7 +133,7 @@ private:
             pitch = clampTo(heardPitch(parts[2] / high), low, highest);
     }
 
-    /// In float: ears do not hear the seventh digit, and it takes a third of the time.
+    /// In float, which takes a third of the time; the seventh digit is inaudible.
     [[nodiscard]] static double loudnessOf(double power, double weight) noexcept
     {
         return weight * static_cast<double>(std::pow(static_cast<float>(power), 0.3f));

@@ -48,8 +48,8 @@ public:
     /// Whether the voice is off and has decayed. process() may then be skipped.
     [[nodiscard]] bool silent() const noexcept { return gain.silent() && oscillator.silent(); }
 
-    /// At the start of a hop: the gain (linear) of the upper part goes the part `share` of the way to `wantedGain`;
-    /// and the pitch.
+    /// Starts a hop: the gain (linear) of the upper part moves by the fraction `gainShare` of the distance to
+    /// `wantedGain`. Also sets the pitch.
     void aim(double wantedGain, double gainShare, double cyclesPerFrame) noexcept
     {
         gain.aim(wantedGain, gainShare);

@@ -261,7 +261,7 @@ private:
         engine.process(x, p, h, y, onEvent);
     }
 
-    /// To the host's rate; silence costs nothing.
+    /// Resamples to the host's rate; silence costs nothing.
     void raise(std::span<const float> y, std::span<float> to) noexcept
     {
         const bool silent = std::all_of(y.begin(), y.end(), [](float v) { return v == 0.0f; });

@@ -83,7 +83,7 @@ class EventPulses
 public:
     void reset() noexcept { *this = EventPulses(); }
 
-    /// From frame `after` of the next call of addTo() on.
+    /// Starts a pulse at frame `after` of the next call of addTo().
     void begin(const Pulse& pulse, double gain, std::size_t after) noexcept
     {
         voices[next] = {PulseVoice(pulse), gain, after};
@@ -260,13 +260,13 @@ private:
         heardVoice.jump(audibleShare());
     }
 
-    /// How far carriers are brought to the strength of the whole range: where no band is played by its own signal.
+    /// Returns how far carriers are brought to the strength of the whole range, if no band is played by its own signal.
     [[nodiscard]] double levelShareWanted() const noexcept
     {
         return directShare() == 0.0 || !design->anyDirect ? 1.0 : 0.0;
     }
 
-    /// How much of a band's own signal is played where the actuator can show it.
+    /// Returns the share of a band's own signal, within the range of the actuator.
     [[nodiscard]] double directShare() const noexcept
     {
         if (design->motor)

@@ -45,7 +45,7 @@ struct TranslatorParams
     bool operator==(const TranslatorParams&) const = default;
 };
 
-/// All of TranslatorParams, by their names in Python (with `_`) and JavaScript.
+/// Descriptions of all of TranslatorParams, by their names in Python (with `_`) and JavaScript.
 inline constexpr std::array translatorParameters{
     described<&TranslatorParams::inputGain>(
         {.name = "inputGain", .text = "Gain of the sound before analysis", .unit = "dB", .range = {-60, 48}}),

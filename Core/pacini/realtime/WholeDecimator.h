@@ -34,7 +34,7 @@ public:
 
     WholeDecimator() : WholeDecimator(1, 48000.0, 1000.0) {}
 
-    /// From `fs` Hz to fs / factor Hz. Allocates.
+    /// Decimates from `fs` Hz to fs / factor Hz. Allocates.
     WholeDecimator(std::size_t factor, double fs, double pass) : ratio(factor)
     {
         assert(factor >= 1);
@@ -62,7 +62,7 @@ public:
         quiet = kept + 1;
     }
 
-    /// How many frames the next `inputs` frames of input complete.
+    /// Returns the number of frames that the next `inputs` frames of input complete.
     [[nodiscard]] std::size_t framesFor(std::size_t inputs) const noexcept
     {
         return inputs > untilFrame ? (inputs - untilFrame - 1) / ratio + 1 : 0;

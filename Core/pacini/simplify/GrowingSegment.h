@@ -45,7 +45,7 @@ private:
     double syy = 0.0, suy = 0.0, suu = 0.0;
 };
 
-/// Where a new point lowers a segment's squared error most, and by how much.
+/// Best place for a new point in a segment, and the reduction of the squared error.
 struct SegmentSplit
 {
     std::size_t index = 0;

@@ -70,7 +70,8 @@ inline bool moveBand(Band& band, const FrequencyMap& map, const ActuatorRange& r
     return moved;
 }
 
-/// Scales all amplitudes of a clip as `map` scales the envelope (its loudest band where there is none) at their time.
+/// Scales all amplitudes of a clip like the envelope at their time, by `map` (like its loudest band without an
+/// envelope).
 inline void mapLevels(Clip& clip, const DynamicRangeMap& map)
 {
     const Curve envelope = clip.envelope;

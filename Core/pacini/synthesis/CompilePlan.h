@@ -30,7 +30,7 @@ namespace pacini
 
 namespace detail
 {
-/// How long a play with its changes lasts, s; `duration` of the clip.
+/// Returns the length of a play with its changes, s; `duration` is that of the clip.
 inline double playLength(const ScenePlay& play, const PlayTimeline& timeline, double duration)
 {
     return makeClock(play.stretch, timeline).frameOf(duration);
@@ -188,7 +188,7 @@ inline void planRoles(RenderPlan& plan, const Clip& clip, const PlayTimeline& ti
         }
 }
 
-/// How often a play with a loop passes through it until the scene ends.
+/// Returns the number of passes of a looping play until the scene ends.
 inline double passesOf(const ScenePlay& play, const PlayTimeline& timeline, double duration)
 {
     double fastest = play.stretch;
@@ -220,7 +220,7 @@ inline Result<Clip> bakedClip(const Clip& clip, const ScenePlay& play, const Pla
     return played;
 }
 
-/// How a play's clip is decoded; `fit`: fitted so to the plan's actuator, or as it is.
+/// Returns the decoder parameters of a play's clip; `fit`: adapted to the plan's actuator, or unchanged.
 inline DecoderParams planDecoder(const RenderPlan& plan, const Clip& clip, const ScenePlay& play,
                                  const CompileParams& params, const std::optional<ActuatorFit>& fit)
 {

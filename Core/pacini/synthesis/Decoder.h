@@ -262,7 +262,7 @@ public:
         position += static_cast<std::int64_t>(out.size());
     }
 
-    /// How long after skip() the leveller and the interpolator have no past, s.
+    /// Time after skip() in which the leveller and the interpolator have no past, s.
     static constexpr double settling = 0.03;
 
     /// Skips `frames` without output, in time that depends on the number of breakpoints and events, not of frames.
@@ -373,7 +373,7 @@ private:
         std::vector<CurveReader> readers;
     };
 
-    /// Whether a role that is kept apart is there, and the frame of the output from which it has been.
+    /// Whether a separate role sounds, and the frame of the output from which it does.
     struct Presence
     {
         bool there = true;
@@ -581,7 +581,7 @@ private:
         position += static_cast<std::int64_t>(out.size());
     }
 
-    /// Where a filtered clip ends.
+    /// Returns the end of a filtered clip.
     [[nodiscard]] std::int64_t lastFrame() const noexcept { return std::min(endFrame, cutFrame); }
 
     void makeHop() noexcept
@@ -621,7 +621,7 @@ private:
         noiseInterpolator->process(innerNoise, readyNoise);
     }
 
-    /// Where the output is among all frames that the interpolator puts out.
+    /// Returns the place of the output among all frames of the interpolator.
     [[nodiscard]] std::int64_t raisedAt(std::int64_t frame) const noexcept
     {
         return frame - delayFrames + static_cast<std::int64_t>(allSkipped());
@@ -691,7 +691,7 @@ private:
         return !there[role] || gains[role].at(frame) == 0.0;
     }
 
-    /// How many of the next `count` frames of a block, from its frame `from` on, have neither tones nor noise.
+    /// Returns how many of the next `count` frames of a block, from its frame `from` on, have neither tones nor noise.
     [[nodiscard]] std::size_t unheardFrames(const RoleGains& gains, std::size_t from, std::size_t count) const noexcept
     {
         const auto none = [&](std::size_t n)
@@ -742,7 +742,7 @@ private:
         makeHop();
     }
 
-    /// Which of tones and noise is computed from now on: all that is heard.
+    /// Chooses the roles to compute from now on: those of tones and noise that are heard.
     void takeRoles(const RoleGains& gains, std::size_t from) noexcept
     {
         for (const Role role : {Role::tones, Role::noise})

@@ -25,7 +25,7 @@ public:
 
     void reset() noexcept { std::fill(buffer.begin(), buffer.end(), 0.0); }
 
-    /// Where the values of the next hop are to be written; the past lies before it.
+    /// Returns the place for the values of the next hop; the past lies before it.
     [[nodiscard]] double* nextHop() noexcept
     {
         if (next + hop > buffer.size())
@@ -57,8 +57,8 @@ private:
     std::size_t next; ///< where the next hop begins
 };
 
-/// A moving average, worked on in hops of one fixed length: the sum is formed anew for each hop, so that rounding
-/// cannot build up however long it runs.
+/// A moving average in hops of one fixed length. The sum is recomputed for each hop, so that rounding errors do not
+/// accumulate.
 class MovingAverage
 {
 public:
@@ -74,7 +74,7 @@ public:
             value = hop.follow(value);
     }
 
-    /// Both in turn: neither has to wait until the other is done with the hop.
+    /// Processes both by turns: neither has to wait until the other is done with the hop.
     static void process(MovingAverage& first, MovingAverage& second, std::span<double> values) noexcept
     {
         Hop hop(first), next(second);

@@ -21,7 +21,7 @@
 namespace pacini::detail
 {
 
-/// Where the gain of an actuator's limiter begins to move, and how.
+/// Operating point of an actuator's limiter, and its behaviour there.
 struct LimiterModel
 {
     double perDrive = 1.0; ///< the largest level, in parts of its limit, that a drive of 1 (the clip's) can cause
@@ -66,7 +66,7 @@ struct TimeCells
     {
         return std::min(static_cast<std::size_t>(std::max(time, 0.0) / length), count - 1);
     }
-    /// How many cells a time reaches into, wherever it begins.
+    /// Returns the number of cells that a time may reach into.
     [[nodiscard]] std::size_t covering(double time) const noexcept
     {
         return static_cast<std::size_t>(std::ceil(time / length)) + 1;
@@ -247,7 +247,7 @@ private:
     std::size_t extent = 0;
 };
 
-/// The highest square of late, as a limiter sees it: held, then let go.
+/// The highest recent square, as a limiter sees it: held, then released.
 class LimiterMemory
 {
 public:

@@ -40,9 +40,9 @@ public:
         pieces.push_back({});
     }
 
-    /// From frame `from` on the clip runs at `rate` and its frequencies are scaled by `pitch`. A change before one that
-    /// is already written down comes right after it instead: time runs forward. Without room the last change is
-    /// replaced. [audio]
+    /// Changes the rate of the clip to `rate` and the scale of its frequencies to `pitch` from frame `from` on. A
+    /// change before a recorded one takes effect right after that instead, because time runs forward. Without room the
+    /// last change is replaced. [audio]
     void change(double from, double rate, double pitch) noexcept
     {
         assert(rate > 0.0 && pitch > 0.0);
@@ -96,7 +96,8 @@ public:
     [[nodiscard]] bool untouched() const noexcept { return pieces.size() == 1 && pieces.front() == ClockPiece{}; }
 
 private:
-    /// How many pieces begin at `value` or before, of the output or the clip: both grow from piece to piece.
+    /// Returns the number of pieces that begin at `value` or before, of the output or the clip: both grow from piece to
+    /// piece.
     [[nodiscard]] std::size_t countUntil(double ClockPiece::*member, double value) const noexcept
     {
         const auto next = std::upper_bound(pieces.begin(), pieces.end(), value,

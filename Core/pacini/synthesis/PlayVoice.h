@@ -77,8 +77,8 @@ struct MixBuffers
     PerRole<std::array<double, frames>> roles;
 };
 
-/// Where a block is mixed to: frames [at, at + frames) of `out`, one span for each actuator; the first is frame `now`
-/// of the scene.
+/// Target of a mix: frames [at, at + frames) of `out`, one span for each actuator; the first is frame `now` of the
+/// scene.
 struct MixTarget
 {
     std::span<const std::span<float>> out;
@@ -197,7 +197,7 @@ public:
         reached += frames;
     }
 
-    /// Live controls stand at frame `now` where they would if it had been mixed until then. [audio]
+    /// Advances live controls to frame `now`, as if the voice had been mixed until then. [audio]
     void passGlides(std::int64_t now) noexcept
     {
         if (now <= reached)
@@ -237,7 +237,7 @@ public:
         }
     }
 
-    /// From now on stands at a pan (0-1), or glides there, wherever the scene has it. [audio]
+    /// Sets the pan (0-1), or glides to it, instead of the scene's pan. [audio]
     void setPan(double wanted, std::size_t frames) noexcept
     {
         if (!sends)
@@ -256,7 +256,7 @@ public:
         latest = std::max(latest, framesOfDelay(lateness.goal()));
     }
 
-    /// All live controls but the fade stand and glide as those of another voice. [audio]
+    /// Takes all live controls and glides except the fade from another voice. [audio]
     void follow(const PlayVoice& other) noexcept
     {
         std::copy_n(other.faders.begin(), static_cast<std::size_t>(Fader::fade), faders.begin());
@@ -311,7 +311,7 @@ private:
 
     using RoleFaders = std::array<Glide, roleFaderCount>;
 
-    /// How far the curves towards one actuator have been read.
+    /// Reading position in the curves towards one actuator.
     struct Level
     {
         std::size_t gain = 0;

@@ -23,7 +23,7 @@ struct PulseEvent
     double gap = 0.0;       ///< s to its nearest neighbour
 };
 
-/// When an event begins and how.
+/// Start of an event, and its pulse.
 struct PulseStart
 {
     std::int64_t frame = 0;     ///< of the output

@@ -27,7 +27,7 @@ struct FeltParams
     double fullScale = 100.0; ///< m/s^2 at a sample of 1
 };
 
-/// How a scene is rendered.
+/// Parameters of a rendering.
 struct RenderParams
 {
     CompileParams compile; ///< with the sample rate of the output
@@ -137,7 +137,7 @@ inline constexpr std::array renderParameters{
          .range = {0, 1}}),
 };
 
-/// All of FeltParams.
+/// Descriptions of all of FeltParams.
 inline constexpr std::array feltParameters{
     described<&FeltParams::fullScale>({.name = "fullScale",
                                        .option = "feltFullScale",

@@ -132,7 +132,7 @@ private:
     bool hasPitch;
 };
 
-/// Which of the bands one voice follows, time after time.
+/// Selects the band that one voice follows, time after time.
 class FollowedBand
 {
 public:

@@ -11,8 +11,8 @@
 namespace pacini::app
 {
 
-/// Puts the files of Resources/demo into `folder`, which is made; those that are there as they should be are left. The
-/// paths of the sounds in alphabetical order; the sample project is beside them. Empty where nothing can be written.
+/// Writes the files of Resources/demo to `folder`, which it creates; intact files are kept. Returns the paths of the
+/// sounds in alphabetical order; the sample project is beside them. Empty if writing fails.
 [[nodiscard]] std::vector<std::filesystem::path> putDemoFiles(const juce::File& folder);
 
 } // namespace pacini::app

@@ -27,7 +27,7 @@ struct EmphasisPlayer
     [[nodiscard]] double sharpnessOfLength(double length) const noexcept;
 };
 
-/// That of Quest controllers, as the Meta haptics SDK and its actuator file say.
+/// The player of Quest controllers, from the Meta haptics SDK and its actuator file.
 inline constexpr EmphasisPlayer questPlayer{{55.0, 165.0}, 0.0364, 0.0121, 0.5, 0.0121};
 
 /// The events of a clip of several bands beside its one voice `amplitude` (not empty; linear): `events` are as strong

@@ -112,7 +112,7 @@ inline constexpr std::array exportParameters{
 inline constexpr std::string_view exportProfileText =
     "Actuator profile: a file or a shipped profile; sets the frequency range in formats that state none";
 
-/// All of exportParameters.
+/// Returns all of exportParameters.
 [[nodiscard]] std::span<const ParameterInfo* const> exportParameterInfos();
 
 /// Their descriptions and that of `profile`, each with its formats.

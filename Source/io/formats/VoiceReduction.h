@@ -27,7 +27,7 @@ namespace pacini
 /// A clip of one band that says the same as `voice`.
 [[nodiscard]] Clip clipOfVoice(SingleVoice voice);
 
-/// How long event `i` lasts as a burst: `burst` s, or most of the time until the next.
+/// Returns the duration of event `i` as a burst: `burst` s, or most of the time until the next.
 [[nodiscard]] double burstLength(const std::vector<Transient>& events, std::size_t i, double burst);
 
 /// Strength alone, for motors: the amplitude, topped by a burst of `burst` s for every event (shorter when the next is

@@ -126,7 +126,7 @@ private:
         putInMain(route, main, drives);
     }
 
-    /// From `before` to `now`.
+    /// Cross-fades from `before` to `now`.
     void playFading(std::span<const std::span<float>> main, std::span<const std::span<float>> drives) noexcept
     {
         const std::size_t frames = drives[0].size();

@@ -30,7 +30,7 @@ class DelayGlide
 public:
     void prepare(double sampleRate) noexcept { share = std::min(1.0 / (0.005 * sampleRate), 0.5); }
 
-    /// In frames.
+    /// Sets the delay at once, in frames.
     void jump(double frames) noexcept
     {
         now = goal = frames;
@@ -90,7 +90,7 @@ public:
         reset();
     }
 
-    /// As freshly prepared. [audio]
+    /// Resets to the state after prepare(). [audio]
     void reset() noexcept
     {
         for (Send& send : sends)
@@ -107,7 +107,7 @@ public:
 
     [[nodiscard]] std::size_t channels() const noexcept { return taps.size(); }
 
-    /// Where `used` channels are to be from the next chord on; no more than channels(). [audio]
+    /// Sets the targets of `used` channels from the next chord on; no more than channels(). [audio]
     void aim(const ParameterValues& values, std::size_t used) noexcept
     {
         const std::size_t before = std::exchange(count, std::min(used, taps.size()));

@@ -65,7 +65,7 @@ public:
     /// Whether the engine rests now. [audio]
     [[nodiscard]] bool resting() const noexcept { return watch.resting(); }
 
-    /// As freshly prepared. [audio]
+    /// Resets to the state after prepare(). [audio]
     void reset() noexcept;
 
     /// Any number of frames. [audio]
@@ -86,7 +86,7 @@ public:
         disturbed.store(true, std::memory_order_release);
     }
 
-    /// Of the translation that a channel plays.
+    /// Returns the meters of the translation that a channel plays.
     [[nodiscard]] TranslatorMeterReading readMeters(std::size_t channel = 0) const noexcept;
     /// Sets the haptic channels that are connected to an output, one bit each; all at first, since a host does not
     /// tell. [any]

@@ -30,7 +30,7 @@ public:
         position = 0;
     }
 
-    /// In place. Channels beyond the prepared ones are left as they are. A line that is exactly as long as the delay
+    /// Delays in place. Channels beyond the prepared ones stay unchanged. A line that is exactly as long as the delay
     /// swaps its oldest samples for the newest.
     void process(std::span<const std::span<float>> channels) noexcept
     {

@@ -24,7 +24,7 @@ public:
         place = 0.5;
     }
 
-    /// Of one length. [audio]
+    /// Both of one length. [audio]
     void process(std::span<const float> left, std::span<const float> right) noexcept
     {
         double l = powers[0], r = powers[1];

@@ -140,7 +140,7 @@ inline constexpr std::array<std::string_view, profileSlots> profileChoices{
 inline constexpr std::array<std::string_view, 3> panChoices{"Off", "Position", "Sound panorama"};
 inline constexpr std::array<std::string_view, 3> panLawChoices{"Level", "Delay", "Level and delay"};
 inline constexpr std::array<std::string_view, 2> placesChoices{"Evenly spaced", "Custom"};
-/// Of the channels behind the first: its actuator, or that of a slot, one number higher.
+/// Choices of the channels after the first: its actuator, or that of a slot, one number higher.
 inline constexpr auto furtherProfileChoices = []
 {
     std::array<std::string_view, profileSlots + 1> choices{"Same as channel 1"};
@@ -296,7 +296,7 @@ inline constexpr std::array<ParameterRow, parameterCount> parameterTable{{
     return parameterTable[static_cast<std::size_t>(parameter)];
 }
 
-/// Whether every row stands at the place that its enumerator names.
+/// Whether every row is at the index of its enumerator.
 [[nodiscard]] constexpr bool isInOrder() noexcept
 {
     for (std::size_t i = 0; i < parameterCount; ++i)

@@ -107,7 +107,7 @@ public:
     [[nodiscard]] int latency() const { return getLatencySamples(); }
     /// The newest of the source, mono, all finite; at most `captureSeconds`.
     [[nodiscard]] Capture capture(double seconds) const;
-    /// Which haptic channels lead to an output of a device, a bit for each. [any]
+    /// Sets the haptic channels that are connected to an output of a device, one bit each. [any]
     void setConnected(unsigned haptics) noexcept { engine.setConnected(haptics); }
     /// The largest sample of a haptic channel that went out since the last call, linear.
     [[nodiscard]] float takePeak(std::size_t channel) { return engine.takePeak(channel); }

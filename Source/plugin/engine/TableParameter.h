@@ -20,7 +20,7 @@ public:
 
     [[nodiscard]] const ParameterRow& row() const noexcept { return *tableRow; }
 
-    /// In the unit of the row.
+    /// The value in the unit of the row.
     [[nodiscard]] double value() const noexcept { return plain.load(std::memory_order_relaxed); }
     /// Notifies the host and all listeners. [message]
     void setPlainNotifyingHost(double wanted);

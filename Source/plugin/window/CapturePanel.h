@@ -26,7 +26,7 @@ public:
 
     void resized() override;
 
-    /// The captured clip as a file, after a question where one stands there; packed or JSON by its ending.
+    /// Saves the captured clip, after a question if the file exists; packed or JSON by its extension.
     void save(const juce::File& chosen);
 
 private:

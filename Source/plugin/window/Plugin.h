@@ -18,7 +18,7 @@ public:
     juce::AudioProcessorEditor* createEditor() override;
     bool hasEditor() const override { return true; }
 
-    /// Where presets of the user and settings of all windows are. [message]
+    /// The folder of the user's presets and the settings of all windows. [message]
     [[nodiscard]] const juce::File& userFolder() const noexcept { return folder; }
     /// Before a window is made.
     void setUserFolder(const juce::File& wanted) { folder = wanted; }

@@ -42,9 +42,9 @@ public:
     void setDark(bool dark);
     /// Scales all of the window, for this one and those to come; one of WindowSettings::scales, %.
     void chooseScale(int percent);
-    /// Of the host and the user together; 1 is 100 %.
+    /// The scale of host and user together; 1 is 100 %.
     [[nodiscard]] float scaleFactor() const noexcept { return getTransform().mat00; }
-    /// By the host, times that of the user.
+    /// Sets the scale of the host, which multiplies that of the user.
     void setScaleFactor(float byHost) override;
     /// The menu of the button at the right end of the header.
     [[nodiscard]] juce::PopupMenu menu();

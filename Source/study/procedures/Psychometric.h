@@ -70,11 +70,11 @@ public:
     /// The mean of each parameter.
     [[nodiscard]] Psychometric mean() const;
 
-    /// Of the threshold alone.
+    /// Standard deviation of the threshold.
     [[nodiscard]] double thresholdSd() const;
     [[nodiscard]] Interval threshold95() const;
 
-    /// Of the share of right answers at a strength.
+    /// 95 % interval of the share of right answers at a strength.
     [[nodiscard]] Interval share95(double strength) const;
 
 private:

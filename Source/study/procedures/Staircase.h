@@ -34,7 +34,7 @@ public:
     void answer(bool right);
     [[nodiscard]] bool isDone() const noexcept;
 
-    /// Of all reversals but the first two (the first too few to leave some out); nothing before any.
+    /// The mean of all reversals but the first two (but the first, if there are too few); none before any.
     [[nodiscard]] std::optional<ThresholdEstimate> threshold() const;
 
     [[nodiscard]] int trials() const noexcept { return answered; }
@@ -54,7 +54,7 @@ private:
 class QuestPlus
 {
 public:
-    /// For so many intervals to choose from; `adaptive` as validate() takes it.
+    /// `intervals` is the number of intervals to choose from; `adaptive` must pass validate().
     QuestPlus(const Adaptive& adaptive, int intervals);
 
     [[nodiscard]] double strength() const noexcept { return candidates[next].strength; }
@@ -77,7 +77,7 @@ private:
 /// The thresholds and strengths that QUEST+ thinks of: a grid of 1 dB or finer from the easiest to the hardest.
 [[nodiscard]] Grid strengthGrid(const Adaptive& adaptive);
 
-/// The prior of thresholds in that range, for so many intervals.
+/// The prior of thresholds in that range, for the number of intervals.
 [[nodiscard]] PsychometricPrior priorOf(const Adaptive& adaptive, int intervals);
 
 /// Either of them.

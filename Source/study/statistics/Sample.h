@@ -43,7 +43,7 @@ struct SampleSummary
 /// Divided by count - 1; 0 of fewer than two.
 [[nodiscard]] double sdOf(std::span<const double> values) noexcept;
 
-/// Of rising values, `share` from 0 to 1.
+/// Quantile of ascending values, `share` from 0 to 1.
 [[nodiscard]] double quantileOfSorted(std::span<const double> sorted, double share) noexcept;
 
 /// Ranks from 1 in the order of `values`; equal values share the mean of their ranks.

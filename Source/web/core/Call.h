@@ -49,7 +49,7 @@ public:
     void put(std::string_view bytes);
     void put(std::span<const float> samples);
 
-    /// Of the options, within a range.
+    /// Returns a number of the options, within a range.
     [[nodiscard]] double number(const char* name, double usual, double low, double high);
     [[nodiscard]] std::optional<double> optionalNumber(const char* name, double low, double high);
     [[nodiscard]] bool truth(const char* name, bool usual);

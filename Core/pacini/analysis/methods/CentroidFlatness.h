@@ -87,8 +87,9 @@ struct CentroidFlatnessParams
     bool operator==(const CentroidFlatnessParams&) const = default;
 };
 
-/// How tonal a frame of this spectral flatness is, 0 (noise) to 1 (flatness -60 dB or less): the coefficient of
-/// tonality of J. D. Johnston, "Transform coding of audio signals using perceptual noise criteria", IEEE JSAC 6 (1988).
+/// Returns the tonality of a frame of this spectral flatness, 0 (noise) to 1 (flatness -60 dB or less): the coefficient
+/// of tonality of J. D. Johnston, "Transform coding of audio signals using perceptual noise criteria", IEEE JSAC 6
+/// (1988).
 [[nodiscard]] inline double tonalityOf(double flatness) noexcept
 {
     return clampTo(Decibels::fromPower(flatness).value / -60.0, 0.0, 1.0);

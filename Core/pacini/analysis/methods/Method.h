@@ -161,7 +161,7 @@ inline void recordChoices(Clip& clip, Method method, const MethodChoices& choice
     }
 }
 
-/// The drive signal that a method makes of a mono sound, as long as the sound and at its rate. Only for methods whose
+/// Returns the drive signal of a method for a mono sound, with the length and rate of the sound. Only for methods whose
 /// output is a signal: others are the caller's error (asserted) and give silence.
 [[nodiscard]] inline std::vector<float> translateToSignal(Method method, std::span<const float> mono, double fs)
 {

@@ -252,7 +252,7 @@ inline constexpr std::array methodParameters{
     return all;
 }
 
-/// How a sound is translated.
+/// Parameters of the translation of a sound.
 struct TranslationParams
 {
     Method method = Method::a2vt;

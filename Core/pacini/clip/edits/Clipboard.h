@@ -43,9 +43,9 @@ struct Fragment
     return fragment;
 }
 
-/// Puts a copied curve into `lane` at `time` (clamped), in place of what is there over its length; what would lie
-/// behind the clip's end is cut off. invalidArgument: the clip has no such lane, or one of the two holds frequencies
-/// and the other amplitudes.
+/// Pastes a copied curve into `lane` at `time` (clamped). It replaces the content over its length and is cut off at the
+/// clip's end. invalidArgument: the clip has no such lane, or one of the two holds frequencies and the other
+/// amplitudes.
 [[nodiscard]] inline Result<Clip> pasteCurve(Clip clip, Lane lane, const Fragment::LanePart& part, double time)
 {
     Curve* curve = curveOf(clip, lane);

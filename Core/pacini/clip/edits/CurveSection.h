@@ -66,7 +66,7 @@ inline void appendCurve(Curve& curve, const Curve& part, double at)
         curve.push_back({at + part[i].time, part[i].value});
 }
 
-/// How mapValues() treats the lines between points.
+/// Treatment of the lines between points by mapValues().
 struct MapLines
 {
     double step = 0.0; ///< s: lines are split so that no piece is longer; 0 = `f` is linear in the value alone

@@ -102,7 +102,7 @@ namespace detail
     return result;
 }
 
-/// How far points move: value becomes value * factor + offset (factor for dB and log views, offset for linear ones).
+/// Movement of points: value becomes value * factor + offset (factor for dB and log views, offset for linear ones).
 struct PointMove
 {
     double time = 0.0; ///< s

@@ -54,7 +54,7 @@ void appendEvents(std::vector<Event>& events, const std::vector<Event>& part, do
     }
 }
 
-/// The level that an envelope would have: the root of the summed power of the bands, at all their points.
+/// Returns the level that an envelope would have: the root of the summed power of the bands, at all their points.
 [[nodiscard]] inline Curve impliedEnvelope(const Clip& clip)
 {
     std::vector<double> times = {0.0, clip.duration};
@@ -106,7 +106,7 @@ template <typename SameBand, typename List>
     return places;
 }
 
-/// Appends curve `b` at `at`, where clip `a` ends. An empty curve stands for `emptyA` or `emptyB` all along.
+/// Appends curve `b` at `at`, the end of clip `a`. An empty curve is constant at `emptyA` or `emptyB`.
 inline void joinCurves(Curve& a, const Curve& b, double at, double lengthOfB, double emptyA, double emptyB)
 {
     if (a.empty() && b.empty())
@@ -134,7 +134,7 @@ inline void joinCurves(Curve& a, const Curve& b, double at, double lengthOfB, do
     return clip;
 }
 
-/// Both sides of a clip split at `time` (clamped to the clip).
+/// Returns both parts of a clip split at `time` (clamped to the clip).
 [[nodiscard]] inline std::pair<Clip, Clip> splitClip(const Clip& clip, double time)
 {
     const double at = clampTo(time, 0.0, clip.duration);

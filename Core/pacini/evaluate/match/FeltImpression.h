@@ -27,7 +27,7 @@ struct FeltFigures
 
 namespace detail
 {
-/// How often `x` rises by at least `least` above the valley before it, having fallen as much in between.
+/// Counts the rises of `x` by at least `least` above the valley before them, with a fall as large in between.
 [[nodiscard]] inline std::size_t countPulses(std::span<const float> x, float least) noexcept
 {
     std::size_t pulses = 0;

@@ -148,9 +148,9 @@ inline void addFrequencyParts(const HeardTrack& heard, const TouchTrack& felt, M
 /// predictedMatch() of a vibration that is never felt: the least that a match is read against.
 inline constexpr double matchOfSilence = 35.4;
 
-/// How well people would say that the vibration matches the sound, 0 to 100: the mean rating of such a pair, not of one
-/// person. Fitted to 480 ratings of six kinds of sound by ridge regression (`Tests/human/fit_match.py`, which shows
-/// what the parts that are not in it would add on kinds that the fit has not seen: nothing).
+/// Returns the predicted rating of the match of vibration and sound, 0 to 100: the mean rating of such a pair, not of
+/// one person. Fitted to 480 ratings of six kinds of sound by ridge regression (`Tests/human/fit_match.py`, which also
+/// shows that the unused parts add nothing on kinds outside the fit).
 [[nodiscard]] inline double predictedMatch(const MatchParts& parts) noexcept
 {
     return matchOfSilence + 30.0 * parts.attacks + 5.8 * parts.envelope;

@@ -13,7 +13,7 @@ namespace pacini
 /// Longer texts are refused.
 inline constexpr std::size_t largestAhapText = std::size_t(32) << 20;
 
-/// How long Core Haptics plays a continuous event at most, in s.
+/// Longest continuous event of Core Haptics, s.
 inline constexpr double longestAhapEvent = 30.0;
 
 [[nodiscard]] bool isAhap(std::string_view bytes);

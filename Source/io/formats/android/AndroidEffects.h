@@ -46,7 +46,7 @@ struct AndroidEffects
     bool operator==(const AndroidEffects&) const = default;
 };
 
-/// Frequency of the sinusoid that stands for an amplitude without frequency, Hz: that of a phone's resonant actuator.
+/// Frequency of the sinusoid for an amplitude without frequency, Hz: that of a phone's resonant actuator.
 inline constexpr double androidMotorFrequency = 150.0;
 
 /// `time` in s as whole ms, and back.

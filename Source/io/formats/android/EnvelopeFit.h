@@ -38,7 +38,7 @@ struct EnvelopeNode
 [[nodiscard]] Result<std::vector<EnvelopeNode>> fittedNodes(std::vector<EnvelopeNode> nodes,
                                                             const EnvelopeLimits& limits);
 
-/// Where the envelope through `fitted` leaves the one through `nodes`.
+/// Adds the places where the envelope through `fitted` differs from the one through `nodes`.
 void addFitLosses(LossList& losses, const std::vector<EnvelopeNode>& nodes, const std::vector<EnvelopeNode>& fitted);
 
 } // namespace pacini

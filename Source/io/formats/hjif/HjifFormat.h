@@ -31,10 +31,10 @@ namespace pacini
 
 [[nodiscard]] bool isHjif(std::string_view bytes);
 
-/// How events are written unless something else is asked for: players give all transients the same 22 ms of 91 Hz.
+/// Default representation of events: players give all transients the same 22 ms of 91 Hz.
 inline constexpr EventExport hjifEvents = EventExport::merged;
 
-/// How long the reference player's only transient is, s.
+/// Length of the reference player's only transient, s.
 inline constexpr double hjifTransientLength = 0.022;
 
 /// Frequencies of the dullest and the sharpest event in a Transient band, Hz; linear between.

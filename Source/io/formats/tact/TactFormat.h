@@ -23,7 +23,7 @@ namespace pacini
 /// Effects are made of frames of this length, ms.
 inline constexpr std::int64_t tactFrame = 20;
 
-/// Frequency of the sinusoid that stands for a motor's strength, Hz.
+/// Frequency of the sinusoid for a motor's strength, Hz.
 inline constexpr double tactMotorFrequency = 150.0;
 
 } // namespace pacini
