@@ -528,7 +528,7 @@ class Clip:
 
     @classmethod
     def from_dict(cls, content: dict[str, Any]) -> Clip:
-        """A clip of what :meth:`to_dict` gives."""
+        """Returns the clip of a dictionary, as :meth:`to_dict` returns it."""
         try:
             text = json.dumps(content, allow_nan=False)
         except (TypeError, ValueError) as error:

@@ -1,4 +1,4 @@
-"""Clips in notebooks: lanes as SVG, a player of what they sound like, and plots by matplotlib."""
+"""Clips in notebooks: lanes as SVG, a sound player, and plots with matplotlib."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Clip files of all formats: what there is, and what each of them loses."""
+"""Clip files of all formats: the list of formats, and the losses of each."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What can be set, as it is described for every door."""
+"""Settings, from their common descriptions."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ EXPORT = _by_name(_native.export_parameters())
 
 
 def unknown(options: dict[str, Any], known: dict[str, dict[str, Any]]) -> Optional[tuple[str, str]]:
-    """The first option that is not known, and what may have been meant; None where all are known."""
+    """Returns the first unknown option and a suggestion; None if all are known."""
     for name in options:
         if name not in known:
             near = difflib.get_close_matches(name, known, 1)

@@ -60,7 +60,7 @@ class Profile:
 
     @classmethod
     def from_dict(cls, content: dict[str, Any]) -> Profile:
-        """A profile of what :meth:`to_dict` gives, which is what profile files hold."""
+        """Returns the profile of a dictionary, as :meth:`to_dict` returns it and profile files contain it."""
         try:
             text = json.dumps(content, allow_nan=False)
         except (TypeError, ValueError) as error:

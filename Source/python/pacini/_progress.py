@@ -20,7 +20,7 @@ def _tqdm() -> Any:
 
 @contextmanager
 def shown(progress: Progress, label: str) -> Iterator[Optional[Callable[[float], object]]]:
-    """What to call with the share that is done, in the end 1: `progress` itself, or for True a bar."""
+    """Returns the function to call with the share that is done, up to 1: `progress` itself, or a bar for True."""
     if progress is None or progress is False:
         yield None
         return

@@ -696,7 +696,7 @@ class Comparison:
 
     @property
     def impression(self) -> dict[str, Any]:
-        """What people would say of its strength, tempo and roughness."""
+        """Predicted ratings of strength, tempo and roughness."""
         impression: dict[str, Any] = self.values["impression"]
         return impression
 
@@ -706,7 +706,7 @@ class Comparison:
 
 
 def _read_samples(path: PathLike, *allowed: bool) -> tuple[Any, int]:
-    """(frames, channels) of a file and its rate; what the reader lets pass of it is a warning."""
+    """Returns the samples of a file, (frames, channels), and its rate. Tolerated problems are warnings."""
     samples, rate, doubts = _native.read_audio(os.fsdecode(path), *allowed)
     for doubt in doubts:
         warnings.warn(f"{os.fsdecode(path)}: {doubt}", stacklevel=4)

@@ -104,12 +104,12 @@ class Translator:
     __call__ = process
 
     def reset(self) -> None:
-        """Forgets what it has heard."""
+        """Resets the translator to its initial state."""
         self._handle.reset()
 
     @property
     def latency(self) -> int:
-        """Frames by which the drive is later than the sound."""
+        """Delay of the drive against the sound, frames."""
         return self._handle.latency
 
     @property
@@ -119,7 +119,7 @@ class Translator:
 
     @property
     def savings(self) -> list[tuple[str, str]]:
-        """What it does without, and why."""
+        """The parts that are left out, with the reasons."""
         return self._handle.savings()
 
     def __reduce__(self) -> tuple[Any, ...]:
