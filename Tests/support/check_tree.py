@@ -35,6 +35,7 @@ BINARY = {
 # Where a package states the version; CMakeLists.txt states it for all of them.
 VERSION = re.compile(r"project\(Pacini VERSION ([0-9.]+)")
 STATED = {
+    "CITATION.cff": r"^version: (.+)$",
     "Source/web/package/package.json": r'^  "version": "([^"]+)"',
     "Source/library/bindings/node/package.json": r'^  "version": "([^"]+)"',
     "Source/library/bindings/csharp/package.json": r'^  "version": "([^"]+)"',
@@ -74,7 +75,8 @@ def selftest():
         root = Path(folder)
         files = {"CMakeLists.txt": b"project(Pacini VERSION 1.2.3 LANGUAGES CXX)\n", "Core/a.h": b"\n",
                  "Resources/demo/a.flac": b"fLaC\0"}
-        files |= {name: b'  "version": "1.2.3",\n' if name.endswith("json") else b'version = "1.2.3"\n' for name in STATED}
+        forms = {"json": b'  "version": "1.2.3",\n', "cff": b"version: 1.2.3\n"}
+        files |= {name: forms.get(name.rsplit(".", 1)[1], b'version = "1.2.3"\n') for name in STATED}
 
         def found(changed):
             for name, data in (files | changed).items():
