@@ -15,6 +15,14 @@ if(CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang" AND NOT MSVC)
     add_compile_options(-ffp-contract=off)
 endif()
 
+if(WIN32)
+    # Of <windows.h> no more than is needed: some of its macros are names of the C++ library.
+    add_compile_definitions($<$<COMPILE_LANGUAGE:CXX>:NOMINMAX> $<$<COMPILE_LANGUAGE:CXX>:WIN32_LEAN_AND_MEAN>)
+    if(MSVC)
+        add_compile_options(/utf-8 /bigobj)
+    endif()
+endif()
+
 find_program(PACINI_CCACHE ccache)
 if(PACINI_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
     # Without the sloppiness it would not store what includes a precompiled header; by the base a second checkout finds

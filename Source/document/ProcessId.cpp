@@ -1,7 +1,6 @@
 #include "document/ProcessId.h"
 
 #if defined(_WIN32)
-#define NOMINMAX
 #include <windows.h>
 #else
 #include <signal.h>

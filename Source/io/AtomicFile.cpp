@@ -10,6 +10,8 @@
 #if defined(_WIN32)
 #include <fcntl.h>
 #include <io.h>
+
+#include <cwchar>
 #else
 #include <unistd.h>
 #endif
@@ -89,7 +91,7 @@ Result<AtomicFile> AtomicFile::create(const fs::path& wanted, Existing existing)
         return fileError(EISDIR);
     if (isStream(wanted))
     {
-        FileHandle nameless(std::tmpfile());
+        FileHandle nameless = namelessStream();
         if (!nameless)
             return fileError(errno);
         return AtomicFile(std::move(nameless), {}, wanted, {}, existing);
@@ -110,7 +112,7 @@ Result<AtomicFile> AtomicFile::create(const fs::path& wanted, Existing existing)
     {
         auto temporary = temporaryName(target, random());
         TemporaryEntry entry(temporary); // listed before it exists: a signal may come in between
-        auto stream = openStream(temporary, "w+bx");
+        auto stream = createStream(temporary);
         if (!stream && errno == EEXIST)
             continue;
         if (!stream && errno == ENOENT)
@@ -248,6 +250,10 @@ bool isStandardOutput(const fs::path& path)
 
 bool isStream(const fs::path& path)
 {
+#if defined(_WIN32)
+    if (_wcsicmp(path.filename().c_str(), L"NUL") == 0)
+        return true; // in every folder, and said to be a file
+#endif
     std::error_code unknown;
     const auto status = fs::status(path, unknown);
     return isStandardOutput(path) || (fs::exists(status) && fs::is_other(status));

@@ -5,7 +5,9 @@
 #include <system_error>
 
 #if defined(_WIN32)
+#include <fcntl.h>
 #include <io.h>
+#include <windows.h>
 #else
 #include <fcntl.h>
 #include <unistd.h>
@@ -28,7 +30,11 @@ std::string reason(int errnoValue)
         return "is a folder; give the name of a file";
     case EACCES:
     case EPERM:
+#if defined(_WIN32)
+        return "permission denied; close it in other programs and check the permissions of the file and its folder";
+#else
         return "permission denied; check the permissions of the file and its folder";
+#endif
     case EROFS:
         return "the disk is read-only; choose another folder";
     case ENOSPC:
@@ -70,6 +76,41 @@ FileHandle openStream(const std::filesystem::path& path, const char* mode)
     return FileHandle(_wfopen(path.c_str(), wideMode.c_str()));
 #else
     return FileHandle(std::fopen(path.c_str(), mode));
+#endif
+}
+
+FileHandle createStream(const std::filesystem::path& path)
+{
+#if defined(_WIN32)
+    // With the right to remove it, which TemporaryFiles.cpp needs.
+    const HANDLE file = CreateFileW(path.c_str(), GENERIC_READ | GENERIC_WRITE | DELETE, FILE_SHARE_READ, nullptr,
+                                    CREATE_NEW, FILE_ATTRIBUTE_NORMAL, nullptr);
+    if (file == INVALID_HANDLE_VALUE)
+    {
+        const std::error_code reason(static_cast<int>(GetLastError()), std::system_category());
+        errno = reason.default_error_condition().value();
+        return {};
+    }
+    const int descriptor = _open_osfhandle(reinterpret_cast<std::intptr_t>(file), _O_RDWR | _O_BINARY);
+    return FileHandle(descriptor < 0 ? nullptr : _fdopen(descriptor, "w+b"));
+#else
+    return openStream(path, "w+bx");
+#endif
+}
+
+FileHandle namelessStream()
+{
+#if defined(_WIN32)
+    // tmpfile() would put it where administrators alone may write.
+    wchar_t folder[MAX_PATH + 1], name[MAX_PATH + 1];
+    if (GetTempPathW(MAX_PATH + 1, folder) == 0 || GetTempFileNameW(folder, L"pac", 0, name) == 0)
+    {
+        errno = EACCES;
+        return {};
+    }
+    return openStream(name, "w+bTD"); // in memory where there is room, and removed when it is closed
+#else
+    return FileHandle(std::tmpfile());
 #endif
 }
 

@@ -1,7 +1,6 @@
 #include "io/FileLock.h"
 
 #if defined(_WIN32)
-#define NOMINMAX
 #include <windows.h>
 #else
 #include <fcntl.h>

@@ -27,7 +27,7 @@ namespace
 Result<FileHandle> takenIn(std::FILE* stream)
 {
     constexpr std::uint64_t most = 8ull << 30;
-    FileHandle file(std::tmpfile());
+    FileHandle file = namelessStream();
     if (!file)
         return fileError(errno);
     std::vector<char> block(65536);

@@ -13,7 +13,10 @@
 #include <system_error>
 #include <utility>
 
-#if !defined(_WIN32)
+#if defined(_WIN32)
+#include <io.h>
+#include <windows.h>
+#else
 #include <fcntl.h>
 #include <signal.h>
 #include <sys/file.h>
@@ -93,7 +96,16 @@ void removeUnlessKept(const fs::path& path)
 #endif
 }
 
-#if !defined(_WIN32)
+#if defined(_WIN32)
+/// Whether the file goes when it is closed, as it is at the end of a process, however that ends.
+bool removeAtTheEnd(std::FILE* file, bool remove) noexcept
+{
+    FILE_DISPOSITION_INFO wanted{};
+    wanted.DeleteFile = remove ? TRUE : FALSE;
+    const auto handle = reinterpret_cast<HANDLE>(_get_osfhandle(_fileno(file)));
+    return SetFileInformationByHandle(handle, FileDispositionInfo, &wanted, sizeof wanted) != 0;
+}
+#else
 static_assert(std::atomic<const Char*>::is_always_lock_free);
 static_assert(std::atomic<bool>::is_always_lock_free);
 
@@ -163,7 +175,8 @@ std::string temporaryEnding(unsigned number)
 bool keepTemporary(std::FILE* temporary) noexcept
 {
 #if defined(_WIN32)
-    return temporary != nullptr;
+    static_cast<void>(removeAtTheEnd(temporary, true)); // where that cannot be, it may stay as one of a killed program
+    return true;
 #else
     // Where locks do not work, nobody can take this one for stale either.
     struct stat status = {};
@@ -174,7 +187,10 @@ bool keepTemporary(std::FILE* temporary) noexcept
 
 TemporaryMark::TemporaryMark([[maybe_unused]] std::FILE* temporary) noexcept
 {
-#if !defined(_WIN32)
+#if defined(_WIN32)
+    if (temporary != nullptr)
+        static_cast<void>(removeAtTheEnd(temporary, false));
+#else
     file = ::fcntl(::fileno(temporary), F_DUPFD_CLOEXEC, 0);
 #endif
 }

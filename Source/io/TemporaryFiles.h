@@ -39,7 +39,7 @@ private:
 [[nodiscard]] bool keepTemporary(std::FILE* temporary) noexcept;
 
 /// Keeps the mark of a temporary during its lifetime, also between closing the stream and renaming, so that a search
-/// for stale temporaries does not take it for one. Does nothing on Windows, where open files cannot be renamed.
+/// for stale temporaries does not take it for one. On Windows, where open files cannot be renamed, it ends the mark.
 class TemporaryMark
 {
 public:
@@ -58,7 +58,7 @@ void removeStaleTemporaries(const std::filesystem::path& folder);
 
 /// Installs handlers for SIGINT, SIGTERM and SIGHUP that first remove the listed files, then end the program as usual.
 /// A signal that the program was started to ignore stays ignored, and further signals wait until all files are removed.
-/// Does nothing on Windows, where an open file cannot be removed. Call once, from the main function.
+/// Does nothing on Windows, which removes marked files when the program ends. Call once, from the main function.
 void removeTemporariesOnSignals() noexcept;
 
 } // namespace pacini
