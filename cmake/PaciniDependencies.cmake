@@ -24,7 +24,8 @@ endif()
 if(PACINI_BUILD_CLI OR PACINI_BUILD_TESTS)
     find_package(CLI11 REQUIRED)
     find_package(Threads REQUIRED)
-    pkg_check_modules(cairo REQUIRED IMPORTED_TARGET cairo)
+    # Without cairo pictures are SVG alone, and the widths of their texts are estimated.
+    pkg_check_modules(cairo IMPORTED_TARGET cairo)
     # Without hidapi the command cannot list game controllers.
     pkg_search_module(hidapi IMPORTED_TARGET hidapi-hidraw hidapi)
     # Without the header of RtAudio 5 `pacini live` opens no sound device, and takes sounds from pipes and files. RtAudio 6

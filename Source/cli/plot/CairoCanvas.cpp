@@ -1,5 +1,7 @@
 #include "cli/plot/CairoCanvas.h"
 
+#if PACINI_HAS_CAIRO
+
 #include "cli/plot/CairoHandles.h"
 #include "cli/plot/FontMetrics.h"
 
@@ -163,3 +165,5 @@ Result<std::string> CairoCanvas::finish()
 }
 
 } // namespace pacini::plot
+
+#endif

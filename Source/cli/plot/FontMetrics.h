@@ -11,7 +11,7 @@ namespace pacini::plot
 {
 
 /// Measures texts in the system's sans-serif font. Without any font cairo's built-in one is used, which knows ASCII
-/// only.
+/// only. A build without cairo estimates.
 class FontMetrics
 {
 public:

@@ -13,16 +13,15 @@ namespace
 {
 std::unique_ptr<Canvas> makeCanvas(PictureFormat format, PictureSize size, const std::string& title)
 {
-    switch (format)
-    {
-    case PictureFormat::svg:
-        return std::make_unique<SvgCanvas>(size.width, size.height, title);
-    case PictureFormat::pdf:
+#if PACINI_HAS_CAIRO
+    if (format == PictureFormat::png)
+        return CairoCanvas::png(size.width, size.height);
+    if (format == PictureFormat::pdf)
         return CairoCanvas::pdf(size.width, size.height, title);
-    case PictureFormat::png:
-        break;
-    }
-    return CairoCanvas::png(size.width, size.height);
+#endif
+    if (format == PictureFormat::svg)
+        return std::make_unique<SvgCanvas>(size.width, size.height, title);
+    return nullptr;
 }
 } // namespace
 
@@ -45,6 +44,8 @@ Result<std::size_t> writePicture(const std::filesystem::path& path, PictureSize 
     if (!format)
         return Error{ErrorCode::invalidArgument, "", "must have the extension .png, .svg or .pdf"};
     const auto canvas = makeCanvas(*format, size, title);
+    if (!canvas)
+        return Error{ErrorCode::invalidArgument, "", "needs cairo, without which this pacini was built; draw an .svg"};
     draw(*canvas);
     const auto bytes = canvas->finish();
     if (!bytes)
