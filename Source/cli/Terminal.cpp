@@ -4,9 +4,7 @@
 #include <cstdlib>
 
 #if defined(_WIN32)
-#include <io.h>
-
-#include <cstdio>
+#include <windows.h>
 #else
 #include <sys/ioctl.h>
 #include <unistd.h>
@@ -18,7 +16,14 @@ namespace pacini::cli::terminal
 bool canRedraw()
 {
 #if defined(_WIN32)
-    static const bool watched = _isatty(_fileno(stderr)) != 0;
+    // A console of Windows 10 and later knows escape sequences once it is asked to.
+    static const bool watched = []
+    {
+        const HANDLE console = GetStdHandle(STD_ERROR_HANDLE);
+        DWORD mode = 0;
+        return GetConsoleMode(console, &mode) != 0 &&
+               SetConsoleMode(console, mode | ENABLE_VIRTUAL_TERMINAL_PROCESSING) != 0;
+    }();
 #else
     static const bool watched = isatty(STDERR_FILENO) != 0;
 #endif
@@ -28,7 +33,11 @@ bool canRedraw()
 
 std::size_t columns()
 {
-#if !defined(_WIN32)
+#if defined(_WIN32)
+    CONSOLE_SCREEN_BUFFER_INFO size{};
+    if (GetConsoleScreenBufferInfo(GetStdHandle(STD_ERROR_HANDLE), &size) != 0)
+        return static_cast<std::size_t>(size.srWindow.Right - size.srWindow.Left + 1);
+#else
     winsize size{};
     if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0)
         return size.ws_col;

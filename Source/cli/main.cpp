@@ -4,5 +4,6 @@
 int main(int argc, char** argv)
 {
     pacini::cli::prepareProcess();
-    return pacini::cli::runCommandLine(argc, argv);
+    const auto words = pacini::cli::commandWords(argc, argv);
+    return pacini::cli::runCommandLine(static_cast<int>(words.size()), words.data());
 }

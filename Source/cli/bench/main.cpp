@@ -9,7 +9,8 @@
 int main(int argc, char** argv)
 {
     pacini::cli::prepareProcess();
+    const auto given = pacini::cli::commandWords(argc, argv);
     std::vector<const char*> words{"pacini", "bench"};
-    words.insert(words.end(), argv + 1, argv + argc);
+    words.insert(words.end(), given.begin() + 1, given.end());
     return pacini::cli::runCommandLine(static_cast<int>(words.size()), words.data(), pacini::cli::runBenches);
 }

@@ -13,11 +13,6 @@
 #include <string>
 #include <vector>
 
-#if defined(_WIN32)
-#include <fcntl.h>
-#include <io.h>
-#endif
-
 namespace pacini::cli
 {
 
@@ -62,9 +57,6 @@ Result<std::unique_ptr<LiveFile>> LiveFile::create(const std::filesystem::path& 
     const auto rate = static_cast<int>(std::lround(sampleRate));
     if (path == "-")
     {
-#if defined(_WIN32)
-        _setmode(_fileno(stdout), _O_BINARY);
-#endif
         if (const auto done = toStandardOutput(endlessHeader(static_cast<std::uint32_t>(rate))); !done)
             return done.error();
     }

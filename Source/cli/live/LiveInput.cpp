@@ -298,7 +298,7 @@ Result<std::unique_ptr<LiveInput>> LiveInput::open(const std::string& path, cons
     if (path == "-")
         _setmode(descriptor, _O_BINARY);
     else
-        descriptor = _open(path.c_str(), _O_RDONLY | _O_BINARY);
+        descriptor = _wopen(fs::path(path).c_str(), _O_RDONLY | _O_BINARY);
 #else
     const int descriptor = path == "-" ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
 #endif
