@@ -2,6 +2,11 @@
 #include <pacini.h>
 #include <stdio.h>
 
+#if defined(_WIN32)
+#include <fcntl.h>
+#include <io.h>
+#endif
+
 int main(int argc, char** argv)
 {
     pacini_engine_config config;
@@ -13,6 +18,9 @@ int main(int argc, char** argv)
 
     if (argc != 2)
         return 2;
+#if defined(_WIN32)
+    _setmode(_fileno(stdout), _O_BINARY); /* samples, not lines */
+#endif
     pacini_engine_config_init(&config);
     config.actuators[0].profile = "lra-175";
     if (pacini_engine_create(&config, &engine) || pacini_clip_load_file(argv[1], &clip) ||
