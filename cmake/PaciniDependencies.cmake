@@ -1,5 +1,9 @@
 # Third-party libraries. Debian and Ubuntu packages, Homebrew or vcpkg all provide them; cmake/bootstrap.sh installs
 # them on Debian and Ubuntu.
+if(CMAKE_CROSSCOMPILING AND WIN32)
+    include(WindowsDependencies)
+    return()
+endif()
 
 # Eigen: small dense matrices. Its imported target marks its headers as those of a system.
 find_package(Eigen3 3.3 REQUIRED NO_MODULE)
@@ -24,8 +28,12 @@ endif()
 if(PACINI_BUILD_CLI OR PACINI_BUILD_TESTS)
     find_package(CLI11 REQUIRED)
     find_package(Threads REQUIRED)
-    # Without cairo pictures are SVG alone, and the widths of their texts are estimated.
-    pkg_check_modules(cairo IMPORTED_TARGET cairo)
+    set(PACINI_CAIRO_REQUIRED "")
+    if(PACINI_BUILD_TESTS)
+        set(PACINI_CAIRO_REQUIRED REQUIRED)
+    endif()
+    # Without cairo, which the tests need, pictures are SVG alone, and the widths of their texts are estimated.
+    pkg_check_modules(cairo ${PACINI_CAIRO_REQUIRED} IMPORTED_TARGET cairo)
     # Without hidapi the command cannot list game controllers.
     pkg_search_module(hidapi IMPORTED_TARGET hidapi-hidraw hidapi)
     # Without the header of RtAudio 5 `pacini live` opens no sound device, and takes sounds from pipes and files. RtAudio 6

@@ -1,5 +1,8 @@
 # What is installed besides the core, and the Debian package of all of it: `cmake --install` and `cpack -G DEB` give the
-# same tree. On Linux only: elsewhere plugins and programs have other places.
+# same tree. On Linux: Windows has WindowsPackage.cmake, and elsewhere plugins and programs have other places.
+if(WIN32 AND TARGET pacini)
+    include(WindowsPackage)
+endif()
 if(NOT CMAKE_SYSTEM_NAME STREQUAL "Linux" OR CMAKE_CROSSCOMPILING OR PACINI_SANITIZE OR NOT TARGET pacini)
     return()
 endif()

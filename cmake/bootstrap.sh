@@ -8,9 +8,11 @@
 #                                    standalone program and PaciniEditor: build/release/bin, build/release/plugins
 #   bash cmake/bootstrap.sh package  install, build the same and make a Debian package of it: build/package/pacini_*.deb
 #   bash cmake/bootstrap.sh web      install, build the web page and serve it on this machine alone
+#   bash cmake/bootstrap.sh windows  install, build the command and libpacini for Windows on Linux: build/windows/bin, and
+#                                    make its installer and a zip: build/windows/package
 #   bash cmake/bootstrap.sh deps     only install what building and testing need
 set -euo pipefail
-help=$(sed -n '2,11p' "${BASH_SOURCE[0]}" | sed 's/^# \{0,1\}//')
+help=$(sed -n '2,13p' "${BASH_SOURCE[0]}" | sed 's/^# \{0,1\}//')
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 build_packages=(g++ cmake ninja-build ccache pkg-config nlohmann-json3-dev libfmt-dev libboost-dev libcli11-dev libsndfile1-dev
@@ -32,6 +34,11 @@ cluster_packages=(parallel slurmctld slurmd slurm-client munge)
 web_packages=(clang-22 lld-22 libc++-22-dev-wasm32 libc++abi-22-dev-wasm32 libclang-rt-22-dev-wasm32 wasi-libc cmark)
 web_test_packages=(nodejs npm chromium zbar-tools)
 web_modules=(puppeteer-core@24.31.0 axe-core@4.14.1 typescript@5.9.3)
+# Windows: the compiler, what runs its programs here, the installer; libraries that are no packages for it, as their packages'
+# sources; and libsndfile, which is within its package for Python.
+windows_packages=(g++-mingw-w64-x86-64-posix libz-mingw-w64-dev wine64 nsis zip dpkg-dev python3-venv)
+windows_sources=(expat hidapi libzip qr-code-generator)
+windows_module=soundfile==0.14.0
 # For CI alone: other machines, which must make the same clips, another compiler with its library, and its reader of sources.
 portability_packages=(g++-aarch64-linux-gnu g++-i686-linux-gnu qemu-user clang clang-tidy
     libclang-rt-dev libc++-dev libc++abi-dev)
@@ -164,6 +171,35 @@ install_web_modules() {
     install_npm_modules build/web-node "the test of the web page" "${web_modules[@]}"
 }
 
+# What is compiled for Windows besides Pacini, in build/windows-sources.
+install_windows_sources() {
+    local folder=build/windows-sources wanted="${windows_sources[*]} $windows_module" options name
+    [ "$(cat "$folder/complete" 2>/dev/null)" != "$wanted" ] || return 0
+    say "Downloading the sources of ${windows_sources[*]}, and $windows_module"
+    rm -rf "$folder"
+    mkdir -p "$folder"/{apt/parts,apt/lists/partial,apt/cache,got}
+    # The system's sources of packages, of which sources are wanted.
+    cp /etc/apt/sources.list.d/*.sources /etc/apt/sources.list.d/*.list "$folder/apt/parts" 2>/dev/null || true
+    [ ! -e /etc/apt/sources.list ] || cp /etc/apt/sources.list "$folder/apt/parts/system.list"
+    sed -i -E 's/^Types:.*/Types: deb-src/; /^deb-src /d; s/^deb /deb-src /' "$folder"/apt/parts/*
+    options=(-q -o Dir::Etc::SourceList=/dev/null -o "Dir::Etc::SourceParts=$PWD/$folder/apt/parts"
+        -o "Dir::State::Lists=$PWD/$folder/apt/lists" -o "Dir::Cache=$PWD/$folder/apt/cache" -o APT::Sandbox::User=root)
+    apt-get "${options[@]}" update >"$folder/apt/log" 2>&1 || true # some sources of packages have no sources
+    (cd "$folder/got" && apt-get "${options[@]}" source --tar-only --download-only "${windows_sources[@]}") \
+        >>"$folder/apt/log" 2>&1 || { cat "$folder/apt/log" >&2; fail "apt-get cannot download these sources"; }
+    for name in "${windows_sources[@]}"; do
+        mkdir "$folder/$name"
+        tar -xf "$folder/got/$name"_*.orig.tar.* -C "$folder/$name" --strip-components 1
+    done
+    python3 -m venv "$folder/venv" &&
+        "$folder/venv/bin/python" -m pip download -q --disable-pip-version-check --no-deps --only-binary=:all: \
+            --platform win_amd64 -d "$folder/got" "$windows_module" ||
+        fail "$windows_module cannot be downloaded"
+    python3 -m zipfile -e "$folder"/got/soundfile-*.whl "$folder"
+    rm -rf "$folder"/{apt,got,venv}
+    printf '%s' "$wanted" >"$folder/complete"
+}
+
 # As many compilers at once as there are processors, but each needs about 1 GB.
 jobs() {
     local memory
@@ -193,6 +229,12 @@ build_web() {
     cmake -S Source/web -B build/web -G Ninja --toolchain "$PWD/cmake/wasm32.cmake" >/dev/null ||
         fail "cannot configure Source/web"
     cmake --build build/web --parallel "$(jobs)"
+}
+
+# The command and libpacini for Windows, an installer and a zip.
+build_windows() {
+    say "Building for Windows"
+    build windows pacini_windows_package
 }
 
 # Whether everything that builds and tests the web is there already.
@@ -284,6 +326,13 @@ web)
     say "Serving http://127.0.0.1:${PACINI_PORT:=8722}/ until Ctrl+C"
     exec python3 -B Source/web/serve.py build/web/page "$PACINI_PORT"
     ;;
+windows)
+    install_packages "${build_packages[@]}" "${windows_packages[@]}"
+    install_windows_sources
+    need_room 1200
+    build_windows
+    say "The command and libpacini are in build/windows/bin, the installer and the zip in build/windows/package"
+    ;;
 test)
     install_packages "${build_packages[@]}" "${test_packages[@]}"
     install_host_modules
@@ -353,7 +402,7 @@ sanitized-tests)
     usage
     ;;
 *)
-    [ $# -eq 0 ] || printf "bootstrap: '%s' is not one of demo, test, build, plugin, package, web and deps\n\n" "$1" >&2
+    [ $# -eq 0 ] || printf "bootstrap: '%s' is not one of demo, test, build, plugin, package, web, windows and deps\n\n" "$1" >&2
     usage >&2
     exit 2
     ;;

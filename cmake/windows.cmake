@@ -1,0 +1,16 @@
+# Toolchain of Windows on 64-bit x86: Debian's mingw-w64. What is made needs no other libraries than the system's.
+set(CMAKE_SYSTEM_NAME Windows)
+set(CMAKE_SYSTEM_PROCESSOR AMD64)
+set(machine x86_64-w64-mingw32)
+set(CMAKE_C_COMPILER ${machine}-gcc-posix)
+set(CMAKE_CXX_COMPILER ${machine}-g++-posix)
+set(CMAKE_RC_COMPILER ${machine}-windres)
+set(CMAKE_FIND_ROOT_PATH /usr/${machine})
+set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)
+foreach(what LIBRARY INCLUDE PACKAGE)
+    set(CMAKE_FIND_ROOT_PATH_MODE_${what} ONLY)
+endforeach()
+foreach(kind EXE SHARED)
+    # Dates in files would differ from one build to the next.
+    set(CMAKE_${kind}_LINKER_FLAGS_INIT "-static -Wl,--no-insert-timestamp")
+endforeach()
