@@ -1,0 +1,59 @@
+"""Windows on this machine: wine, with a folder of its own for its drive C, and the command as a program of Linux.
+
+Without wine or build/windows a test is skipped, which CI refuses; `bash cmake/bootstrap.sh windows` brings both.
+"""
+import fcntl
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+BUILD = ROOT / "build/windows"
+BIN = BUILD / "bin"
+PREFIX = BUILD / "wine"
+WINE = next((path for path in (shutil.which("wine64"), "/usr/lib/wine/wine64", shutil.which("wine"))
+             if path and os.path.exists(path)), None)
+# Neither its menus in those of this machine, nor its browser.
+os.environ.update(WINEPREFIX=str(PREFIX), WINEDEBUG="-all", LC_ALL="C.UTF-8",
+                  WINEDLLOVERRIDES="winemenubuilder.exe=d;mscoree,mshtml=")
+os.environ.pop("DISPLAY", None)
+
+
+def skip(why):
+    print(f"SKIPPED: {why}")
+    sys.exit(77)
+
+
+def prepare():
+    """Makes drive C once, whichever test is first."""
+    if WINE is None:
+        skip("wine64 is not installed")
+    if not (BIN / "pacini.exe").exists():
+        skip("build/windows is not built")
+    PREFIX.mkdir(exist_ok=True)
+    with open(BUILD / "wine.lock", "w", encoding="utf-8") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        if not (PREFIX / "ready").exists():
+            subprocess.run([WINE, "wineboot", "-i"], capture_output=True, check=True, timeout=300)
+            (PREFIX / "ready").touch()
+
+
+def run(program, *words, **options):
+    """Runs a program of Windows to its end."""
+    options = {"stdin": subprocess.DEVNULL, "capture_output": True, "timeout": 300, "check": False, **options}
+    return subprocess.run([WINE, str(program), *map(str, words)], **options)
+
+
+def command(folder, program="pacini"):
+    """A script that stands for the command in tests that start it as a program of Linux."""
+    script = Path(folder) / program
+    script.write_text(f'#!/bin/sh\nexec "{WINE}" "{BIN / program}.exe" "$@"\n', encoding="utf-8")
+    script.chmod(0o755)
+    return script
+
+
+def as_windows(path):
+    """The path of a file as programs of Windows see it: drive Z is the root of this machine."""
+    return "Z:" + str(path).replace("/", "\\")
