@@ -1,6 +1,7 @@
 """End to end: pacini measure, from a sweep over simulated wearers to an actuator that is proven flat."""
 import json
 import math
+import struct
 import unittest
 
 from command import SOURCE, SANITIZED, CommandTest, sine, wav
@@ -139,6 +140,74 @@ class EndToEnd(MeasureTest):
         self.assertEqual(profile["measurement"]["fittings"], 12)
         self.assertEqual(profile["measurement"]["linearity"]["worstDeviation"], verified["worstDeviation"])
         self.succeeds("info", "mine.json")
+
+    def test_impulse_response_group_delay_and_each_order_are_reported(self):
+        """A cubic a x^3 at full drive has the third order at a / 4 of 1 + 3 a / 4."""
+        self.succeeds("measure", "sweep", "-o", "sweep.wav", "--duration", "4", "--rate", "8000", "--levels", "0")
+        self.succeeds("measure", "simulate", "sweep.wav", "-o", "rec.wav", "--wearers", "2", "--range", "30", "--noise",
+                      "10", "--bits", "16", "--distortion", "0.2", "--profile", "wideband-exciter")
+        analyse = ["measure", "analyse", "rec-01.wav", "rec-02.wav", "--sweep", "sweep.json", "--full-scale", "30g"]
+        code, report, _ = self.warned(*analyse, "--impulse", "impulse.wav", "--plot", "r.svg", "-o", "r.csv")
+        self.assertEqual(code, 0)
+        # The harmonic is above the fundamental by the response's rise from f to 3 f.
+        rows = [line.split(",") for line in (self.folder / "r.csv").read_text().splitlines()]
+        table = {name: [float(row[i]) if row[i] else math.nan for row in rows[1:]] for i, name in enumerate(rows[0])}
+        frequency, level = table["frequency"], table["dB 1"]
+
+        def at(values, wanted):
+            return values[min(range(len(frequency)), key=lambda i: abs(math.log(frequency[i] / wanted)))]
+
+        for f in (150, 200, 300):
+            expected = 20 * math.log10(0.2 / 4 / (1 + 0.75 * 0.2)) + at(level, 3 * f) - at(level, f)
+            self.assertAlmostEqual(at(table["order 3 dB 1"], f), expected, delta=1)
+        orders = {peak["order"]: peak for peak in report["harmonics"]}
+        self.assertEqual(sorted(orders), [2, 3, 4, 5])
+        felt = report["felt"]
+        for order in orders:
+            inside = [max(one, two) for f, one, two in zip(frequency, table[f"order {order} dB 1"],
+                                                          table[f"order {order} dB 2"])
+                      if felt["lowFrequency"] <= f <= felt["highFrequency"] and not math.isnan(one)]
+            self.assertAlmostEqual(orders[order]["level"], max(inside), delta=0.01)
+        self.assertGreater(orders[3]["level"], orders[5]["level"] + 10)
+        delays = sorted(at(table[f"group delay ms {i}"], report["resonance"]["frequency"]) for i in (1, 2))
+        self.assertTrue(delays[0] - 0.2 < 1e3 * report["groupDelay"] < delays[1] + 0.2, (delays, report["groupDelay"]))
+        picture = (self.folder / "r.svg").read_text()
+        for word in ("Group delay", "order 2", "order 5", "all harmonics"):
+            self.assertIn(word, picture)
+        text = self.run_command(*analyse).stdout.decode()
+        self.assertRegex(text, r"group delay [0-9.]+ ms at the resonance")
+        self.assertRegex(text, r"by order, re the fundamental: 2 -?[0-9.]+ dB at \d+ Hz, 3 ")
+
+        rate, channels, samples = self.floats("impulse.wav")
+        self.assertEqual((rate, channels), (report["impulse"]["sampleRate"], 2))
+        arrival = round(report["impulse"]["arrival"] * rate)
+        for channel in (0, 1):
+            h = samples[channel::2]
+            strongest = max(range(len(h)), key=lambda i: abs(h[i]))
+            self.assertLess(abs(strongest - arrival), 0.003 * rate)
+            for f in (80, 200, 700):  # its Fourier transform is the response
+                turns = [2 * math.pi * f * i / rate for i in range(len(h))]
+                gain = math.hypot(sum(x * math.cos(t) for x, t in zip(h, turns)),
+                                  sum(x * math.sin(t) for x, t in zip(h, turns)))
+                self.assertAlmostEqual(20 * math.log10(gain), at(table[f"dB {channel + 1}"], f), delta=0.7)
+
+    def floats(self, name):
+        """Rate, channels and samples of a WAV of 32-bit floats."""
+        data = (self.folder / name).read_bytes()
+        form = data.index(b"fmt ") + 8
+        code, channels, rate = struct.unpack_from("<HHI", data, form)
+        self.assertEqual(code, 3)
+        start = data.index(b"data") + 8
+        size = struct.unpack_from("<I", data, start - 4)[0]
+        return rate, channels, struct.unpack_from(f"<{size // 4}f", data, start)
+
+    def test_an_impulse_response_needs_a_wav_of_its_own(self):
+        for name in ("impulse.flac", "impulse", "impulse.csv"):
+            self.fails(2, ["measure", "analyse", "rec.wav", "--sweep", "sweep.json", "--impulse", name],
+                       f"{name}: --impulse: must have the extension .wav")
+        self.fails(2, ["measure", "analyse", *(f"{i}.wav" for i in range(65)), "--sweep", "sweep.json", "--impulse",
+                       "impulse.wav"], "impulse.wav: --impulse: holds 64 recordings at most")
+        self.assertEqual(self.names(), [])
 
     def test_what_is_not_flat_fails_and_says_where(self):
         self.succeeds("measure", "sweep", "-o", "sweep.wav", "--duration", "2", "--rate", "8000")

@@ -58,18 +58,25 @@ struct FrequencyResponse
     return {};
 }
 
-/// The level at `frequency` Hz, by a straight line over the logarithm of frequency; at the ends the nearest point.
-[[nodiscard]] inline double levelAt(const FrequencyResponse& response, double frequency) noexcept
+/// The value at `frequency` Hz of a curve over rising frequencies `f`, by a straight line over the logarithm of
+/// frequency; at the ends the nearest point. Both lists have the same length, 1 or more.
+[[nodiscard]] inline double valueAt(const std::vector<double>& f, const std::vector<double>& value,
+                                    double frequency) noexcept
 {
-    const auto& f = response.frequency;
     const auto above = std::lower_bound(f.begin(), f.end(), frequency);
     if (above == f.begin())
-        return response.level.front();
+        return value.front();
     if (above == f.end())
-        return response.level.back();
+        return value.back();
     const auto i = static_cast<std::size_t>(above - f.begin());
     const double part = std::log(frequency / f[i - 1]) / std::log(f[i] / f[i - 1]);
-    return response.level[i - 1] + part * (response.level[i] - response.level[i - 1]);
+    return value[i - 1] + part * (value[i] - value[i - 1]);
+}
+
+/// The level at `frequency` Hz, see valueAt().
+[[nodiscard]] inline double levelAt(const FrequencyResponse& response, double frequency) noexcept
+{
+    return valueAt(response.frequency, response.level, frequency);
 }
 
 } // namespace pacini

@@ -20,6 +20,8 @@ struct MeasurementFindings
     ResponseFeatures features;
     std::optional<ActuatorResponse> times; ///< medians over the placements
     double distortion = 0.0;               ///< %, the largest at the loudest sweep within the felt range
+    std::vector<HarmonicPeak> harmonics;   ///< the strongest of each order among the placements, as for `distortion`
+    double groupDelay = 0.0;               ///< s at the resonance, the median over the placements
     std::optional<double> distortionDrive; ///< dB re full scale, at which it passes the limit asked for; the median
     std::optional<double> profileDrive;    ///< the same for the limit of a profile, see ProfileMeasurement
     std::set<std::size_t> outliers;        ///< indices of placements that were left out
@@ -41,7 +43,7 @@ struct MeasurementFindings
     findings.features = *features;
     for (const PlacementOutlier& outlier : average.outliers)
         findings.outliers.insert(outlier.index);
-    std::vector<double> rises, falls, drives, profileDrives;
+    std::vector<double> rises, falls, delays, drives, profileDrives;
     for (std::size_t i = 0; i < placements.size(); ++i)
     {
         if (findings.outliers.contains(i))
@@ -55,6 +57,16 @@ struct MeasurementFindings
         const FrequencyRange& felt = features->felt;
         findings.distortion =
             std::max(findings.distortion, largestDistortion(measured.levels[measured.main], felt.low, felt.high));
+        for (const HarmonicPeak& peak : harmonicPeaks(measured.levels[measured.main], felt.low, felt.high))
+        {
+            const auto known = std::find_if(findings.harmonics.begin(), findings.harmonics.end(),
+                                            [&](const HarmonicPeak& other) { return other.order == peak.order; });
+            if (known == findings.harmonics.end())
+                findings.harmonics.push_back(peak);
+            else if (peak.level > known->level)
+                *known = peak;
+        }
+        delays.push_back(valueAt(measured.response().frequency, measured.groupDelay, features->resonance.frequency));
         if (const auto drive = driveAtDistortion(measured, distortionLimit, felt.low, felt.high))
             drives.push_back(*drive);
         if (const auto drive = driveAtDistortion(measured, profileLimit, felt.low, felt.high))
@@ -66,6 +78,8 @@ struct MeasurementFindings
         std::nth_element(values.begin(), at, values.end());
         return *at;
     };
+    if (!delays.empty())
+        findings.groupDelay = middle(delays);
     if (!rises.empty())
         findings.times = ActuatorResponse{middle(rises), middle(falls)};
     if (!drives.empty())

@@ -4,6 +4,7 @@
 
 #include <pacini/foundation/Fft.h>
 #include <pacini/foundation/SplitRealFft.h>
+#include <pacini/linearize/GroupDelay.h>
 #include <pacini/linearize/LagWindow.h>
 #include <pacini/linearize/LevelAnalysis.h>
 #include <pacini/linearize/RecordingChecks.h>
@@ -194,7 +195,9 @@ namespace pacini
         if (i != result.main)
             continue;
         result.impulseResponse = strongestDirection(responses.impulses, recording.rate);
-        result.latency = timing.start + strongestLag(result.impulseResponse);
+        const double arrival = strongestLag(result.impulseResponse);
+        result.latency = timing.start + arrival;
+        result.groupDelay = groupDelay(result.impulseResponse, arrival, frequency, measurement.smoothing);
         warnOfResponses(responses.linear, params, measurement.equalized, result.warnings);
     }
     warnOfSnr(result.levels[result.main].snr, measurement.wantedSnr, result.warnings);

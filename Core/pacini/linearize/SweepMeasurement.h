@@ -68,6 +68,7 @@ struct SweepMeasurement
     std::vector<LevelMeasurement> levels; ///< in the order of SweepParams::levels
     std::size_t main = 0;                 ///< the loudest of them, which noise disturbs least
     ImpulseResponse impulseResponse;      ///< of the loudest
+    std::vector<double> groupDelay;       ///< s at the frequencies of response(), after the arrival that latency means
     double latency = 0.0;           ///< s of the recorder from its first frame to the arrival of what was played first:
                                     ///< where the impulse response is strongest
     std::optional<double> driftPpm; ///< above 0 when the recorder's clock is the faster one; unknown after a single
@@ -94,6 +95,31 @@ inline void takeOut(SweepMeasurement& measurement, double gain) noexcept
         if (level.response.frequency[i] >= low && level.response.frequency[i] <= high)
             largest = std::max(largest, level.distortion[i]);
     return largest;
+}
+
+/// The strongest point of one harmonic.
+struct HarmonicPeak
+{
+    int order = 2;
+    double level = 0.0;     ///< dB re the fundamental
+    double frequency = 0.0; ///< Hz, of the drive
+};
+
+/// The strongest point of each order from `low` to `high` Hz, in rising order; none for an order without points there.
+[[nodiscard]] inline std::vector<HarmonicPeak> harmonicPeaks(const LevelMeasurement& level, double low, double high)
+{
+    std::vector<HarmonicPeak> peaks;
+    for (const HarmonicResponse& harmonic : level.harmonics)
+    {
+        std::optional<HarmonicPeak> peak;
+        for (std::size_t i = 0; i < harmonic.response.size(); ++i)
+            if (const double f = harmonic.response.frequency[i];
+                f >= low && f <= high && (!peak || harmonic.response.level[i] > peak->level))
+                peak = {harmonic.order, harmonic.response.level[i], f};
+        if (peak)
+            peaks.push_back(*peak);
+    }
+    return peaks;
 }
 
 /// The drive, dB re full scale, from which on the largest distortion between `low` and `high` Hz is above `limit` %:

@@ -7,6 +7,7 @@
 #include "cli/measure/Recording.h"
 #include "cli/plot/ResponseFigure.h"
 #include "io/AtomicFile.h"
+#include "io/AudioWriter.h"
 #include "io/FileExtension.h"
 #include "io/Overwrite.h"
 #include "io/ProfileFile.h"
@@ -26,6 +27,7 @@
 #include <set>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace pacini::cli
 {
@@ -33,6 +35,8 @@ namespace pacini::cli
 namespace
 {
 using Json = nlohmann::ordered_json;
+
+constexpr std::size_t mostImpulses = 64; // channels of a WAV
 
 /// What all recordings together say of the actuator.
 Result<MeasurementFindings> findingsOf(const AnalysedRecordings& analysed, double smoothing, double distortionLimit)
@@ -63,6 +67,12 @@ std::string table(const AnalysedRecordings& analysed)
             add("dB" + number, level.response.level);
         add("SNR dB" + number, level.snr.level);
         add("distortion %" + number, level.distortion);
+        for (const HarmonicResponse& harmonic : level.harmonics)
+            add(fmt::format("order {} dB{}", harmonic.order, number), harmonic.response.level);
+        auto delay = measured.groupDelay;
+        for (double& seconds : delay)
+            seconds *= 1e3;
+        add("group delay ms" + number, std::move(delay));
     }
     return tableText(columns);
 }
@@ -95,7 +105,11 @@ Json report(const AnalysedRecordings& analysed, const MeasurementFindings& findi
               {"felt", {{"lowFrequency", features.felt.low}, {"highFrequency", features.felt.high}}}};
     if (findings.times)
         json["response"] = {{"riseTime", findings.times->riseTime}, {"fallTime", findings.times->fallTime}};
+    json["groupDelay"] = findings.groupDelay;
     json["distortion"] = findings.distortion;
+    json["harmonics"] = Json::array();
+    for (const HarmonicPeak& peak : findings.harmonics)
+        json["harmonics"].push_back({{"order", peak.order}, {"level", peak.level}, {"frequency", peak.frequency}});
     if (findings.distortionDrive)
         json["distortionDrive"] = *findings.distortionDrive;
     json["outliers"] = std::move(outliers);
@@ -117,11 +131,19 @@ std::string text(const AnalysedRecordings& analysed, const MeasurementFindings& 
     if (findings.times)
         lines += fmt::format("\n  rises in {:.1f} ms, falls in {:.1f} ms", 1e3 * findings.times->riseTime,
                              1e3 * findings.times->fallTime);
+    lines += fmt::format("\n  group delay {} ms at the resonance", decimalText(1e3 * findings.groupDelay, 1));
     lines += fmt::format(
         "\n  distortion at most {:.2g} % at {} dB", findings.distortion,
         decimalText(*std::max_element(analysed.sweep.sweep.levels.begin(), analysed.sweep.sweep.levels.end()), 1));
     if (findings.distortionDrive)
         lines += fmt::format(", passes {:.3g} % at {} dB", distortionLimit, decimalText(*findings.distortionDrive, 1));
+    if (!findings.harmonics.empty())
+    {
+        lines += "\n  by order, re the fundamental:";
+        for (const HarmonicPeak& peak : findings.harmonics)
+            lines += fmt::format("{} {} {} dB at {:.0f} Hz", &peak == findings.harmonics.data() ? "" : ",", peak.order,
+                                 decimalText(peak.level, 1), peak.frequency);
+    }
     for (const AnalysedRecording& recording : analysed.recordings)
         lines += fmt::format("\n  {}: latency {} ms{}", printable(recording.file),
                              decimalText(1e3 * recording.measurement.latency, 2),
@@ -137,6 +159,8 @@ struct AnalyseSubcommand : Command
     CLI::App* declare(CLI::App& app) override;
     Exit run(Console& console) override;
 
+    /// Writes the impulse responses, a channel each; returns what the report says of them. Errors as in writeAudio().
+    Result<Json> writeImpulses(const AnalysedRecordings& analysed) const;
     Result<std::size_t> drawPicture(const AnalysedRecordings& analysed, const ResponseFeatures& features) const;
 
     RecordingOptions options;
@@ -144,6 +168,7 @@ struct AnalyseSubcommand : Command
     std::string base;
     std::string name;
     std::string picture;
+    std::string impulse;
     double distortionLimit = 10.0;
 };
 } // namespace
@@ -155,13 +180,16 @@ CLI::App* AnalyseSubcommand::declare(CLI::App& app)
     addOption(*command, "-o,--output", output, "Profile (.json) or table (.csv) to write", "OUT");
     addOption(*command, "--profile", base, "Profile with the unmeasured values, such as drive limits", "PROFILE");
     addOption(*command, "--name", name, "Name of the profile to write", "NAME");
-    addOption(*command, "--plot", picture, "Picture of all responses and the distortion (.png, .svg or .pdf)",
-              "PICTURE");
+    addOption(*command, "--plot", picture,
+              "Picture of all responses, the distortion by order and the group delay (.png, .svg or .pdf)", "PICTURE");
+    addOption(*command, "--impulse", impulse,
+              "Impulse responses to write (.wav), a channel for each recording, m/s\u00b2 at full drive", "OUT.wav");
     addPreset(*command, "--distortion-limit", distortionLimit, "Distortion whose drive level is reported, %",
               numberFrom(0.01, 100.0), "%");
     return command->footer(
         "Examples:\n  pacini measure analyse rec.wav --sweep sweep.json --full-scale 5g -o mine.json\n"
-        "  pacini measure analyse rec-*.wav --sweep sweep.json --channels 1,2,3 -o response.csv --plot r.png");
+        "  pacini measure analyse rec-*.wav --sweep sweep.json --channels 1,2,3 -o response.csv --plot r.png\n"
+        "  pacini measure analyse rec.wav --sweep sweep.json --impulse impulse.wav");
 }
 
 Exit AnalyseSubcommand::run(Console& console)
@@ -173,7 +201,15 @@ Exit AnalyseSubcommand::run(Console& console)
     if (!picture.empty() && !plot::pictureFormatOf(picture))
         return console.fail(
             picture, {ErrorCode::invalidArgument, "--plot", "must have the extension .png, .svg or .pdf"}, Exit::usage);
-    for (const std::string& result : {output, picture})
+    if (!impulse.empty() && lowerExtension(impulse) != ".wav")
+        return console.fail(impulse, {ErrorCode::invalidArgument, "--impulse", "must have the extension .wav"},
+                            Exit::usage);
+    if (!impulse.empty() && options.recordings.size() > mostImpulses)
+        return console.fail(impulse,
+                            {ErrorCode::invalidArgument, "--impulse",
+                             fmt::format("holds {} recordings at most; write them in groups", mostImpulses)},
+                            Exit::usage);
+    for (const std::string& result : {output, picture, impulse})
         if (!result.empty() && sameFileKey(result) == sameFileKey(options.sweep))
             return console.fail(
                 result, {ErrorCode::invalidArgument, "", "is the description of the sweep; name another output"},
@@ -217,13 +253,54 @@ Exit AnalyseSubcommand::run(Console& console)
         if (const auto drawn = drawPicture(*analysed, findings->features); !drawn)
             return console.fail(picture, drawn.error());
 
-    console.addToReport(report(*analysed, *findings, output));
+    Json json = report(*analysed, *findings, output);
+    if (!impulse.empty())
+    {
+        auto written = writeImpulses(*analysed);
+        if (!written)
+            return console.fail(impulse, written.error());
+        json["impulse"] = std::move(*written);
+    }
+    console.addToReport(json);
     console.print(text(*analysed, *findings, distortionLimit));
     if (!output.empty())
         console.wrote(output);
     if (!picture.empty())
         console.wrote(picture);
+    if (!impulse.empty())
+        console.wrote(impulse);
     return Exit::ok;
+}
+
+Result<Json> AnalyseSubcommand::writeImpulses(const AnalysedRecordings& analysed) const
+{
+    std::size_t before = 0; // samples of the longest before the arrival
+    std::size_t after = 0;
+    for (const AnalysedRecording& recording : analysed.recordings)
+    {
+        const ImpulseResponse& response = recording.measurement.impulseResponse;
+        before = std::max(before, response.origin);
+        after = std::max(after, response.samples.size() - response.origin);
+    }
+    const double rate = analysed.recordings.front().measurement.impulseResponse.sampleRate;
+    const std::size_t channels = analysed.recordings.size();
+    std::vector<float> interleaved((before + after) * channels, 0.0f);
+    for (std::size_t c = 0; c < channels; ++c)
+    {
+        const ImpulseResponse& response = analysed.recordings[c].measurement.impulseResponse;
+        if (response.sampleRate != rate)
+            return Error{ErrorCode::invalidArgument, "--impulse",
+                         "holds recordings of one sample rate; write those of other rates by themselves"};
+        for (std::size_t i = 0; i < response.samples.size(); ++i)
+            interleaved[(before - response.origin + i) * channels + c] = static_cast<float>(response.samples[i]);
+    }
+    AudioWriteParams params;
+    params.sampleRate = static_cast<int>(rate);
+    params.channels = static_cast<int>(channels);
+    params.markers = {{static_cast<double>(before) / rate, "arrival"}};
+    if (const auto written = writeAudio(impulse, interleaved, params); !written)
+        return written.error();
+    return Json{{"output", impulse}, {"sampleRate", rate}, {"arrival", static_cast<double>(before) / rate}};
 }
 
 Result<std::size_t> AnalyseSubcommand::drawPicture(const AnalysedRecordings& analysed,
@@ -250,6 +327,17 @@ Result<std::size_t> AnalyseSubcommand::drawPicture(const AnalysedRecordings& ana
     content.responses.push_back({"noise", level.noise, plot::ResponseRole::noise});
     content.responses.push_back({several ? "average" : "response", analysed.average.response});
     content.distortion = plot::NamedResponse{"all harmonics", {level.response.frequency, level.distortion}};
+    for (const HarmonicResponse& harmonic : level.harmonics)
+    {
+        plot::NamedResponse percent{fmt::format("order {}", harmonic.order), harmonic.response};
+        for (double& value : percent.response.level)
+            value = 100.0 * Decibels(value).gain();
+        content.harmonics.push_back(std::move(percent));
+    }
+    plot::NamedResponse delay{several ? "first recording" : "response", {level.response.frequency, first.groupDelay}};
+    for (double& value : delay.response.level)
+        value *= 1e3;
+    content.groupDelay = std::move(delay);
     const plot::FigureStyle style;
     return plot::writeFigure(picture, makeResponseFigure(content, style), style);
 }

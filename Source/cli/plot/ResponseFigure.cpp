@@ -122,22 +122,53 @@ Panel responsePanel(const ResponseFigureContent& content, const Axis& frequency,
     return panel;
 }
 
-Panel distortionPanel(const NamedResponse& distortion, const Axis& frequency, const Look& look)
+/// The sum thick, the orders thin. The axis is that of the sum and two decades below its largest value at most: weaker
+/// orders are noise.
+Panel distortionPanel(const ResponseFigureContent& content, const Axis& frequency, const Look& look)
 {
     Panel panel;
     panel.title = "Harmonic distortion";
     panel.x = frequency;
+    const auto positive = [](const FrequencyResponse& response)
+    {
+        auto points = pointsOf(response);
+        std::erase_if(points, [](const Point& point) { return !(point.y > 0.0); });
+        return points;
+    };
+    std::vector<Point> sum = positive(content.distortion->response);
     std::vector<double> values;
-    std::vector<Point> points;
-    for (const Point& point : pointsOf(distortion.response))
-        if (point.y > 0.0)
-        {
-            points.push_back(point);
-            values.push_back(point.y);
-        }
+    for (const Point& point : sum)
+        values.push_back(point.y);
+    for (const NamedResponse& harmonic : content.harmonics)
+        for (const double value : harmonic.response.level)
+            values.push_back(value);
+    const double largest = values.empty() ? 1.0 : *std::max_element(values.begin(), values.end());
+    std::erase_if(values, [=](double value) { return !(value > 1e-2 * largest); });
     panel.y = axisAround("% of the fundamental", Scale::logarithmic, values);
+    std::size_t colour = 0;
+    for (const NamedResponse& harmonic : content.harmonics)
+        panel.series.push_back(Line{
+            harmonic.name, positive(harmonic.response), Stroke{look.theme.series(colour++), look.metrics.hair()}, {}});
     panel.series.push_back(
-        Line{distortion.name, std::move(points), Stroke{look.theme.series(5), 1.6 * look.metrics.hair()}, {}});
+        Line{content.distortion->name, std::move(sum), Stroke{look.theme.series(5), 1.6 * look.metrics.hair()}, {}});
+    return panel;
+}
+
+/// The axis is that of the marked range, if there is one: outside it noise and the edges of the sweep say nothing.
+Panel groupDelayPanel(const ResponseFigureContent& content, const Axis& frequency, const Look& look)
+{
+    const NamedResponse& delay = *content.groupDelay;
+    const bool marked = content.highFrequency > content.lowFrequency;
+    std::vector<double> values;
+    for (const Point& point : pointsOf(delay.response))
+        if (!marked || (point.x >= content.lowFrequency && point.x <= content.highFrequency))
+            values.push_back(point.y);
+    Panel panel;
+    panel.title = "Group delay";
+    panel.x = frequency;
+    panel.y = axisAround("ms after the arrival", Scale::linear, values);
+    panel.series.push_back(
+        Line{delay.name, pointsOf(delay.response), Stroke{look.theme.series(0), 1.6 * look.metrics.hair()}, {}});
     return panel;
 }
 
@@ -178,7 +209,9 @@ Figure makeResponseFigure(const ResponseFigureContent& content, const FigureStyl
     const Axis frequency{"Frequency (Hz)", Scale::logarithmic, range.low, range.high, {}};
     Figure figure{content.title, content.subtitle, {responsePanel(content, frequency, look)}};
     if (content.distortion)
-        figure.panels.push_back(distortionPanel(*content.distortion, frequency, look));
+        figure.panels.push_back(distortionPanel(content, frequency, look));
+    if (content.groupDelay)
+        figure.panels.push_back(groupDelayPanel(content, frequency, look));
     if (!content.equalizer.empty())
         figure.panels.push_back(equalizerPanel(content, frequency, look));
     return figure;

@@ -39,12 +39,15 @@ struct ResponseFigureContent
     EqualizerSections equalizer;             ///< shown in a panel of its own unless empty
     double sampleRate = 48000.0;             ///< Hz, of the equaliser
     std::optional<NamedResponse> distortion; ///< % over frequency, in a panel of its own
+    std::vector<NamedResponse> harmonics;    ///< % over frequency by order, in the panel of the distortion
+    std::optional<NamedResponse> groupDelay; ///< ms over frequency, in a panel of its own
     double lowFrequency = 0.0;               ///< Hz, range that is marked; 0 for none
     double highFrequency = 0.0;              ///< Hz
     std::optional<Linearity> linearity;      ///< shows level and tolerance
 };
 
-/// A panel of the responses over the frequencies that they share, one of the distortion, one of the equaliser.
+/// A panel of the responses over the frequencies that they share, one of the distortion, one of the
+/// group delay, one of the equaliser.
 [[nodiscard]] Figure makeResponseFigure(const ResponseFigureContent& content, const FigureStyle& style);
 
 } // namespace pacini::plot
