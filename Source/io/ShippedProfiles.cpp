@@ -18,10 +18,24 @@ namespace fs = std::filesystem;
 namespace
 {
 /// In the order of the plugin's parameter `profile`; never reordered, new ones at the end.
-constexpr std::array<std::string_view, 12> slotNames{
-    "flat-pcm",         "l5-wristband",    "l5-test-jig",  "lra-175",          "lra-235-narrow",
-    "erm-coin",         "piezo",           "phone-taptic", "quest-controller", "dualsense-voice-coil",
-    "joycon-hd-rumble", "wideband-exciter"};
+constexpr std::array<std::string_view, 18> slotNames{"flat-pcm",
+                                                     "l5-wristband",
+                                                     "l5-test-jig",
+                                                     "lra-175",
+                                                     "lra-235-narrow",
+                                                     "erm-coin",
+                                                     "piezo",
+                                                     "phone-taptic",
+                                                     "quest-controller",
+                                                     "dualsense-voice-coil",
+                                                     "joycon-hd-rumble",
+                                                     "wideband-exciter",
+                                                     "eap",
+                                                     "phone-erm",
+                                                     "phone-lra-z",
+                                                     "phone-lra-x",
+                                                     "phone-voice-coil",
+                                                     "phone-piezo"};
 } // namespace
 
 std::string_view profileNameOf(std::size_t slot) noexcept
