@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Page of the standalone program with the choice of the sound device, and what to do where there is none.
+// Page of the standalone program for the choice of the sound device, with advice if there is none.
 
 #include <juce_audio_utils/juce_audio_utils.h>
 

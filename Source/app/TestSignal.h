@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Test signal: a sweep, clicks and noise, to feel something without any sound at hand.
+// Test signal: a sweep, clicks and noise, for a first test without a sound.
 
 #include <pacini/foundation/Random.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// JSON report of a command (--json): one object of the same shape whether it went well or not.
+// JSON report of a command (--json): one object of the same structure on success and on failure.
 
 #include <pacini/foundation/Result.h>
 

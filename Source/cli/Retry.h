@@ -1,6 +1,6 @@
 #pragma once
 
-// Command line of `pacini manifest retry`: that of the run before, for the files that failed.
+// Command line of `pacini manifest retry`: that of the earlier run, for the files that failed.
 
 #include <optional>
 #include <string>

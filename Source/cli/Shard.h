@@ -1,6 +1,6 @@
 #pragma once
 
-// Shards: the part of a list of files that one of several runs, perhaps on another machine, works on.
+// Shards: parts of a list of files, each processed by one of several runs, possibly on several machines.
 
 #include <pacini/foundation/Result.h>
 

@@ -1,7 +1,6 @@
 #pragma once
 
-// Atomic writing of a file, which is either complete or not there: into a temporary beside the target, renamed when it
-// is done.
+// Atomic writing of a file, completely or not at all: into a temporary beside the target, renamed at the end.
 
 #include "io/FileHandle.h"
 #include "io/TemporaryFiles.h"

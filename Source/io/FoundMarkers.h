@@ -1,6 +1,6 @@
 #pragma once
 
-// Markers found in a file, and what is to be said of those that were not.
+// Markers found in a file, and warnings about unreadable ones.
 
 #include <pacini/clip/Clip.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// Converter of JSON5, the JSON with comments and fewer quotes that people write by hand, to strict JSON.
+// Converter of JSON5, a JSON with comments and fewer quotes, to strict JSON.
 
 #include <pacini/foundation/Result.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// Frames of MPEG audio (MP3), counted one by one: what headers say of their number is often wrong or not there.
+// Frames of MPEG audio (MP3), counted one by one, because headers often state a wrong number or none.
 
 #include "io/ByteWindow.h"
 

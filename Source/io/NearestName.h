@@ -1,6 +1,6 @@
 #pragma once
 
-// Spelling suggestion: the known name that is nearest to one that is not known.
+// Spelling suggestion: the known name nearest to an unknown one.
 
 #include <fmt/format.h>
 

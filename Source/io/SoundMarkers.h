@@ -1,6 +1,6 @@
 #pragma once
 
-// Markers that a sound file holds beside its sound.
+// Markers in a sound file.
 
 #include "io/FoundMarkers.h"
 #include "io/SoundParts.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-// View of one part of a file, with the bytes that are put right.
+// View of one part of a file, with corrected bytes.
 
 #include "io/FileHandle.h"
 #include "io/SoundParts.h"

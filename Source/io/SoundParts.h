@@ -1,7 +1,7 @@
 #pragma once
 
-// Sounds that lie one behind the other in a file, and what their headers say wrongly. What follows the stated end of a
-// sound is a chunk, a tag, padding, another sound, or more of it.
+// Consecutive sounds in a file, and errors in their headers. The data after the stated end of a sound is a chunk, a
+// tag, padding, another sound, or more of it.
 
 #include <cstdint>
 #include <cstdio>

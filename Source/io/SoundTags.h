@@ -1,6 +1,6 @@
 #pragma once
 
-// Tags that programs for music put before, behind and between sounds of any format.
+// Tags of music programs before, after and between sounds of any format.
 
 #include "io/ByteWindow.h"
 

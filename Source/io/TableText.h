@@ -1,6 +1,6 @@
 #pragma once
 
-// Text inside other text: fields of tables and of XML.
+// Escaping of text for fields of tables and for XML.
 
 #include <string>
 #include <string_view>

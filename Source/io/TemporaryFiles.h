@@ -1,7 +1,6 @@
 #pragma once
 
-// Clean-up of temporary files: a program that is asked to end leaves none behind, and those that a killed one did leave
-// behind are removed.
+// Clean-up of temporary files: removes those of this program when it is asked to end, and those of killed programs.
 
 #include <atomic>
 #include <cstdio>

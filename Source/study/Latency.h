@@ -1,6 +1,6 @@
 #pragma once
 
-// The delay between sound and touch of a set-up: bursts that both play at the same sample, and when they come back.
+// Measurement of the delay between sound and touch: bursts played at the same sample, and their arrival.
 
 #include <pacini/foundation/Result.h>
 

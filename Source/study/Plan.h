@@ -1,7 +1,7 @@
 #pragma once
 
-// The trials of one participant: group, order of stimuli, where the right answer lies. All of it follows from the study
-// and the participant's slot, so that a session can be taken up again without having kept it.
+// The trials of one participant: group, order of stimuli, place of the right answer. They follow from the study and the
+// participant's slot, so a session can continue without stored state.
 
 #include "study/Study.h"
 

@@ -1,6 +1,7 @@
 #pragma once
 
-// Analysis of the ratings of one block: each stimulus in each group, tests between groups and between stimuli.
+// Analysis of the ratings of one block: statistics of each stimulus in each group, tests between groups and between
+// stimuli.
 
 #include "study/Ratings.h"
 #include "study/statistics/Agreement.h"

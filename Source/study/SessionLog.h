@@ -1,6 +1,6 @@
 #pragma once
 
-// Session logs: one line of JSON for each thing that happened, on the disk before the next begins.
+// Session logs: one line of JSON for each occurrence, stored on the disk before the next.
 
 #include "io/FileHandle.h"
 #include "io/FileLock.h"

@@ -1,7 +1,6 @@
 #pragma once
 
-// Sound and touch of stimuli, and of whole trials: everything that is heard and felt is made before it plays, on one
-// clock.
+// Sound and touch of stimuli and whole trials, rendered before playback, on one clock.
 
 #include "study/Study.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// Studies to begin with, one for each question that people ask.
+// Study templates, one for each common question.
 
 #include "study/Study.h"
 

@@ -1,7 +1,6 @@
 #pragma once
 
-// Block recursion: the grid on which recursions may take several frames in one step, because waiting for every frame is
-// slow.
+// Groups of frames: the grid on which recursions take several frames in one step, which is faster than single frames.
 
 #include <array>
 #include <cstddef>

@@ -1,6 +1,6 @@
 #pragma once
 
-// Frequency mapping: moves frequencies that an actuator cannot show to some that it can.
+// Frequency mapping: moves frequencies outside the range of an actuator into it.
 
 #include <pacini/actuator/Profile.h>
 #include <pacini/foundation/Clamp.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-// The usual trade of strength for likeness.
+// Default strength: the balance of likeness and felt level on resonant actuators.
 
 namespace pacini
 {

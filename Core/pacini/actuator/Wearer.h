@@ -1,6 +1,6 @@
 #pragma once
 
-// Variation between wearers: people differ, and so do the skins under the same device.
+// Variation between wearers: the mechanics of the skin under the same device.
 
 #include <pacini/actuator/Profile.h>
 #include <pacini/foundation/Random.h>

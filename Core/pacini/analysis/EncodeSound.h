@@ -1,6 +1,6 @@
 #pragma once
 
-// The way from the samples of a sound to its clip.
+// Encoding of a whole sound: samples -> finished clip.
 
 #include <pacini/analysis/Encoder.h>
 #include <pacini/clip/PackedClip.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-// Sound above the range of touch felt beside what lies within.
+// Translation of sound above the range of touch, beside the sound within it.
 
 #include <pacini/analysis/BandAnalysis.h>
 #include <pacini/analysis/HeardLevel.h>

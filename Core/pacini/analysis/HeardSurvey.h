@@ -1,6 +1,6 @@
 #pragma once
 
-// Scale of a whole sound with what is heard of it.
+// First pass over the heard part of a sound: its scale.
 
 #include <pacini/analysis/BandAnalysis.h>
 #include <pacini/analysis/EncoderParams.h>

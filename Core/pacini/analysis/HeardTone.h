@@ -1,6 +1,6 @@
 #pragma once
 
-// The tone by which sound above the range of touch is felt, in the bands of a clip.
+// Tone for sound above the range of touch, added to the bands of a clip.
 
 #include <pacini/analysis/BandAnalysis.h>
 #include <pacini/analysis/HeardLevel.h>

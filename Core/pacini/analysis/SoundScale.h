@@ -1,6 +1,6 @@
 #pragma once
 
-// Properties of a whole sound that the encoder needs before it encodes parts of it.
+// Scale of a whole sound, which the encoder needs before it encodes parts of it.
 
 #include <pacini/analysis/BandAnalysis.h>
 

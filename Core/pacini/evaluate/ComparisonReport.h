@@ -1,6 +1,6 @@
 #pragma once
 
-// Report of a comparison: its keys, for JSON and for dictionaries alike.
+// Report of a comparison: its keys, common to JSON and dictionaries.
 
 #include <pacini/evaluate/Comparison.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// Measures of what a translation keeps of the part of a sound that lies in the range of touch.
+// Measures of the preservation of a sound's part in the range of touch.
 
 #include <pacini/evaluate/HtsFeatures.h>
 #include <pacini/evaluate/match/TrackStatistics.h>

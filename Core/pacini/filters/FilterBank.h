@@ -1,7 +1,6 @@
 #pragma once
 
-// The causal filter bank: one signal in, N bands out, whose sum is the signal with its phase turned but its spectrum
-// flat.
+// Causal filter bank: splits a signal into N bands, whose sum has the spectrum of the signal with another phase.
 
 #include <pacini/filters/BandLayout.h>
 #include <pacini/filters/DesignLimits.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-// The law by which what is heard above the range of touch becomes a tone beside what is felt, live and offline.
+// Law of the tone for sound above the range of touch, shared by live and offline translation.
 
 #include <algorithm>
 #include <cmath>

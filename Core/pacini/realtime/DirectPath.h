@@ -1,6 +1,6 @@
 #pragma once
 
-// Direct path: the sound's own signal where the actuator can show it, with the levels of its roles.
+// Direct path: the sound's own signal within the range of the actuator, with the levels of its roles.
 
 #include <pacini/filters/DesignLimits.h>
 #include <pacini/filters/StateVariable.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-// Live onset detector: notices events while they happen.
+// Live onset detector: detects events as they occur.
 
 #include <pacini/analysis/TransientScore.h>
 #include <pacini/foundation/DspBlock.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-// Choice of decoder parameters: how a clip wants to be played.
+// Choice of decoder parameters for a clip.
 
 #include <pacini/clip/Clip.h>
 #include <pacini/synthesis/DecoderParams.h>

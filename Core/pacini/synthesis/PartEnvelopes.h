@@ -1,6 +1,6 @@
 #pragma once
 
-// Envelopes of the low and the high part of a clip, to which each is levelled before their sum is.
+// Envelopes of the low and the high part of a clip, to which the parts are levelled before their sum.
 
 #include <pacini/clip/Clip.h>
 #include <pacini/synthesis/Roles.h>

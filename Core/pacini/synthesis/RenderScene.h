@@ -1,6 +1,6 @@
 #pragma once
 
-// The way from a scene to samples: adjusted, planned, played part by part.
+// Rendering of a scene: adjustment, plan, and playback into a sink, part by part.
 
 #include <pacini/foundation/NumberText.h>
 #include <pacini/foundation/Result.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Demo sounds and sample project, which are inside of the program.
+// Demo sounds and sample project, embedded in the program.
 
 #include <juce_core/juce_core.h>
 

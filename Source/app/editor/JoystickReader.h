@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Game controllers as Linux lists them: what is pressed.
+// Reader of game controllers on Linux: pressed buttons.
 
 #include <juce_core/juce_core.h>
 

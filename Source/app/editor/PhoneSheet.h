@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Dialog that lets a phone in: the picture that it scans, and who is there.
+// Dialog to connect phones: QR code, and list of connected phones.
 
 #include "app/editor/PhoneOutput.h"
 #include "editor/clip/sheets/Sheet.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Taps by pads and game controllers: events where the clip is while it plays.
+// Tap input from MIDI pads and game controllers: events at the playhead during playback.
 
 #include "app/editor/JoystickReader.h"
 #include "editor/clip/session/Tapping.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Preview of the clip that is edited in the plugin's window, heard in the place of the live drive.
+// Preview of the clip that is edited in the plugin's window, played instead of the live drive.
 
 #include "document/HostedProject.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Panorama of a sound: where it is between two channels.
+// Panorama of a sound: its position between two channels.
 
 #include <algorithm>
 #include <cmath>

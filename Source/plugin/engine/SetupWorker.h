@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Background thread for all instances in a process, which does what the audio thread must not.
+// Background thread for all instances in a process, for work that the audio thread must not do.
 
 #include <juce_core/juce_core.h>
 

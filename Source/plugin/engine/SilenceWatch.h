@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Rest in silence: when a chain of signal processing may stop working, and what it owes when it goes on.
+// Rest in silence: when a chain of signal processing may pause, and the frames to make up for on waking.
 
 #include <pacini/actuator/ProtectionParams.h>
 #include <pacini/realtime/TranslatorDesign.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Source mixer: main input and sidechain as the one mono sound that is turned into touch.
+// Source mixer: main input and sidechain as one mono sound.
 
 #include "plugin/engine/ParameterTable.h"
 

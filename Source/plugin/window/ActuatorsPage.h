@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Page of the actuators: what moves the touch over the haptic channels, and what each of them is.
+// Page of the actuators: panning over the haptic channels, and the actuator of each.
 
 #include "editor/Meters.h"
 #include "editor/ParameterControls.h"

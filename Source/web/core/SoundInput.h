@@ -1,6 +1,6 @@
 #pragma once
 
-// The sound that a call works on, which JavaScript hands out piece by piece, and the clip that is made of it.
+// The sound of a call, which JavaScript delivers piece by piece, and the clip made of it.
 
 #include "io/AudioReader.h"
 #include "io/FinishedClip.h"

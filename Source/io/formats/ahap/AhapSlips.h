@@ -1,6 +1,6 @@
 #pragma once
 
-// Reader of AHAP files with values of the wrong kind, as some programs write them.
+// Reader of AHAP files with values of the wrong type, as some programs write them.
 
 #include "io/formats/ClipFormat.h"
 

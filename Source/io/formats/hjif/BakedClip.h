@@ -1,6 +1,6 @@
 #pragma once
 
-// Baked clip: everything that its decoder works out (levelling, pitch, pulse levels) put into its curves.
+// Baked clip: all results of its decoder (levelling, pitch, pulse levels) as curves.
 
 #include <pacini/clip/Clip.h>
 
