@@ -6,6 +6,7 @@
 #include "cli/Options.h"
 #include "cli/Overwrite.h"
 #include "cli/ProfileInput.h"
+#include "cli/plot/AnalysisFigure.h"
 #include "cli/plot/ClipFigure.h"
 #include "cli/plot/Figure.h"
 #include "cli/plot/ProfileFigure.h"
@@ -13,7 +14,9 @@
 #include "cli/plot/Waveform.h"
 #include "io/AudioReader.h"
 #include "io/ClipFile.h"
+#include "io/SettingsFile.h"
 
+#include <pacini/analysis/MonoMix.h>
 #include <pacini/synthesis/RenderScene.h>
 #include <pacini/synthesis/Scene.h>
 #include <pacini/synthesis/SceneTimeline.h>
@@ -142,6 +145,8 @@ struct PlotCommand : Command
                   const plot::FigureStyle& style) const;
     Exit plotScene(Console& console, const std::filesystem::path& target, const Scene& scene,
                    const plot::FigureStyle& style) const;
+    /// Draws what the settings do to a sound.
+    Exit plotAnalysis(Console& console, const std::filesystem::path& target, const plot::FigureStyle& style) const;
     Exit write(Console& console, const std::filesystem::path& target, const plot::Figure& figure,
                const plot::FigureStyle& style) const;
 
@@ -150,10 +155,12 @@ struct PlotCommand : Command
     std::string sound;
     std::string profile;
     std::string clipFolder;
+    std::string settingsFile;
     std::string size = "1600x1000";
     std::optional<double> from;
     std::optional<double> to;
     bool dark = false;
+    bool analysis = false;
     std::optional<Profile> actuator;
     OverwriteOptions overwriting;
     Replaceable replaceable = Replaceable::named; ///< at the target
@@ -190,11 +197,17 @@ CLI::App* PlotCommand::declare(CLI::App& app)
     addOption(*command, "--to", to, "End of the part to show, s [the end]", numberFrom(0.0, limits::duration, "24 h"),
               "S");
     command->add_flag("--dark", dark, "Dark background");
+    auto* asAnalysis = command->add_flag("--analysis", analysis,
+                                         "Draw the analysis of a sound: envelope, onset score and threshold, centroid, "
+                                         "response of the bands and their sum");
+    addOption(*command, "--settings", settingsFile, "Settings of the analysis, as `pacini encode` has them", "FILE")
+        ->needs(asAnalysis);
     overwriting.declare(*command);
     return command->footer("Examples:\n  pacini plot door.pacb -o door.png --sound door.wav\n"
                            "  pacini plot door.wav -o door.svg --from 0.5 --to 1.5\n"
                            "  pacini plot door.haptic -o door.png\n"
                            "  pacini plot hall.scene.json -o hall.png        times and actuators of each clip\n"
+                           "  pacini plot door.wav --analysis -o analysis.png\n"
                            "  pacini plot l5-wristband -o l5.png");
 }
 
@@ -228,18 +241,24 @@ Exit PlotCommand::run(Console& console)
         console.warnings(input, keys.texts());
         if (!*shown)
             return console.fail(input, shown->error());
-        if (from || to || !sound.empty() || !profile.empty())
-            return console.fail(
-                input,
-                {ErrorCode::invalidArgument, "",
-                 "is a profile; leave out --from, --to, --sound and --profile, which are for clips and sounds"},
-                Exit::usage);
+        if (from || to || !sound.empty() || !profile.empty() || analysis)
+            return console.fail(input,
+                                {ErrorCode::invalidArgument, "",
+                                 "is a profile; leave out --from, --to, --sound, --profile and --analysis, which are "
+                                 "for clips and sounds"},
+                                Exit::usage);
         return write(console, *target, makeProfileFigure(**shown, style), style);
     }
 
     if (!profile.empty() && !(actuator = openProfile(console, profile)))
         return Exit::failed;
     const bool isClip = looksLikeClip(path);
+    if (analysis && (isClip || !sound.empty() || !profile.empty()))
+        return console.fail(
+            input, {ErrorCode::invalidArgument, "--analysis", "is for one sound, without --sound and --profile"},
+            Exit::usage);
+    if (analysis)
+        return plotAnalysis(console, *target, style);
     std::optional<Clip> clip;
     if (isClip)
     {
@@ -314,6 +333,41 @@ Exit PlotCommand::plotScene(Console& console, const std::filesystem::path& targe
         return console.fail(input, range.error());
     const std::string title = scene.name.empty() ? std::filesystem::path(input).filename().string() : scene.name;
     return write(console, target, plot::makeSceneFigure(scene, title, *range, style), style);
+}
+
+Exit PlotCommand::plotAnalysis(Console& console, const std::filesystem::path& target,
+                               const plot::FigureStyle& style) const
+{
+    Settings settings;
+    if (!settingsFile.empty())
+    {
+        ReadWarnings warnings(console.isStrict());
+        auto read = readSettingsFile(settingsFile, &warnings);
+        if (!read)
+            return console.fail(settingsFile, read.error());
+        console.warnings(settingsFile, warnings.texts());
+        settings = std::move(*read);
+    }
+    const auto translation = translationOf(settings);
+    if (!translation)
+        return console.fail(settingsFile, translation.error());
+    if (translation->method != Method::a2vt && translation->method != Method::thesis)
+        return console.fail(settingsFile, {ErrorCode::invalidArgument, "method",
+                                           fmt::format("must be a2vt or thesis to draw the analysis, not {}",
+                                                       methodInfo(translation->method).name)});
+    constexpr std::uint64_t mostFrames = std::uint64_t{48000} * 3600;
+    const auto audio = readAudio(input, {}, mostFrames);
+    if (!audio)
+        return console.fail(input, audio.error());
+    console.warnings(input, audio->warnings);
+    const auto mono = monoMix(audio->samples, static_cast<std::size_t>(audio->channels));
+    const auto range = rangeWithin(static_cast<double>(mono.size()) / audio->sampleRate);
+    if (!range)
+        return console.fail(input, range.error());
+    return write(console, target,
+                 plot::makeAnalysisFigure(mono, audio->sampleRate, *translation,
+                                          std::filesystem::path(input).filename().string(), *range, style),
+                 style);
 }
 
 Exit PlotCommand::write(Console& console, const std::filesystem::path& target, const plot::Figure& figure,

@@ -18,11 +18,6 @@ namespace pacini::plot
 
 namespace
 {
-Axis timeAxis(TimeRange range)
-{
-    return {range.to - range.from > 120.0 ? "Time (min:s)" : "Time (s)", Scale::time, range.from, range.to, {}};
-}
-
 /// From 0, or from -largest, to a little more than the largest magnitude; to 1 when there is silence.
 Axis amplitudeAxis(const std::vector<Point>& points, bool bothSigns)
 {

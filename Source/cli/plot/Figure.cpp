@@ -42,14 +42,14 @@ void drawFigure(Canvas& canvas, const Figure& figure, const FigureStyle& style)
 
     double left = page.bottom - border - top;
     double shares = 0.0;
-    const auto isLowest = [&](std::size_t i)
+    const auto showsX = [&](std::size_t i)
     {
-        return i + 1 == figure.panels.size();
+        return i + 1 == figure.panels.size() || figure.panels[i + 1].x.title != figure.panels[i].x.title;
     };
     for (std::size_t i = 0; i < figure.panels.size(); ++i)
     {
         // Above and below a plot the margins do not depend on its height.
-        const Margins any = marginsOf(canvas, figure.panels[i], 0.0, isLowest(i), look);
+        const Margins any = marginsOf(canvas, figure.panels[i], 0.0, showsX(i), look);
         left -= any.top + any.bottom;
         shares += figure.panels[i].share;
     }
@@ -60,7 +60,7 @@ void drawFigure(Canvas& canvas, const Figure& figure, const FigureStyle& style)
     for (std::size_t i = 0; i < figure.panels.size(); ++i)
     {
         const Panel& panel = figure.panels[i];
-        margins.push_back(marginsOf(canvas, panel, left * panel.share / shares, isLowest(i), look));
+        margins.push_back(marginsOf(canvas, panel, left * panel.share / shares, showsX(i), look));
         sides.left = std::max(sides.left, margins[i].left);
         sides.right = std::max(sides.right, margins[i].right);
     }
@@ -74,7 +74,7 @@ void drawFigure(Canvas& canvas, const Figure& figure, const FigureStyle& style)
                              std::round(page.right - border - sides.right) - 0.5, std::round(bottom) - 0.5};
         margins[i].left = sides.left;
         margins[i].right = sides.right;
-        drawPanel(canvas, panel, plot, margins[i], isLowest(i), look);
+        drawPanel(canvas, panel, plot, margins[i], showsX(i), look);
         top = bottom + margins[i].bottom;
     }
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-// Figure: one or more panels above each other with the same x axis, drawn on a canvas.
+// Figure: one or more panels above each other, most with the same x axis, drawn on a canvas.
 
 #include "cli/plot/Panel.h"
 #include "cli/plot/PictureFile.h"
@@ -16,7 +16,7 @@ struct Figure
 {
     std::string title;
     std::string subtitle;      ///< in smaller letters below; may be empty
-    std::vector<Panel> panels; ///< from above; only the lowest shows labels of the x axis
+    std::vector<Panel> panels; ///< from above; the lowest of those with the same x axis shows its labels
 };
 
 /// Size of a figure, and whether its ground is dark.

@@ -1,7 +1,8 @@
 #pragma once
 
-// Curve of a clip cut to the time range of a chart: breakpoints, line, and peaks for each column.
+// Curve of a clip cut to the time range of a chart: its axis, breakpoints, line, and peaks for each column.
 
+#include "cli/plot/Axis.h"
 #include "cli/plot/Path.h"
 #include "cli/plot/Waveform.h"
 
@@ -13,6 +14,12 @@
 
 namespace pacini::plot
 {
+
+/// The axis of a panel over time.
+[[nodiscard]] inline Axis timeAxis(TimeRange range)
+{
+    return {range.to - range.from > 120.0 ? "Time (min:s)" : "Time (s)", Scale::time, range.from, range.to, {}};
+}
 
 /// The breakpoints within `range`.
 [[nodiscard]] inline std::vector<Point> shownBreakpoints(const Curve& curve, TimeRange range)
