@@ -2,6 +2,7 @@
 
 #include <cerrno>
 #include <string>
+#include <string_view>
 #include <system_error>
 
 #if defined(_WIN32)
@@ -69,9 +70,30 @@ Error fileError(int errnoValue)
     return {full ? ErrorCode::diskFull : ErrorCode::io, "", reason(errnoValue)};
 }
 
+#if defined(_WIN32)
+namespace
+{
+/// Creates the file with these rights to it, which others share.
+FileHandle createWith(const std::filesystem::path& path, DWORD rights, DWORD shared)
+{
+    const HANDLE file = CreateFileW(path.c_str(), rights, shared, nullptr, CREATE_NEW, FILE_ATTRIBUTE_NORMAL, nullptr);
+    if (file == INVALID_HANDLE_VALUE)
+    {
+        const std::error_code reason(static_cast<int>(GetLastError()), std::system_category());
+        errno = reason.default_error_condition().value();
+        return {};
+    }
+    const int descriptor = _open_osfhandle(reinterpret_cast<std::intptr_t>(file), _O_RDWR | _O_BINARY);
+    return FileHandle(descriptor < 0 ? nullptr : _fdopen(descriptor, "w+b"));
+}
+} // namespace
+#endif
+
 FileHandle openStream(const std::filesystem::path& path, const char* mode)
 {
 #if defined(_WIN32)
+    if (std::string_view(mode).ends_with('x')) // which its C library does not know
+        return createWith(path, GENERIC_READ | GENERIC_WRITE, FILE_SHARE_READ | FILE_SHARE_WRITE);
     const std::wstring wideMode(mode, mode + std::char_traits<char>::length(mode));
     return FileHandle(_wfopen(path.c_str(), wideMode.c_str()));
 #else
@@ -82,17 +104,7 @@ FileHandle openStream(const std::filesystem::path& path, const char* mode)
 FileHandle createStream(const std::filesystem::path& path)
 {
 #if defined(_WIN32)
-    // With the right to remove it, which TemporaryFiles.cpp needs.
-    const HANDLE file = CreateFileW(path.c_str(), GENERIC_READ | GENERIC_WRITE | DELETE, FILE_SHARE_READ, nullptr,
-                                    CREATE_NEW, FILE_ATTRIBUTE_NORMAL, nullptr);
-    if (file == INVALID_HANDLE_VALUE)
-    {
-        const std::error_code reason(static_cast<int>(GetLastError()), std::system_category());
-        errno = reason.default_error_condition().value();
-        return {};
-    }
-    const int descriptor = _open_osfhandle(reinterpret_cast<std::intptr_t>(file), _O_RDWR | _O_BINARY);
-    return FileHandle(descriptor < 0 ? nullptr : _fdopen(descriptor, "w+b"));
+    return createWith(path, GENERIC_READ | GENERIC_WRITE | DELETE, FILE_SHARE_READ); // TemporaryFiles.cpp removes it
 #else
     return openStream(path, "w+bx");
 #endif

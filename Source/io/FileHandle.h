@@ -23,10 +23,11 @@ using FileHandle = std::unique_ptr<std::FILE, FileCloser>;
 /// Returns the Error (code diskFull or io) for an errno value: a plain sentence with advice.
 [[nodiscard]] Error fileError(int errnoValue);
 
-/// fopen for paths of any alphabet; null and errno on failure. `mode` as in fopen.
+/// fopen for paths of any alphabet; null and errno on failure. `mode` as in fopen; a last "x" fails when the file
+/// exists.
 [[nodiscard]] FileHandle openStream(const std::filesystem::path& path, const char* mode);
 
-/// Creates the file, for writing and reading; null and errno on failure, EEXIST when it exists.
+/// Creates a temporary file, for writing and reading; null and errno on failure, EEXIST when it exists.
 [[nodiscard]] FileHandle createStream(const std::filesystem::path& path);
 
 /// Opens a file without a name, for writing and reading, which vanishes when it is closed; null and errno on failure.
