@@ -144,6 +144,7 @@ class SameAsCommand(FolderTest):
             for found in (
                 pacini.compare(sound, self.folder / "drive.wav", onsets=[0.1, 0.5]),
                 pacini.compare(samples, clip, rate, onsets=[0.1, 0.5]),
+                pacini.compare(sound, self.folder / "clip.pacb", onsets=[0.1, 0.5]),
             ):
                 self.assertGreater(len(found.values), 25)
                 for key, value in found.values.items():

@@ -19,6 +19,7 @@ from ._arrays import FloatArray, PathLike, as_rate, as_sound, is_path
 from ._clip import Clip
 from ._errors import Error
 from ._files import text_of
+from ._formats import formats
 from ._parameters import ENCODE, check_names, unknown, with_keywords
 from ._profile import AnyProfile, as_profile
 from ._progress import Progress, counted, shown
@@ -722,6 +723,10 @@ def _read_for_comparison(
     return as_sound(sound, axis), as_rate(rate, where)
 
 
+def _clip_extensions() -> set[str]:
+    return {one.extension for one in formats() if one.is_read}
+
+
 def compare(
     reference: Sound,
     candidate: Union[Sound, Clip, Scene],
@@ -742,7 +747,7 @@ def compare(
     reference : path or array
         The sound: a file, or samples as of :func:`encode`.
     candidate : path, array, Clip or Scene
-        What is felt. A clip or a scene is rendered without an actuator.
+        What is felt: a sound, or a clip or a scene, or a file of one, which is rendered without an actuator.
     sample_rate, candidate_rate : float, optional
         Rates of arrays, 2000 to 768000 Hz; that of the candidate is by default the same, for clips 48000.
     axis : int, default -1
@@ -769,6 +774,8 @@ def compare(
         A file cannot be read, a rate is missing or out of its range, a sample is not finite.
     """
     source, source_rate = _read_for_comparison(reference, sample_rate, axis, "sample_rate", allow_truncated)
+    if is_path(candidate) and os.path.splitext(os.fsdecode(candidate))[1].lower() in _clip_extensions():
+        candidate = read(candidate)
     if isinstance(candidate, (Clip, Scene)):
         rate = as_rate(48000 if candidate_rate is None else candidate_rate, "candidate_rate")
         target, target_rate = render(candidate, rate), rate
