@@ -353,13 +353,12 @@ test)
     ;;
 # What only CI runs, after `test`.
 slow-tests)
-    install_packages "${portability_packages[@]}" "${windows_packages[@]}" "${slow_binding_packages[@]}" "${cluster_packages[@]}" \
+    install_packages "${portability_packages[@]}" "${slow_binding_packages[@]}" "${cluster_packages[@]}" \
         "${web_packages[@]}" "${web_test_packages[@]}"
     install_node_modules
     install_web_modules
     install_slow_python_modules
     build_web
-    (install_windows_sources && build_windows) || say "Nothing is built for Windows: its tests will be SKIPPED"
     run_tests release --label-regex slow --no-tests=ignore
     ;;
 # One part for each commit, in turn: core, files, command. By hand: all of them without a name, `sanitized-tests assertions`
