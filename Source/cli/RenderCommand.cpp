@@ -148,6 +148,7 @@ struct RenderCommand : Command
     std::vector<std::string> inputs;
     std::string output;
     std::string profile;
+    std::string designedFor;
     DescribedOptions described;
     DescribedOptions describedFelt;
     std::string encoding = "float32";
@@ -181,6 +182,9 @@ CLI::App* RenderCommand::declare(CLI::App& app)
     addOption(*command, "--profile", profile,
               "Actuator profile that clips are adapted to: a file or a shipped profile such as l5-wristband",
               "PROFILE");
+    auto* designed =
+        addOption(*command, "--designed-for", designedFor,
+                  "Actuator profile on which the clips were designed: they feel alike on that of --profile", "PROFILE");
     addPreset(*command, "--encoding", encoding, "Sample format of the output: float32, pcm24 or pcm16",
               oneOf(encodings));
     described.declare(*command, infosOf(renderParameters));
@@ -193,9 +197,9 @@ CLI::App* RenderCommand::declare(CLI::App& app)
     auto* mapped = command->get_option("--mapping");
     auto* boosted = command->get_option("--max-boost");
     auto* strengthened = command->get_option("--strength");
-    for (CLI::Option* fitted : {asIs, mapped, boosted, strengthened})
+    for (CLI::Option* fitted : {asIs, mapped, boosted, strengthened, designed})
         fitted->needs(command->get_option("--profile"));
-    for (CLI::Option* fitted : {mapped, boosted, strengthened})
+    for (CLI::Option* fitted : {mapped, boosted, strengthened, designed})
         fitted->excludes(asIs);
     command->add_flag(
         "--no-protection", noProtection,
@@ -249,9 +253,9 @@ InputFiles RenderCommand::findClips() const
 std::string RenderCommand::record() const
 {
     std::string text = "Pacini " PACINI_VERSION;
-    const std::vector<std::string> without = {"inputs",  "output", "profile",      "clips",     "explain", "measured",
-                                              "jobs",    "force",  "no-overwrite", "overwrite", "json",    "quiet",
-                                              "dry-run", "strict", "shard",        "manifest",  "retry"};
+    const std::vector<std::string> without = {"inputs",   "output",  "profile", "designed-for", "clips",     "explain",
+                                              "measured", "jobs",    "force",   "no-overwrite", "overwrite", "json",
+                                              "quiet",    "dry-run", "strict",  "shard",        "manifest",  "retry"};
     for (const CLI::Option* option : command->get_options())
         if (const auto name = option->get_single_name();
             option->count() > 0 && std::find(without.begin(), without.end(), name) == without.end())
@@ -287,6 +291,12 @@ Exit RenderCommand::readSettings(Console& console, RenderSettings& settings) con
         if (!settings.profile)
             return Exit::failed;
     }
+    if (!designedFor.empty())
+    {
+        settings.designedFor = openProfile(console, designedFor);
+        if (!settings.designedFor)
+            return Exit::failed;
+    }
     if (felt)
     {
         if (const auto known = checkFelt(*settings.profile, programFolder()); !known)
@@ -297,6 +307,8 @@ Exit RenderCommand::readSettings(Console& console, RenderSettings& settings) con
     settings.record = record();
     if (settings.profile)
         settings.record += ", " + profileJson(*settings.profile);
+    if (settings.designedFor)
+        settings.record += ", designed for " + profileJson(*settings.designedFor);
     settings.resume = !force && !explain && !measured;
     return Exit::ok;
 }

@@ -9,6 +9,9 @@
 
 #include <pacini/actuator/ProtectionParams.h>
 #include <pacini/synthesis/RenderScene.h>
+#include <pacini/synthesis/Transparency.h>
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -142,6 +145,30 @@ std::vector<Marker> renderedMarkers(const Clip& clip, const RenderParams& params
     return markers;
 }
 
+/// Makes all clips of a scene feel as they do on the actuator that they were designed for. What was done comes into
+/// `done`, what cannot be into the warnings. Errors: those of transparentClip().
+Result<void> makeTransparent(Scene& scene, const RenderSettings& settings, std::vector<Adaptation>& done,
+                             std::vector<std::string>& warnings)
+{
+    for (std::size_t i = 0; i < scene.clips.size(); ++i)
+    {
+        const std::string where = fmt::format("clips[{}]", i);
+        auto made = transparentClip(std::move(scene.clips[i]), *settings.designedFor, *settings.profile,
+                                    settings.compile.adaptation);
+        if (!made)
+            return Error{made.error().code,
+                         (made.error().where.starts_with("from.") ? "--designed-for: " : "--profile: ") +
+                             made.error().where.substr(made.error().where.find('.') + 1),
+                         made.error().message};
+        scene.clips[i] = std::move(made->clip);
+        for (std::string& what : made->changes)
+            done.push_back({where, std::move(what)});
+        for (const std::string& what : made->lost)
+            warnings.push_back(scene.clips.size() > 1 ? where + ": " + what : what);
+    }
+    return {};
+}
+
 /// Reads `input` and finds out whether anything is to be done: nothing where the output is up to date, as `result` says
 /// then.
 Result<RenderInput> readInput(const std::filesystem::path& input, const std::filesystem::path& output,
@@ -203,6 +230,14 @@ Result<RenderResult> render(const std::filesystem::path& input, const std::files
     RenderedFile file(output, format, progress);
     const Profile* profile = settings.profile ? &*settings.profile : nullptr;
     Stopwatch work;
+    std::vector<Adaptation> made;
+    if (settings.designedFor)
+    {
+        Result<void> able;
+        work.run([&] { able = makeTransparent(found->scene, settings, made, result.warnings); });
+        if (!able)
+            return able.error();
+    }
     std::optional<Result<RenderReport>> rendered;
     work.run([&] { rendered = renderScene(std::move(found->scene), profile, settings, file); });
     work.leaveOut(file.access);
@@ -214,6 +249,7 @@ Result<RenderResult> render(const std::filesystem::path& input, const std::files
         return error;
     }
     static_cast<RenderReport&>(result) = std::move(**rendered);
+    result.adaptations.insert(result.adaptations.begin(), made.begin(), made.end());
     const auto written = file.finish();
     if (!written)
         return written.error();

@@ -23,6 +23,7 @@ namespace pacini::cli
 struct RenderSettings : RenderParams
 {
     std::optional<Profile> profile;
+    std::optional<Profile> designedFor; ///< clips shall feel on `profile` as they do there
     ClipReadParams reading;
     SampleEncoding encoding = SampleEncoding::float32;
     std::string record;  ///< everything that affects the output besides the input

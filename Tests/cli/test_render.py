@@ -81,6 +81,46 @@ class Render(CommandTest):
         self.fails(1, ["render", "clip.json", "--profile", "l6"], "pacini: l6: is neither a file nor a shipped profile",
                    "l5-wristband")
 
+    def test_what_was_designed_on_one_actuator_feels_alike_on_another(self):
+        """A tone within both ranges, which nothing limits: the skin moves as strongly."""
+        soft = [{"time": 0, "amplitude": 0.02}, {"time": 1, "amplitude": 0.02}]
+        band = {"lowFrequency": 80, "centreFrequency": 100, "highFrequency": 125, "priority": 0, "amplitude": soft,
+                "pitch": []}
+        self.clip(envelope=soft, bands=[band], transients=[])
+        designed = ["--designed-for", "quest-controller"]
+
+        def felt(*options):
+            rate, samples = self.rendered("--felt", "--rate", "8000", *options, name="felt.wav")
+            return 20 * math.log10(level_at(samples[rate // 2:], rate, 100))
+
+        wanted = felt("--profile", "quest-controller")
+        self.assertGreater(abs(felt("--profile", "l5-wristband") - wanted), 6)
+        self.assertAlmostEqual(felt("--profile", "l5-wristband", *designed), wanted, delta=0.7)
+        report = self.report("render", "clip.json", "-o", "out.wav", "--profile", "l5-wristband", *designed, "--explain")
+        self.assertIn("levels are those that are felt on", json.dumps(report))
+
+        self.steady()
+        done = self.run_command("render", "clip.json", "-o", "out.wav", "--profile", "phone-taptic", "--designed-for",
+                                "l5-wristband")
+        self.assertEqual(done.returncode, 0)
+        self.assertRegex(done.stderr.decode(), r"clip\.json: warning: is felt [0-9.]+ dB weaker than where it was designed")
+        self.fails(1, ["render", "clip.json", "-o", "o.wav", "--profile", "lra-175", "--designed-for", "erm-coin"],
+                   "--designed-for: technology: is a motor")
+        self.fails(1, ["render", "clip.json", "-o", "o.wav", "--profile", "flat-pcm", "--designed-for", "lra-175"],
+                   "--profile: body: is missing")
+        self.fails(2, ["render", "clip.json", "--designed-for", "lra-175"], "--designed-for needs --profile")
+        self.fails(2, ["render", "clip.json", "--designed-for", "lra-175", "--profile", "piezo", "--no-adapt"], "excludes")
+        self.assertFalse((self.folder / "o.wav").exists())
+
+    def test_another_actuator_of_the_design_renders_anew(self):
+        self.steady()
+        for name in ("l5-test-jig", "piezo", "piezo"):
+            with self.subTest(name):
+                self.succeeds("render", "clip.json", "--profile", "l5-wristband", "--designed-for", name)
+        one = (self.folder / "clip.haptic.wav").read_bytes()
+        self.succeeds("render", "clip.json", "--profile", "l5-wristband", "--designed-for", "l5-test-jig")
+        self.assertNotEqual((self.folder / "clip.haptic.wav").read_bytes(), one)
+
     def test_a_folder_of_clips_of_both_formats_is_rendered(self):
         self.clip("in/a.json")
         self.clip("b.json")
