@@ -239,6 +239,7 @@ TEST_CASE("A clip is up to date only for the method and options that made it", "
                                         "--method envelope-sine --breakpoints 10",
                                         "--method envelope-centroid",
                                         "--method vocoder16",
+                                        "--method modulation",
                                         "--method centroid-flatness"};
     for (const char* output : {" -o x.json", " -o x.pacb"})
         for (std::size_t i = 0; i < ways.size(); ++i)

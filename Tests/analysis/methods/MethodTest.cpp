@@ -307,6 +307,11 @@ TEST_CASE("Parameters of methods have the defaults of their sources", "[methods]
     CHECK(ThirdOctaveVocoderParams{}.channels == 16);
     CHECK(ThirdOctaveVocoderParams{}.carrier.value == 100.0);
     CHECK(ThirdOctaveVocoderParams{}.range.low.value == 5.0);
+    CHECK(ModulationParams{}.lowest.value == 100.0);
+    CHECK(ModulationParams{}.highest.value == 8000.0);
+    CHECK(ModulationParams{}.channels == 4);
+    CHECK(ModulationParams{}.lowestCarrier.value == 60.0);
+    CHECK(ModulationParams{}.highestCarrier.value == 400.0);
     CHECK(std::isinf(ThirdOctaveVocoderParams{}.range.high.value));
     const CentroidFlatnessParams flat;
     CHECK(test::asNumbers(flat.range.low.value, flat.lowCentroid.value, flat.highCentroid.value, flat.lowPitch.value,

@@ -9,6 +9,7 @@
 #include <pacini/analysis/methods/FrequencyShift.h>
 #include <pacini/analysis/methods/HapticGen.h>
 #include <pacini/analysis/methods/MethodChoices.h>
+#include <pacini/analysis/methods/Modulation.h>
 #include <pacini/analysis/methods/PerceptTranslation.h>
 #include <pacini/analysis/methods/PitchMatch.h>
 #include <pacini/analysis/methods/PitchShift.h>
@@ -126,6 +127,8 @@ inline void recordChoices(Clip& clip, Method method, const MethodChoices& choice
         return recorded(thirdOctaveVocoderClip(mono, fs, detail::withChoices(ThirdOctaveVocoderParams{}, choices)));
     case Method::centroidFlatness:
         return recorded(centroidFlatnessClip(mono, fs, detail::withChoices(CentroidFlatnessParams{}, choices)));
+    case Method::modulation:
+        return recorded(modulationClip(mono, fs, detail::withChoices(ModulationParams{}, choices)));
     case Method::a2vt:
     case Method::lowpass:
     case Method::pitchShift:
@@ -156,6 +159,8 @@ inline void recordChoices(Clip& clip, Method method, const MethodChoices& choice
         return detail::choicesIn(ThirdOctaveVocoderParams{});
     case Method::centroidFlatness:
         return detail::choicesIn(CentroidFlatnessParams{});
+    case Method::modulation:
+        return detail::choicesIn(ModulationParams{});
     default:
         return {};
     }
@@ -186,6 +191,7 @@ inline void recordChoices(Clip& clip, Method method, const MethodChoices& choice
     case Method::envelopeCentroid:
     case Method::vocoder16:
     case Method::centroidFlatness:
+    case Method::modulation:
         break;
     }
     assert(false && "this method does not make a signal");

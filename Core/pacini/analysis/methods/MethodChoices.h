@@ -27,6 +27,7 @@ enum class Method
     envelopeCentroid,
     vocoder16,
     centroidFlatness,
+    modulation,
     lowpass,
     pitchShift,
     hapticGen,
@@ -52,7 +53,7 @@ struct MethodInfo
 };
 
 /// All methods, in the order of Method.
-inline constexpr std::array<MethodInfo, 13> methodTable{{
+inline constexpr std::array<MethodInfo, 14> methodTable{{
     {Method::a2vt, "a2vt", MethodOutput::clip,
      "Pacini's own: band envelopes and pitches with the fewest points for their error"},
     {Method::thesis, "thesis", MethodOutput::clip,
@@ -66,6 +67,8 @@ inline constexpr std::array<MethodInfo, 13> methodTable{{
      "the envelopes of sixteen third octaves from 200 Hz up, all on a sine of 100 Hz"},
     {Method::centroidFlatness, "centroid-flatness", MethodOutput::clip,
      "the centroid as a pitch of 40 to 400 Hz, tonality as a fade from sine to square wave"},
+    {Method::modulation, "modulation", MethodOutput::clip,
+     "the envelopes of four ranges of hearing, 100 Hz to 8 kHz, on sines of 60 to 400 Hz"},
     {Method::lowpass, "lowpass", MethodOutput::signal, "the sound below 1 kHz, unchanged"},
     {Method::pitchShift, "pitch-shift", MethodOutput::signal, "the sound two octaves lower, with its length unchanged"},
     {Method::hapticGen, "hapticgen", MethodOutput::signal,
@@ -138,8 +141,8 @@ namespace detail
 }
 
 inline constexpr unsigned thesisOnly = methodSet({Method::thesis});
-inline constexpr unsigned withFollower = methodSet(
-    {Method::thesis, Method::envelopeSine, Method::envelopeCentroid, Method::vocoder16, Method::centroidFlatness});
+inline constexpr unsigned withFollower = methodSet({Method::thesis, Method::envelopeSine, Method::envelopeCentroid,
+                                                    Method::vocoder16, Method::centroidFlatness, Method::modulation});
 inline constexpr unsigned withCurves = withFollower | methodSet({Method::decomposition});
 
 } // namespace detail

@@ -2,10 +2,10 @@
 
 // The translation "vocoder16": sixteen third-octave channels of hearing, all played at one pitch that skin feels well.
 
+#include <pacini/analysis/methods/ChannelVocoder.h>
 #include <pacini/analysis/methods/MethodClip.h>
 #include <pacini/analysis/methods/MethodCurves.h>
 #include <pacini/analysis/methods/MethodSound.h>
-#include <pacini/filters/Butterworth.h>
 #include <pacini/foundation/Clamp.h>
 #include <pacini/foundation/Units.h>
 
@@ -14,7 +14,6 @@
 #include <cstddef>
 #include <limits>
 #include <span>
-#include <utility>
 #include <vector>
 
 namespace pacini
@@ -32,10 +31,9 @@ struct ThirdOctaveVocoderParams
 };
 
 /// The tactile vocoder for speech that the thesis reviews (Weber 2020, section 1.3): each channel's envelope modulates
-/// a carrier of 100 Hz. There each channel had its own actuator; here the carriers share one, in phase, so all
-/// envelopes are scaled down together where their sum would pass full drive. The carriers were square waves; of these
-/// only the fundamental is left. Channels are third octaves of the base-two series by band-pass filters of sixth order
-/// (Butterworth, as in IEC 61260). `mono` may have any length, fs is 8000 to 768000 Hz.
+/// a carrier of 100 Hz. There each channel had its own actuator; here the carriers share one, in phase. They were
+/// square waves, of which only the fundamental is left. Channels are third octaves of the base-two series (IEC 61260).
+/// `mono` may have any length, fs is 8000 to 768000 Hz.
 [[nodiscard]] inline Clip thirdOctaveVocoderClip(std::span<const float> mono, double fs,
                                                  const ThirdOctaveVocoderParams& params = {})
 {
@@ -43,49 +41,18 @@ struct ThirdOctaveVocoderParams
     Clip clip = startMethodClip("vocoder16", sound, params.curves);
     const double carrier = clampTo(params.carrier.value, 1.0, 0.45 * fs);
     const double toEdge = std::exp2(1.0 / 6.0);
-    std::vector<Curve> tracks;
-    std::vector<float> filtered(MethodSound::longestPart);
+    std::vector<VocoderChannel> channels;
     for (std::size_t k = 0; k < clampTo<std::size_t>(params.channels, 1, 32); ++k)
     {
         const double centre = std::max(1.0, params.lowestCentre.value) * std::exp2(static_cast<double>(k) / 3.0);
-        const Band band{centre / toEdge, centre, centre * toEdge, 0, {}, {}};
-        if (band.highFrequency > 0.45 * fs)
+        if (centre * toEdge > 0.45 * fs)
             break;
-        Butterworth filter;
-        filter.setParams({ButterworthType::bandpass, 3, Hertz(band.lowFrequency), Hertz(band.highFrequency)});
-        filter.prepare({fs, MethodSound::longestPart});
-        EnvelopeTrack track(params.curves, fs);
-        sound.forEachPart(
-            [&](std::span<const float> part)
-            {
-                const auto out = std::span(filtered).first(part.size());
-                filter.process(part, out);
-                track.push(out);
-            });
-        tracks.push_back(std::move(track.curve()));
-        clip.bands.push_back(band);
+        channels.push_back({centre / toEdge, centre, centre * toEdge, carrier});
     }
-
-    double loudest = 1.0;
-    for (std::size_t i = 0; !tracks.empty() && i < tracks.front().size(); ++i)
-    {
-        double sum = 0.0;
-        for (const Curve& track : tracks)
-            sum += track[i].value;
-        loudest = std::max(loudest, sum);
-    }
-    for (std::size_t k = 0; k < tracks.size(); ++k)
-    {
-        for (Breakpoint& point : tracks[k])
-            point.value /= loudest;
-        clip.bands[k].amplitude = methodCurve(tracks[k], sound, params.curves);
-        if (!clip.bands[k].amplitude.empty())
-            clip.bands[k].pitch = {{0.0, carrier}};
-    }
-    rankByEnergy(clip);
+    const double gain = addVocoderChannels(clip, sound, params.curves, channels);
     clip.encoder.push_back({"bands", static_cast<double>(clip.bands.size())});
     clip.encoder.push_back({"carrier", carrier});
-    clip.encoder.push_back({"channelGain", 1.0 / loudest});
+    clip.encoder.push_back({"channelGain", gain});
     return clip;
 }
 
