@@ -22,7 +22,8 @@ GUIDES = {
                       "formats.md"],
     "In games and programs": ["runtime.md", "engines.md", "csharp.md", "lua.md", "godot.md", "rust.md", "node.md", "web.md",
                               "sdl.md"],
-    "Research": ["python.md", "study.md", "datasets.md", "quality.md", "measurements.md", "corpus.md", "transforms.md"],
+    "Research": ["python.md", "study.md", "datasets.md", "quality.md", "measurements.md", "corpus.md", "transforms.md",
+                 "thesis.md"],
     "Interfaces": ["api-python.md", "api-c.md", "api-cpp.md"],
     "The project": ["architecture.md", "contributing.md", "changelog.md"],
 }
