@@ -11,7 +11,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         data, size, [](std::string_view given) { return study::sessionOfText(given); },
         [](const auto& session, std::string_view text)
         {
-            FUZZ_CHECK(session.goodBytes <= size);
+            FUZZ_CHECK(session.goodBytes <= text.size());
             FUZZ_CHECK(session.goodBytes > 0 && text[session.goodBytes - 1] == '\n');
             // What was being written when the program ended makes no difference.
             const auto whole = study::sessionOfText(text.substr(0, session.goodBytes));

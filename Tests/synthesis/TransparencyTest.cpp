@@ -24,7 +24,7 @@ Profile shipped(const std::string& name)
     return std::move(profile).value();
 }
 
-Clip tone(double frequency, double amplitude)
+Clip steadyTone(double frequency, double amplitude)
 {
     Clip clip;
     clip.duration = 1.0;
@@ -86,7 +86,7 @@ TEST_CASE("A tone is felt as strongly on another actuator as on the one it was d
                 };
                 if (!within(designed) || !within(played))
                     continue;
-                const Clip clip = tone(frequency, 0.02); // full drive is not reached anywhere
+                const Clip clip = steadyTone(frequency, 0.02); // full drive is not reached anywhere
                 const double wanted = feltLevel(clip, designed);
                 largestBefore = std::max(largestBefore, std::abs(feltLevel(clip, played) - wanted));
                 const auto made = transparentClip(clip, designed, played, levelsAsTheyAre());
@@ -102,7 +102,7 @@ TEST_CASE("A glide that crosses a resonance is followed between its points", "[s
 {
     const Profile designed = shipped("quest-controller");
     const Profile played = shipped("l5-test-jig");
-    Clip clip = tone(100.0, 0.02);
+    Clip clip = steadyTone(100.0, 0.02);
     clip.bands[0].pitch = {{0.0, 70.0}, {1.0, 280.0}};
     const auto made = transparentClip(clip, designed, played, levelsAsTheyAre());
     REQUIRE(made.ok());
@@ -129,20 +129,20 @@ TEST_CASE("What cannot feel alike is told, and nothing passes full drive", "[syn
             text += what + "\n";
         return text;
     };
-    CHECK(lostOf(tone(100.0, 1.0), "wideband-exciter", "phone-taptic").find("weaker than where it was designed") !=
+    CHECK(lostOf(steadyTone(100.0, 1.0), "wideband-exciter", "phone-taptic").find("weaker than where it was designed") !=
           std::string::npos);
-    CHECK(lostOf(tone(60.0, 0.001), "l5-wristband", "lra-175").find("1 of 1 bands lie outside of") !=
+    CHECK(lostOf(steadyTone(60.0, 0.001), "l5-wristband", "lra-175").find("1 of 1 bands lie outside of") !=
           std::string::npos);
-    Clip two = tone(150.0, 0.001);
-    two.bands.push_back(tone(185.0, 0.001).bands[0]);
+    Clip two = steadyTone(150.0, 0.001);
+    two.bands.push_back(steadyTone(185.0, 0.001).bands[0]);
     CHECK(lostOf(two, "l5-wristband", "lra-175").find("2 bands share 1 voice") != std::string::npos);
-    CHECK(lostOf(tone(150.0, 0.001), "l5-wristband", "l5-wristband").empty());
+    CHECK(lostOf(steadyTone(150.0, 0.001), "l5-wristband", "l5-wristband").empty());
 }
 
 TEST_CASE("A clip for the actuator that it was designed on stays as it is adapted", "[synthesis]")
 {
     const Profile profile = shipped("quest-controller");
-    Clip clip = tone(120.0, 0.5);
+    Clip clip = steadyTone(120.0, 0.5);
     clip.envelope = {{0.0, 0.0}, {0.5, 0.5}, {1.0, 0.1}};
     clip.transients = {{0.2, 0.7, 0.5}};
     const auto made = transparentClip(clip, profile, profile, levelsAsTheyAre());
@@ -154,7 +154,7 @@ TEST_CASE("A clip for the actuator that it was designed on stays as it is adapte
 
 TEST_CASE("Motors and unknown bodies are errors that name their side", "[synthesis]")
 {
-    const Clip clip = tone(100.0, 0.1);
+    const Clip clip = steadyTone(100.0, 0.1);
     const auto placeOf = [&](const char* from, const char* to)
     {
         const auto made = transparentClip(clip, shipped(from), shipped(to));

@@ -151,14 +151,14 @@ void checkNumbers(const std::string& formatName, const std::string& clipName, co
             test::addNumbers(numbers,
                              format.isSamples && formatName != "c" ? test::bytesAsText(file.bytes) : file.bytes);
         checkPinned(name, numbers, 1e-9);
-        checkPinned(name + ", losses", test::asNumbers(exported->losses), 1e-8);
+        checkPinned(name + ", losses", test::numbersOf(exported->losses), 1e-8);
         if (!format.isRead() || exported->files.empty())
             continue;
         for (std::size_t i = 0; i < exported->files.size(); ++i)
         {
             const auto read = format.read(exported->files[i].bytes);
             REQUIRE(read);
-            checkPinned(name + ", read " + std::to_string(i), test::asNumbers(*read), 1e-8);
+            checkPinned(name + ", read " + std::to_string(i), test::numbersOf(*read), 1e-8);
         }
     }
 }

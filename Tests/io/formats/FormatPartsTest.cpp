@@ -524,7 +524,7 @@ TEST_CASE("Steps of waveforms have the numbers that they had", "[formats]")
             CHECK(sum == 414);
             LossList losses;
             addStepLosses(losses, partsVoice(), steps);
-            const auto lost = test::asNumbers(std::move(losses).sorted());
+            const auto lost = test::numbersOf(std::move(losses).sorted());
             const std::string name =
                 "formats/waveform at " + shortDecimalText(rate, 0) + (keeps ? ", points kept" : "");
             checkPinned(name, numbers, 1e-9);
@@ -737,13 +737,13 @@ TEST_CASE("Baked clips have the numbers that they had", "[formats]")
     CHECK(baked.envelope.empty());
     CHECK(baked.centroid.empty());
     CHECK(baked.bands[0].amplitude.size() == 901);
-    checkPinned("formats/baked clip, rounded", test::asNumbers(baked), 1e-6);
-    checkPinned("formats/baked clip", test::asNumbers(bakedClip(clip)), 1e-6);
+    checkPinned("formats/baked clip, rounded", test::numbersOf(baked), 1e-6);
+    checkPinned("formats/baked clip", test::numbersOf(bakedClip(clip)), 1e-6);
     clip.envelope.clear();
     const Clip plain = bakedClip(clip, 5.0, 0.05);
     CHECK(plain.bands[0].amplitude == clip.bands[0].amplitude);
     CHECK(plain.transients == clip.transients);
-    checkPinned("formats/baked clip, not levelled", test::asNumbers(plain), 1e-8);
+    checkPinned("formats/baked clip, not levelled", test::numbersOf(plain), 1e-8);
 }
 
 TEST_CASE("Distances of files from their clip have the numbers that they had", "[formats]")
@@ -782,13 +782,13 @@ TEST_CASE("Voices of HJIF without a search have the numbers that they had", "[fo
     LossList losses;
     const Clip voices = hjifVoicesOf(clip, losses, HjifEffort::usual).clip;
     CHECK(voices.bands.size() == 5);
-    checkPinned("formats/hjif voices", test::asNumbers(voices), 1e-5);
-    checkPinned("formats/hjif voices, losses", test::asNumbers(std::move(losses).sorted()), 1e-4);
+    checkPinned("formats/hjif voices", test::numbersOf(voices), 1e-5);
+    checkPinned("formats/hjif voices, losses", test::numbersOf(std::move(losses).sorted()), 1e-4);
     LossList none;
     const Clip searched = hjifVoicesOf(clip, none, HjifEffort::search).clip;
     CHECK(searched.bands.size() >= 4);
     CHECK(searched.bands.size() <= 6);
-    checkPinned("formats/hjif voices, searched", test::asNumbers(searched), 1e-4);
+    checkPinned("formats/hjif voices, searched", test::numbersOf(searched), 1e-4);
 }
 
 TEST_CASE("Streams of wavelet coefficients have the numbers that they had", "[formats]")
