@@ -129,8 +129,9 @@ TEST_CASE("What cannot feel alike is told, and nothing passes full drive", "[syn
             text += what + "\n";
         return text;
     };
-    CHECK(lostOf(steadyTone(100.0, 1.0), "wideband-exciter", "phone-taptic").find("weaker than where it was designed") !=
-          std::string::npos);
+    CHECK(
+        lostOf(steadyTone(100.0, 1.0), "wideband-exciter", "phone-taptic").find("weaker than where it was designed") !=
+        std::string::npos);
     CHECK(lostOf(steadyTone(60.0, 0.001), "l5-wristband", "lra-175").find("1 of 1 bands lie outside of") !=
           std::string::npos);
     Clip two = steadyTone(150.0, 0.001);

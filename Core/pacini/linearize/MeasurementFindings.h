@@ -66,7 +66,9 @@ struct MeasurementFindings
             else if (peak.level > known->level)
                 *known = peak;
         }
-        delays.push_back(valueAt(measured.response().frequency, measured.groupDelay, features->resonance.frequency));
+        if (!measured.groupDelay.empty())
+            delays.push_back(
+                valueAt(measured.response().frequency, measured.groupDelay, features->resonance.frequency));
         if (const auto drive = driveAtDistortion(measured, distortionLimit, felt.low, felt.high))
             drives.push_back(*drive);
         if (const auto drive = driveAtDistortion(measured, profileLimit, felt.low, felt.high))
