@@ -16,6 +16,8 @@
 namespace pacini::cli
 {
 
+namespace fs = std::filesystem;
+
 namespace
 {
 /// A sound mixed down to one channel.

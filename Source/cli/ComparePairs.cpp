@@ -10,6 +10,8 @@
 namespace pacini::cli
 {
 
+namespace fs = std::filesystem;
+
 namespace
 {
 using FilesByStem = std::map<std::string, std::vector<fs::path>>;

@@ -18,6 +18,8 @@
 namespace pacini::cli
 {
 
+namespace fs = std::filesystem;
+
 namespace
 {
 /// Encoder parameters that follow from the sound.

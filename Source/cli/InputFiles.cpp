@@ -14,6 +14,8 @@
 namespace pacini::cli
 {
 
+namespace fs = std::filesystem;
+
 namespace
 {
 bool isHidden(const fs::path& path)

@@ -7,6 +7,8 @@
 namespace pacini::cli
 {
 
+namespace fs = std::filesystem;
+
 void OverwriteOptions::declare(CLI::App& command)
 {
     auto* no = command.add_flag("-n,--no-overwrite", keep, "Keep all existing files");

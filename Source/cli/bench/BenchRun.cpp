@@ -22,6 +22,8 @@
 namespace pacini::cli
 {
 
+namespace fs = std::filesystem;
+
 namespace
 {
 /// The demo sounds: the nearest folder above the program that has them.
