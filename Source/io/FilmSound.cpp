@@ -1,6 +1,7 @@
 #include "io/FilmSound.h"
 
 #include "io/ByteWindow.h"
+#include "io/FileHandle.h"
 #include "io/Utf8.h"
 
 #include <pacini/foundation/ParseNumber.h>

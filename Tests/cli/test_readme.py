@@ -74,6 +74,7 @@ COMPLETED = {
     "pacini live - -o -": "pacini live rain.wav -o live.wav",
     "pacini play door.json": "pacini play door.json --dry-run --like switch",
     "pacini man": "pacini man -q",
+    "pacini serve CLIP --film FILE": "pacini serve --help",
     "pacini plot PROFILE": "pacini plot lra-175 -o lra.png",
     "pacini lint CLIP --target NAME": "pacini lint door.json --target hjif",
     "pacini encode --method NAME": "pacini encode rain.wav -o rain.json --method thesis",
@@ -103,7 +104,8 @@ FAILING = {"pacini lint clips/ --target haptic --max-error 0.1": (1, "exits with
                (1, "exits with 1 while parts are missing")}
 
 # What a reader of the document has made before, by commands of the others.
-BEFORE = {PAGES + "formats.md": ["pacini encode door.wav", "pacini convert door.json door.pacb",
+BEFORE = {PAGES + "devices.md": ["pacini encode door.wav"],
+          PAGES + "formats.md": ["pacini encode door.wav", "pacini convert door.json door.pacb",
                                         "pacini encode sounds/ -o clips/ --format packed -j 8"],
           PAGES + "datasets.md": ["pacini encode sounds/ -o clips/ --format packed --manifest clips/run.manifest.json"]}
 
