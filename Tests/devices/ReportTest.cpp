@@ -177,8 +177,8 @@ TEST_CASE("A DualSense is sent the rumble of its firmware, that of old at half",
     {
         Pad pad;
         pad.refuses = refuses;
-        const auto model = modelOf(controller, pad).value();
-        CHECK(model.samples == (refuses ? DualSenseSamples::none : DualSenseSamples::report32));
+        const auto found = modelOf(controller, pad).value();
+        CHECK(found.samples == (refuses ? DualSenseSamples::none : DualSenseSamples::report32));
         REQUIRE(pad.sent.size() == 1);
         CHECK(pad.sent[0] == dualSenseSamplesReport({}, DualSenseSamples::report32, 0));
     }
