@@ -209,12 +209,12 @@ Result<FilmSound> FilmSound::open(const fs::path& path, std::FILE* file, bool al
     // With its protocol, so that no name is taken for an option or an address.
     const std::string name = "file:" + (named ? std::string(place.begin(), place.end()) : "/dev/fd/0");
 
+    constexpr const char* entries =
+        "stream=index,codec_type,codec_name,sample_rate,channels,channel_layout,start_time,duration:"
+        "stream_disposition=default,attached_pic:stream_tags:format=format_name,duration:"
+        "chapter=start_time:chapter_tags=title";
     auto words = safely("level+error");
-    for (const char* word :
-         {"-of", "json", "-show_chapters", "-show_entries",
-          "stream=index,codec_type,codec_name,sample_rate,channels,channel_layout,start_time,duration:"
-          "stream_disposition=default,attached_pic:stream_tags:format=format_name,duration:"
-          "chapter=start_time:chapter_tags=title"})
+    for (const char* word : {"-of", "json", "-show_chapters", "-show_entries", entries})
         words.emplace_back(word);
     words.push_back(name);
     auto started = ChildProgram::start("ffprobe", words, input);

@@ -78,8 +78,8 @@ namespace detail
         if (in.empty() || sorted.empty())
             continue;
         std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());
-        const double peak = *std::max_element(in.begin(), in.end());
-        const double rest = sorted[sorted.size() / 2];
+        const auto peak = static_cast<double>(*std::max_element(in.begin(), in.end()));
+        const auto rest = static_cast<double>(sorted[sorted.size() / 2]);
         sum += Decibels::fromGain((peak + 1e-9) / (std::max(rest, 0.01 * peak) + 1e-9)).value; // 40 dB is silence
     }
     return events.size() < 2 ? 0.0 : sum / static_cast<double>(events.size() - 1);
