@@ -72,7 +72,8 @@ Result<MonoSound> readMono(const fs::path& path, const AudioReadOptions& options
 /// By extension: what exports of clips to WAV are, too.
 bool isSound(const fs::path& path)
 {
-    return std::ranges::count(audioExtensions(), lowerExtension(path)) > 0;
+    const auto& extensions = audioExtensions();
+    return std::find(extensions.begin(), extensions.end(), lowerExtension(path)) != extensions.end();
 }
 
 /// The drive of a clip as `pacini render` writes it when no option is given.
