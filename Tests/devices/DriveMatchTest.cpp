@@ -16,14 +16,17 @@
 
 #include <pacini/analysis/Encoder.h>
 #include <pacini/clip/edits/TimeEdits.h>
+#include <pacini/foundation/NumberText.h>
 #include <pacini/synthesis/RenderScene.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
+#include <fstream>
 #include <functional>
 #include <iostream>
+#include <iterator>
 #include <numbers>
 #include <string>
 #include <utility>
@@ -334,54 +337,55 @@ double packetsPerSecond(const std::vector<Clip>& clips, const ControllerModel& m
 }
 } // namespace
 
-TEST_CASE("Table of what is felt on each device", "[.][devices-table]")
+TEST_CASE("The page's table of what is felt on each device is what is measured", "[devices][devices-table][slow]")
 {
+    std::ifstream file(sourceFolder() / "Resources/docs/devices.md");
+    const std::string page{std::istreambuf_iterator<char>(file), {}};
     const auto clips = fortyClips();
     std::vector<std::vector<double>> drives;
     for (const Clip& clip : clips)
         drives.push_back(driveLevels(clip));
-    const auto mean = [&](const auto& measure)
+    // The distance of the levels of each clip from its drive, dB to a tenth, mean over the clips.
+    const auto distanceOf = [&](const auto& levelsOf)
     {
         double sum = 0.0;
         for (std::size_t i = 0; i < clips.size(); ++i)
-            sum += measure(i) / static_cast<double>(clips.size());
-        return sum;
+            sum += distance(drives[i], levelsOf(clips[i])) / static_cast<double>(clips.size());
+        return decimalText(sum, 1);
+    };
+    const auto checkRow = [&](const std::string& device, const ControllerModel& model, std::vector<std::string> cells)
+    {
+        cells.resize(3);
+        std::string row = "| " + device + " |";
+        for (const std::string& cell : cells)
+            row += cell.empty() ? " |" : " " + cell + " |";
+        row += " " + decimalText(packetsPerSecond(clips, model), 0) + " |";
+        std::cout << row << std::endl;
+        CAPTURE(row);
+        CHECK(page.find(row + "\n") != std::string::npos);
     };
     const Transport usb = Transport::usb;
-    const std::vector<Shown> motors{{"DualShock 4", {ControllerHaptics::dualShock4, usb}, 0.060, 0.030},
-                                    {"DualSense, rumble", {ControllerHaptics::dualSense, usb}, 0.010, 0.010},
-                                    {"Xbox", {ControllerHaptics::xbox, Transport::bluetooth}, 0.060, 0.030},
-                                    {"Steam Deck", {ControllerHaptics::steamDeck, usb}, 0.005, 0.005}};
-    for (const Shown& shown : motors)
+    for (const Shown& shown :
+         std::vector<Shown>{{"DualShock 4", {ControllerHaptics::dualShock4, usb}, 0.060, 0.030},
+                            {"DualSense, rumble", {ControllerHaptics::dualSense, usb}, 0.010, 0.010},
+                            {"Xbox", {ControllerHaptics::xbox, Transport::bluetooth}, 0.060, 0.030},
+                            {"Steam Deck", {ControllerHaptics::steamDeck, usb}, 0.005, 0.005}})
     {
-        std::cout << "| " << shown.name;
+        std::vector<std::string> cells;
         for (const double exponent : {1.0, 1.5, 2.0})
-            for (const bool byCurve : {false, true})
-                std::cout << (byCurve ? " / " : " | ")
-                          << std::round(10.0 * mean(
-                                                   [&](std::size_t i) {
-                                                       return distance(drives[i],
-                                                                       feltLevels(clips[i], shown, exponent, byCurve));
-                                                   })) /
-                                 10.0;
-        std::cout << " | " << std::round(packetsPerSecond(clips, shown.model)) << " |" << std::endl;
+            if (exponent == 1.0 ||
+                shown.model.haptics != ControllerHaptics::steamDeck) // coils follow what they are sent
+                cells.push_back(distanceOf([&](const Clip& clip) { return feltLevels(clip, shown, exponent, false); }) +
+                                " / " +
+                                distanceOf([&](const Clip& clip) { return feltLevels(clip, shown, exponent, true); }));
+        checkRow(shown.name, shown.model, cells);
     }
-    const std::vector<std::pair<const char*, ControllerModel>> others{
-        {"Switch", {ControllerHaptics::hdRumble, Transport::bluetooth}},
-        {"Waveforms", {ControllerHaptics::waveforms, usb, standardTrigger()}}};
-    for (const auto& [name, model] : others)
-        std::cout << "| " << name << " | "
-                  << std::round(10.0 *
-                                mean([&](std::size_t i) { return distance(drives[i], sentLevels(clips[i], model)); })) /
-                         10.0
-                  << " | | | " << std::round(packetsPerSecond(clips, model)) << " |" << std::endl;
-    const std::vector<std::pair<const char*, ControllerModel>> samples{
-        {"DualSense, Bluetooth", usualModel(ControllerHaptics::dualSense, Transport::bluetooth)},
-        {"Steam Controller", {ControllerHaptics::steamController, usb}}};
-    for (const auto& [name, model] : samples)
-        std::cout << "| " << name << " | "
-                  << std::round(10.0 * mean([&](std::size_t i)
-                                            { return distance(drives[i], sampleLevels(clips[i], model)); })) /
-                         10.0
-                  << " | | | " << std::round(packetsPerSecond(clips, model)) << " |" << std::endl;
+    for (const auto& [name, model] : std::vector<std::pair<std::string, ControllerModel>>{
+             {"Switch (HD rumble)", {ControllerHaptics::hdRumble, Transport::bluetooth}},
+             {"Waveforms", {ControllerHaptics::waveforms, usb, standardTrigger()}}})
+        checkRow(name, model, {distanceOf([&, &of = model](const Clip& clip) { return sentLevels(clip, of); })});
+    for (const auto& [name, model] : std::vector<std::pair<std::string, ControllerModel>>{
+             {"DualSense on Bluetooth, samples", usualModel(ControllerHaptics::dualSense, Transport::bluetooth)},
+             {"Steam Controller, samples", {ControllerHaptics::steamController, usb}}})
+        checkRow(name, model, {distanceOf([&, &of = model](const Clip& clip) { return sampleLevels(clip, of); })});
 }
