@@ -288,6 +288,19 @@ class Measured(Overwrite):
                    "is the description of the sweep")
         self.assertEqual(self.bytes_of("sweep.json"), before)
 
+    def test_no_result_of_a_measurement_is_written_over_what_it_is_made_of(self):
+        self.succeeds("measure", "sweep", "--duration", "1", "-o", "sweep.wav")
+        self.succeeds("measure", "simulate", "sweep.wav", "-o", "rec.wav")
+        os.symlink("rec.wav", self.folder / "same.wav")
+        before = {name: self.bytes_of(name) for name in ("sweep.json", "sweep.wav", "rec.wav")}
+        for result, words in (("rec.wav", "is a recording to be analysed"), ("same.wav", "is a recording"),
+                              ("./sweep.wav", "is the sound of the sweep")):
+            for sweep in ("sweep.json", "sweep.wav"):
+                self.fails(2, ["measure", "analyse", "rec.wav", "--sweep", sweep, "--impulse", result], words)
+        self.fails(2, ["measure", "analyse", "rec.wav", "--sweep", "sweep.wav", "-o", "sweep.json"],
+                   "is the description of the sweep")
+        self.assertEqual({name: self.bytes_of(name) for name in before}, before)
+
     def test_a_picture_beside_its_clip_is_not_drawn_over_another(self):
         self.clip("a.json")
         self.put("a.png", "a photograph")
