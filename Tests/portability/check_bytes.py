@@ -14,6 +14,8 @@ import tempfile
 from array import array
 from pathlib import Path
 
+from compiling import compile_program
+
 SOURCE, PACINI, EIGEN = Path(sys.argv[1]), sys.argv[2], sys.argv[3]
 DEMO = SOURCE / "Resources/demo"
 LARGEST = 1e-6  # difference of a drive's samples: -120 dB, a thirtieth of a step of 16 bits
@@ -98,8 +100,7 @@ with tempfile.TemporaryDirectory() as folder:
     for machine, (compiler, flags, runner, environment) in MACHINES.items():
         if compiler not in programs:
             programs[compiler] = folder / compiler
-            run(compiler, "-std=c++20", "-O2", "-ffp-contract=off", "-Werror=conversion", "-Werror=sign-conversion", *flags,
-                f"-I{SOURCE}/Core", "-isystem", EIGEN, SOURCE / "Tests/portability/bytes.cpp", "-o", programs[compiler])
+            compile_program(SOURCE, EIGEN, compiler, flags, "Tests/portability/bytes.cpp", programs[compiler])
         program = [*runner, programs[compiler]]
         environment = {**os.environ, **environment}
         own = folder / machine

@@ -12,6 +12,8 @@ import tempfile
 import time
 from pathlib import Path
 
+from compiling import compile_program
+
 SOURCE, EIGEN = Path(sys.argv[1]), sys.argv[2]
 SANITIZERS = "-fsanitize=signed-integer-overflow,float-cast-overflow"
 # machine -> compiler, its flags, what runs its programs
@@ -39,9 +41,8 @@ with tempfile.TemporaryDirectory() as folder:
     found = {}
     for machine, (compiler, flags, runner) in MACHINES.items():
         program = Path(folder) / compiler
-        run(compiler, "-std=c++20", "-O2", "-ffp-contract=off", "-Werror=conversion", "-Werror=sign-conversion",
-            SANITIZERS, "-fsanitize-undefined-trap-on-error", *flags, f"-I{SOURCE}/Core", "-isystem", EIGEN,
-            SOURCE / "Tests/portability/long.cpp", "-o", program)
+        compile_program(SOURCE, EIGEN, compiler, [SANITIZERS, "-fsanitize-undefined-trap-on-error", *flags],
+                        "Tests/portability/long.cpp", program)
         begun = time.monotonic()
         found[machine] = run(*runner, program)
         print(f"{machine}: {time.monotonic() - begun:.0f} s")

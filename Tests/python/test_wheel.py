@@ -30,7 +30,7 @@ class Wheel(FolderTest):
                 "-w",
                 self.folder,
                 "-C",
-                f"build-dir={self.folder / 'build'}",
+                f"build-dir={SOURCE / 'build/wheel'}",  # below the sources, where ccache knows it from other checkouts
             ],
             capture_output=True,
             text=True,
