@@ -46,7 +46,7 @@ public:
         {
             levels.clear();
             thirdOctaves.process(pressure.subspan(done).first(std::min(piece, pressure.size() - done)), levels);
-            for (const BandLevels& set : levels)
+            for (const BandPowers& set : levels)
                 push(coreLoudness(set), sink);
         }
     }
@@ -55,6 +55,10 @@ public:
     template <typename Sink>
     void finish(Sink&& sink)
     {
+        levels.clear();
+        thirdOctaves.finish(levels);
+        for (const BandPowers& set : levels)
+            push(coreLoudness(set), sink);
         push(CoreLoudness{}, sink);
         waiting.reset();
     }
@@ -79,7 +83,7 @@ private:
     ThirdOctaveLevels thirdOctaves;
     LoudnessDecay decay;
     LoudnessMemory memory;
-    std::vector<BandLevels> levels;
+    std::vector<BandPowers> levels;
     std::optional<CoreLoudness> waiting;
     std::size_t sets = 0;
     std::size_t spacing; // of the sets that become values

@@ -71,8 +71,12 @@ private:
 class LoudnessDecay
 {
 public:
-    /// `rate` (Hz) is that of the sets of levels; the standard has 2000, of which each step is exact.
-    explicit LoudnessDecay(double rate) noexcept : substep(1.0 / (rate * detail::loudnessSubsteps)) {}
+    /// `rate` (Hz) is that of the sets of powers; the standard has 2000, and 24 steps between two of them. At lower
+    /// rates twelve steps change the loudness by .02 % (root mean square).
+    explicit LoudnessDecay(double rate) noexcept
+        : substeps(rate < 2000.0 ? 12 : detail::loudnessSubsteps), substep(1.0 / (rate * substeps))
+    {
+    }
 
     /// Returns the remainder of earlier sets at the time of `input`, one step after the set before and before `next`.
     CoreLoudness step(const CoreLoudness& input, const CoreLoudness& next) noexcept
@@ -82,12 +86,12 @@ public:
         {
             State& state = states[band];
             double value = input[band];
-            const double rise = (next[band] - value) / detail::loudnessSubsteps;
+            const double rise = (next[band] - value) / substeps;
             tick(state, value);
             result[band] = state.output;
             if (value == 0.0 && next[band] == 0.0 && state.output == 0.0)
                 continue; // silence after silence: the memory alone falls, and no output shows it before a rise
-            for (int m = 1; m < detail::loudnessSubsteps; ++m)
+            for (int m = 1; m < substeps; ++m)
                 tick(state, value += rise);
         }
         return result;
@@ -123,6 +127,7 @@ private:
 
     std::array<State, std::tuple_size_v<CoreLoudness> - 1> states{};
 
+    int substeps;   // from one set to the next
     double substep; // s
     // The two-capacitor circuit's exact step over it.
     static constexpr double shortTau = 0.005;

@@ -30,10 +30,11 @@ namespace detail
 
 /// Reduction of the levels of the 11 bands up to 250 Hz by the equal-loudness contours, dB, for levels up to `limit` dB
 /// above it: ISO 532-1:2017, table A.3.
+inline constexpr std::size_t lowBands = 11;
 struct LowBandCorrection
 {
     double limit;
-    std::array<double, 11> level;
+    std::array<double, lowBands> level;
 };
 inline constexpr std::array<LowBandCorrection, 8> lowBandCorrections{{
     {45.0, {-32, -24, -16, -10, -5, 0, -7, -3, 0, -2, 0}},
@@ -62,6 +63,37 @@ inline constexpr std::array<CriticalBand, 20> criticalBands{{
     {-3.2, 3.0, 1.7, 15.2},  {-5.4, 3.0, 1.6, 16.7}, {-5.6, 3.0, 1.4, 18.1}, {-4.0, 3.0, 1.2, 19.3},
     {-1.5, 3.0, 0.8, 20.6},  {2.0, 3.0, 0.5, 21.8},  {5.0, 3.0, 0.0, 22.7},  {12.0, 3.0, -0.5, 23.6},
 }};
+
+/// The tables above as ratios of powers, so that no level needs a logarithm.
+struct EarPowers
+{
+    std::array<std::array<double, lowBands>, lowBandCorrections.size()> limits;
+    std::array<std::array<double, lowBands>, lowBandCorrections.size()> corrections;
+    std::array<double, criticalBands.size()> thresholds; ///< least power that is heard
+    std::array<double, criticalBands.size()> gains;      ///< to the excitation re the threshold
+    std::array<double, criticalBands.size()> heights;    ///< sone per Bark
+
+    EarPowers() noexcept
+    {
+        const auto power = [](double level)
+        {
+            return std::pow(10.0, 0.1 * level);
+        };
+        for (std::size_t row = 0; row < lowBandCorrections.size(); ++row)
+            for (std::size_t k = 0; k < lowBands; ++k)
+            {
+                corrections[row][k] = power(lowBandCorrections[row].level[k]);
+                limits[row][k] = power(lowBandCorrections[row].limit - lowBandCorrections[row].level[k]);
+            }
+        for (std::size_t band = 0; band < criticalBands.size(); ++band)
+        {
+            const CriticalBand& ear = criticalBands[band];
+            thresholds[band] = power(ear.threshold + ear.transmission);
+            gains[band] = power(-ear.transmission - ear.adaptation - ear.threshold);
+            heights[band] = 0.0635 * std::pow(10.0, 0.025 * ear.threshold);
+        }
+    }
+};
 
 /// Slope of the loudness towards higher bands, by its height and the band below: table A.9.
 struct UpperSlope
@@ -130,39 +162,33 @@ private:
 
 } // namespace detail
 
-/// The core loudness of `levels` in a free field (ISO 532-1:2017, 5.4 and 5.5). Levels above 120 dB are outside of the
+/// The core loudness of `powers` in a free field (ISO 532-1:2017, 5.4 and 5.5). Levels above 120 dB are outside of the
 /// method, and are taken like those of 120 dB are.
-[[nodiscard]] inline CoreLoudness coreLoudness(const BandLevels& levels) noexcept
+[[nodiscard]] inline CoreLoudness coreLoudness(const BandPowers& powers) noexcept
 {
-    const auto power = [](double level)
-    {
-        return std::pow(10.0, 0.1 * level);
-    };
+    static const detail::EarPowers ear;
     // The lowest three critical bands are sums of 6, 3 and 2 bands.
     std::array<double, 3> low{};
-    for (std::size_t k = 0; k < 11; ++k)
+    for (std::size_t k = 0; k < detail::lowBands; ++k)
     {
         std::size_t row = 0;
-        while (row + 1 < detail::lowBandCorrections.size() &&
-               levels[k] > detail::lowBandCorrections[row].limit - detail::lowBandCorrections[row].level[k])
+        while (row + 1 < detail::lowBandCorrections.size() && powers[k] > ear.limits[row][k])
             ++row;
-        low[k < 6 ? 0 : k < 9 ? 1 : 2] += power(levels[k] + detail::lowBandCorrections[row].level[k]);
+        low[k < 6 ? 0 : k < 9 ? 1 : 2] += powers[k] * ear.corrections[row][k];
     }
     CoreLoudness core{};
     for (std::size_t band = 0; band < detail::criticalBands.size(); ++band)
     {
-        const auto& ear = detail::criticalBands[band];
-        const double excitation =
-            (band < 3 ? Decibels::fromPower(low[band]).value : levels[band + 8]) - ear.transmission;
-        if (!(excitation > ear.threshold))
+        const double power = band < 3 ? low[band] : powers[band + 8];
+        if (!(power > ear.thresholds[band]))
             continue;
         constexpr double s = 0.25;
-        const double above = 1.0 - s + s * power(excitation - ear.adaptation - ear.threshold);
-        const double height = 0.0635 * std::pow(10.0, 0.025 * ear.threshold) * (std::sqrt(std::sqrt(above)) - 1.0);
-        core[band] = std::max(0.0, height);
+        const double above = 1.0 - s + s * power * ear.gains[band];
+        core[band] = std::max(0.0, ear.heights[band] * (std::sqrt(std::sqrt(above)) - 1.0));
     }
     // The threshold rises within the lowest band.
-    core[0] *= std::min(1.0, 0.4 + 0.32 * std::pow(core[0], 0.2));
+    if (core[0] > 0.0)
+        core[0] *= std::min(1.0, 0.4 + 0.32 * std::pow(core[0], 0.2));
     return core;
 }
 

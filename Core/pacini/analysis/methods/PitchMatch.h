@@ -48,10 +48,10 @@ public:
         if (energy < 1e-6 * size)
             return std::nullopt;
         fft.forward(frame, spectrum);
-        BandLevels levels;
-        for (std::size_t k = 0; k < levels.size(); ++k)
-            levels[k] = Decibels::fromPower(std::max(quietest, bandPower(k)) / (reference * reference)).value;
-        return loudnessPattern(coreLoudness(levels));
+        BandPowers powers;
+        for (std::size_t k = 0; k < powers.size(); ++k)
+            powers[k] = std::max(quietest, bandPower(k)) / (reference * reference);
+        return loudnessPattern(coreLoudness(powers));
     }
 
 private:
