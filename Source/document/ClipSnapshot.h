@@ -66,7 +66,8 @@ private:
         bare.encoder = clip.encoder;
         bare.markers = clip.markers;
         for (const Band& band : clip.bands)
-            bare.bands.push_back({band.lowFrequency, band.centreFrequency, band.highFrequency, band.priority, {}, {}});
+            bare.bands.push_back(
+                {band.lowFrequency, band.centreFrequency, band.highFrequency, band.priority, {}, {}, band.phase});
         for (const NoiseBand& band : clip.noise)
             bare.noise.push_back({band.lowFrequency, band.highFrequency, {}});
         return bare;

@@ -22,7 +22,8 @@ bool sameHead(const Clip& a, const Clip& b)
     for (std::size_t k = 0; k < a.bands.size(); ++k)
         if (a.bands[k].lowFrequency != b.bands[k].lowFrequency ||
             a.bands[k].centreFrequency != b.bands[k].centreFrequency ||
-            a.bands[k].highFrequency != b.bands[k].highFrequency || a.bands[k].priority != b.bands[k].priority)
+            a.bands[k].highFrequency != b.bands[k].highFrequency || a.bands[k].priority != b.bands[k].priority ||
+            a.bands[k].phase != b.bands[k].phase)
             return false;
     for (std::size_t k = 0; k < a.noise.size(); ++k)
         if (a.noise[k].lowFrequency != b.noise[k].lowFrequency || a.noise[k].highFrequency != b.noise[k].highFrequency)

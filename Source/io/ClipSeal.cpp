@@ -30,8 +30,10 @@ class ClipFingerprint
 public:
     void format(const DocumentFormat&) {}
 
-    void number(std::string_view, double value, Need)
+    void number(std::string_view, double value, Need need)
     {
+        if (need == Need::optional && value == 0.0) // came later, and seals stay
+            return;
         value += 0.0; // no two zeros
         all.add(std::as_bytes(std::span(&value, 1)));
     }

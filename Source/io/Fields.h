@@ -57,7 +57,7 @@ enum class Need
 {
     required,
     usual,   ///< may be missing, but is always written
-    optional ///< an object or a list that is not written when it equals its default
+    optional ///< an object or a list that is not written when it equals its default, or a number when it is 0
 };
 
 /// Whether a visitor fills the values that it is shown.

@@ -67,8 +67,10 @@ public:
             text(name, value);
     }
 
-    void number(std::string_view name, double value, Need)
+    void number(std::string_view name, double value, Need need)
     {
+        if (need == Need::optional && value == 0.0)
+            return;
         key(name);
         number(value);
     }

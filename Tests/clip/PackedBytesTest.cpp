@@ -327,7 +327,7 @@ TEST_CASE("The checksum is CRC-16 CCITT, behind the magic and the version", "[cl
     CHECK(messageOf(other) == "header: is not a packed Pacini clip");
     other = bytes;
     other[4] = std::byte{9};
-    CHECK(messageOf(other) == "header: was written by a newer version (9) of the format; this program reads version 1");
+    CHECK(messageOf(other) == "header: was written by a newer version (9) of the format; this program reads version 2");
     other = bytes;
     other[5] ^= std::byte{1};
     CHECK(messageOf(other) == "checksum: does not match: the file is damaged or truncated");

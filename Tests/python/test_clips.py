@@ -43,6 +43,9 @@ class Clips(FolderTest):
         clip.bands = [dataclasses.replace(band, priority=7) for band in clip.bands[:3]]
         self.assertEqual([band.priority for band in clip.bands], [7, 7, 7])
         self.assertEqual(clip.bands[1].low, self.clip.bands[1].low)
+        clip.bands = [dataclasses.replace(clip.bands[0], phase=0.25), *clip.bands[1:]]
+        self.assertEqual([band.phase for band in clip.bands], [0.25, 0, 0])
+        self.assertNotEqual(clip.bands[0], dataclasses.replace(clip.bands[0], phase=0.5))
         clip.centroid = np.array([(0.0, 100.0)])
         clip.markers = [(0.5, "half")]
         clip.noise = [pacini.NoiseBand(100, 200, [(0, 0.1)])]
@@ -68,6 +71,8 @@ class Clips(FolderTest):
         self.refuses(
             "bands[0].pitch[0].frequency", "invalidData", put, "bands", [pacini.Band(50, 100, 200, pitch=[(0, -1)])]
         )
+        for phase, code in ((1.5, "invalidData"), (-0.1, "invalidData"), (np.nan, "notFinite")):
+            self.refuses("bands[0].phase", code, put, "bands", [pacini.Band(50, 100, 200, phase=phase)])
         self.refuses("bands[0]", "invalidArgument", put, "bands", [1])
         self.refuses("markers", "invalidArgument", put, "markers", [1])
         self.refuses("duration", "invalidData", put, "duration", -1)

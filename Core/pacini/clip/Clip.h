@@ -27,6 +27,7 @@ struct Band
     int priority = 0;             ///< 0 is kept longest when voices run out
     Curve amplitude;              ///< linear, 0 and above
     Curve pitch;                  ///< Hz, above 0
+    double phase = 0.0;           ///< of the carrier at the start, cycles, 0 to 1: 0 is a sine, 0.25 a cosine
     bool operator==(const Band&) const = default;
 };
 
@@ -204,7 +205,9 @@ inline Result<void> checkItem(const Band& band, double duration, const std::stri
         return brokenRule(where, "needs lowFrequency <= centreFrequency <= highFrequency");
     if (auto r = checkAmplitude(band.amplitude, duration, where + ".amplitude"); !r)
         return r;
-    return checkCurve(band.pitch, "frequency", duration, 1e-3, limits::frequency, where + ".pitch");
+    if (auto r = checkCurve(band.pitch, "frequency", duration, 1e-3, limits::frequency, where + ".pitch"); !r)
+        return r;
+    return checkNumber(band.phase, 0.0, 1.0, where + ".phase");
 }
 
 inline Result<void> checkItem(const NoiseBand& band, double duration, const std::string& where)

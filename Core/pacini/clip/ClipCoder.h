@@ -68,6 +68,13 @@ public:
         return !failed;
     }
 
+    /// What version 2 has behind the contents of version 1.
+    void codePhases(Clip& clip)
+    {
+        for (Band& band : clip.bands)
+            band.phase = ClipGrids::phaseOf(raw(ClipGrids::phaseCode(band.phase), ClipGrids::phaseBits));
+    }
+
 private:
     static constexpr std::size_t pointsPerByte = 64;
     static constexpr bool reading = Coder::reading;

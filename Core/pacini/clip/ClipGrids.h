@@ -60,6 +60,19 @@ public:
         return static_cast<double>(tick) / static_cast<double>(ticks);
     }
 
+    static constexpr int phaseBits = 12; ///< steps of a tenth of a degree
+
+    /// Returns the code of a phase of 0 to 1 cycles; both ends have code 0.
+    [[nodiscard]] static std::uint64_t phaseCode(double cycles) noexcept
+    {
+        constexpr std::uint64_t steps = std::uint64_t{1} << phaseBits;
+        return static_cast<std::uint64_t>(std::llround(cycles * static_cast<double>(steps))) % steps;
+    }
+    [[nodiscard]] static double phaseOf(std::uint64_t code) noexcept
+    {
+        return static_cast<double>(code) / static_cast<double>(std::uint64_t{1} << phaseBits);
+    }
+
     /// Returns the lowest level above silence in a clip's envelope and bands; the highest of the grid if there is none.
     [[nodiscard]] std::int64_t lowestLevel(const Clip& clip) const
     {
@@ -86,6 +99,7 @@ public:
         {
             roundCurve(band.amplitude, floored);
             roundCurve(band.pitch, pitches);
+            band.phase = phaseOf(phaseCode(band.phase));
         }
         roundCurve(clip.centroid, pitches);
         for (NoiseBand& band : clip.noise)

@@ -34,17 +34,19 @@ inline std::uint16_t crc16(std::span<const std::byte> data)
 }
 
 inline constexpr std::array<char, 4> packedMagic = {'P', 'A', 'C', 'B'};
-inline constexpr std::uint8_t packedVersion = 1;
+/// Version 2 is written where a band has a phase only, so that programs that know version 1 read all other clips, and
+/// refuse what they would play otherwise than it is.
+inline constexpr std::uint8_t packedVersion = 2;
 inline constexpr std::size_t packedHeaderBytes = 7; // magic, version, checksum of what follows
 
 /// A payload behind its magic, version and checksum.
-inline std::vector<std::byte> withHeader(std::span<const std::byte> payload)
+inline std::vector<std::byte> withHeader(std::span<const std::byte> payload, std::uint8_t version = 1)
 {
     std::vector<std::byte> bytes;
     bytes.reserve(packedHeaderBytes + payload.size());
     for (char c : packedMagic)
         bytes.push_back(static_cast<std::byte>(c));
-    bytes.push_back(static_cast<std::byte>(packedVersion));
+    bytes.push_back(static_cast<std::byte>(version));
     const std::uint16_t crc = crc16(payload);
     bytes.push_back(static_cast<std::byte>(crc >> 8));
     bytes.push_back(static_cast<std::byte>(crc & 0xFF));
@@ -104,9 +106,13 @@ inline void setQuantise(Clip& clip, int bits)
     detail::codePackParams(writer, params);
     detail::ClipCoder<RangeWriter> coder(writer, params);
     coder.code(clip);
+    const bool phases = std::any_of(clip.bands.begin(), clip.bands.end(),
+                                    [](const Band& band) { return detail::ClipGrids::phaseCode(band.phase) != 0; });
+    if (phases)
+        coder.codePhases(clip);
     std::vector<std::byte> payload = writer.finish();
     payload.resize(std::max(payload.size(), coder.leastBytes())); // the reader takes what is missing as zeros anyway
-    return detail::withHeader(payload);
+    return detail::withHeader(payload, phases ? 2 : 1);
 }
 
 /// Reads a packed clip. Errors: invalidData (not a packed clip, or damaged), truncated, unsupportedVersion, tooLarge.
@@ -135,6 +141,8 @@ inline void setQuantise(Clip& clip, int bits)
     ClipCoder<RangeReader> coder(reader, params, payload.size());
     if (!coder.code(clip))
         return Error{ErrorCode::invalidData, "contents", "are invalid: the file is damaged"};
+    if (version >= 2)
+        coder.codePhases(clip);
     if (auto valid = validate(clip); !valid)
         return valid.error();
     return clip;

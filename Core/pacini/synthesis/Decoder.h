@@ -471,6 +471,7 @@ private:
         for (const Band& band : clip.bands)
         {
             Carrier carrier;
+            carrier.phase = band.phase - std::floor(band.phase);
             for (const Breakpoint& point : band.amplitude)
                 carrier.amplitude.push_back({point.time * params.stretch * innerRate, point.value * params.gain});
             const auto addFrequency = [&](double time, double hertz)

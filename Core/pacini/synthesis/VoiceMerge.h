@@ -30,7 +30,7 @@ inline std::vector<double> joinedTimes(const Curve& a, const Curve& b)
     return times;
 }
 
-/// The weaker band joins the stronger: powers add, the pitch is the mean of both in octaves, weighted by power, so that
+/// One band of two, with phase 0: powers add, the pitch is the mean of both in octaves, weighted by power, so that
 /// it is that of whichever sounds.
 inline Band mergedBand(const Band& a, const Band& b)
 {
@@ -59,8 +59,8 @@ inline Band mergedBand(const Band& a, const Band& b)
 } // namespace detail
 
 /// Leaves at most `voices` (1 or more) bands. The least important band (the highest priority number, then the least
-/// energy) repeatedly joins its neighbour in frequency. A band without a voice is thus heard in another's, which loses
-/// less than leaving it out.
+/// energy) repeatedly joins its neighbour in frequency, at the phase of the stronger. A band without a voice is thus
+/// heard in another's, which loses less than leaving it out.
 inline void mergeVoices(Clip& clip, std::size_t voices)
 {
     auto& bands = clip.bands;
@@ -82,7 +82,9 @@ inline void mergeVoices(Clip& clip, std::size_t voices)
         };
         const bool joinsLower = least > 0 && (least + 1 == bands.size() || distance(least - 1) <= distance(least + 1));
         const std::size_t first = joinsLower ? least - 1 : least;
+        const double phase = bands[energies[first + 1] > energies[first] ? first + 1 : first].phase;
         bands[first] = detail::mergedBand(bands[first], bands[first + 1]);
+        bands[first].phase = phase;
         energies[first] += energies[first + 1];
         bands.erase(bands.begin() + static_cast<std::ptrdiff_t>(first + 1));
         energies.erase(energies.begin() + static_cast<std::ptrdiff_t>(first + 1));

@@ -167,6 +167,8 @@ void addVoiceLosses(LossList& losses, const Clip& clip, const SingleVoice& voice
     for (const Breakpoint& point : voice.displaced)
         bands.add(point.time, point.value > leastAmplitude ? point.value : 0.0);
     losses.append(bands);
+    if (std::any_of(clip.bands.begin(), clip.bands.end(), [](const Band& band) { return band.phase != 0.0; }))
+        losses.add(LossKind::bands, 0.0, clip.duration, 0.0, "the initial phase of carriers is left out");
     losses.addNoise(clip, inVoice);
     addEmptyParts(losses, voice);
 }

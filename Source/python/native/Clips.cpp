@@ -80,7 +80,8 @@ ClipHandle checked(Clip clip)
     return ClipHandle(std::move(clip));
 }
 
-using BandTuple = std::tuple<double, double, double, int, Rows, Rows>; // low, centre, high, priority, amplitude, pitch
+/// low, centre, high, priority, amplitude, pitch, phase
+using BandTuple = std::tuple<double, double, double, int, Rows, Rows, double>;
 using NoiseTuple = std::tuple<double, double, Rows>;
 using EncoderValue = std::variant<bool, double, std::string>;
 
@@ -105,8 +106,8 @@ ClipHandle edited(const ClipHandle& handle, std::optional<std::string> name, std
     if (bands)
     {
         clip.bands.clear();
-        for (const auto& [low, centre, high, priority, amplitude, pitch] : *bands)
-            clip.bands.push_back({low, centre, high, priority, curveOf(amplitude), curveOf(pitch)});
+        for (const auto& [low, centre, high, priority, amplitude, pitch, phase] : *bands)
+            clip.bands.push_back({low, centre, high, priority, curveOf(amplitude), curveOf(pitch), phase});
     }
     if (noise)
     {
@@ -343,7 +344,7 @@ void bindParts(ClipClass& bound)
                          for (const Band& band : self.clip().bands)
                              list.append(nb::make_tuple(band.lowFrequency, band.centreFrequency, band.highFrequency,
                                                         band.priority, viewOf(self, band.amplitude),
-                                                        viewOf(self, band.pitch)));
+                                                        viewOf(self, band.pitch), band.phase));
                          return list;
                      })
         .def_prop_ro("noise",

@@ -39,6 +39,8 @@ class Band:
         Amplitude over time; s, 1 is full drive.
     pitch : array_like of (time, frequency), optional
         Pitch over time; s, Hz.
+    phase : float, default 0
+        Phase of the carrier at the start, cycles, 0 to 1: 0 is a sine, 0.25 a cosine.
     """
 
     low: float
@@ -47,6 +49,7 @@ class Band:
     priority: int = 0
     amplitude: Points = _no_points(AMPLITUDE)
     pitch: Points = _no_points(FREQUENCY)
+    phase: float = 0.0
 
     if TYPE_CHECKING:  # more is taken than is kept
 
@@ -58,6 +61,7 @@ class Band:
             priority: int = 0,
             amplitude: npt.ArrayLike = ...,
             pitch: npt.ArrayLike = ...,
+            phase: float = 0.0,
         ) -> None: ...
 
     def __post_init__(self) -> None:
@@ -68,7 +72,8 @@ class Band:
         if not isinstance(other, Band):
             return NotImplemented
         return (
-            (self.low, self.centre, self.high, self.priority) == (other.low, other.centre, other.high, other.priority)
+            (self.low, self.centre, self.high, self.priority, self.phase)
+            == (other.low, other.centre, other.high, other.priority, other.phase)
             and np.array_equal(rows_of(self.amplitude, AMPLITUDE, ""), rows_of(other.amplitude, AMPLITUDE, ""))
             and np.array_equal(rows_of(self.pitch, FREQUENCY, ""), rows_of(other.pitch, FREQUENCY, ""))
         )
@@ -274,8 +279,8 @@ class Clip:
     @property
     def bands(self) -> tuple[Band, ...]:
         return tuple(
-            Band(low, centre, high, priority, points_of(amplitude, AMPLITUDE), points_of(pitch, FREQUENCY))
-            for low, centre, high, priority, amplitude, pitch in self._handle.bands
+            Band(low, centre, high, priority, points_of(amplitude, AMPLITUDE), points_of(pitch, FREQUENCY), phase)
+            for low, centre, high, priority, amplitude, pitch, phase in self._handle.bands
         )
 
     @bands.setter
@@ -603,7 +608,7 @@ def _source_tuple(source: Source) -> tuple[str, float, int]:
 _Rows = npt.NDArray[np.float64]
 
 
-def _band_tuples(bands: Iterable[Band]) -> list[tuple[float, float, float, int, _Rows, _Rows]]:
+def _band_tuples(bands: Iterable[Band]) -> list[tuple[float, float, float, int, _Rows, _Rows, float]]:
     tuples = []
     for i, band in enumerate(bands):
         if not isinstance(band, Band):
@@ -616,6 +621,7 @@ def _band_tuples(bands: Iterable[Band]) -> list[tuple[float, float, float, int, 
                 int(band.priority),
                 rows_of(band.amplitude, AMPLITUDE, f"bands[{i}].amplitude"),
                 rows_of(band.pitch, FREQUENCY, f"bands[{i}].pitch"),
+                float(band.phase),
             )
         )
     return tuples

@@ -98,7 +98,10 @@ template <typename SameBand, typename List>
             auto added = other;
             added.amplitude.clear();
             if constexpr (requires { added.pitch; })
+            {
                 added.pitch.clear();
+                added.phase = 0.0;
+            }
             bands.push_back(std::move(added));
         }
         places.push_back(k);
@@ -149,8 +152,8 @@ inline void joinCurves(Curve& a, const Curve& b, double at, double lengthOfB, do
 
 /// Clip `b` behind clip `a`. Name, source and encoder are those of `a`. Bands of the same frequencies are continued;
 /// bands that only one of them has are silent during the other. Where only one has an envelope or pitch, the other's
-/// is what it would be: the power sum of its bands, the band's centre. tooLarge: more than 256 bands, 24 h or 50
-/// million points in all.
+/// is what it would be: the power sum of its bands, the band's centre. Carriers run on from the phases of `a`.
+/// tooLarge: more than 256 bands, 24 h or 50 million points in all.
 [[nodiscard]] inline Result<Clip> joinClips(Clip a, const Clip& b)
 {
     const double at = a.duration;

@@ -54,6 +54,7 @@ enum class Column
     centroid,
     amplitude,
     pitch,
+    phase, ///< at time 0 only
     noise,
     event,
     sharpness
@@ -158,11 +159,14 @@ private:
                 return {name == "amplitude" ? Column::amplitude : Column::pitch,
                         bandOf({plainFrequency, plainFrequency, plainFrequency})};
         }
-        if (numbers.size() == 3 && (name == "amplitude" || name == "pitch"))
+        if (numbers.size() == 3 && (name == "amplitude" || name == "pitch" || name == "phase"))
         {
             if (!(numbers[0] <= numbers[1] && numbers[1] <= numbers[2]))
                 fail(line, column, "needs low <= centre <= high");
-            return {name == "amplitude" ? Column::amplitude : Column::pitch, bandOf(numbers)};
+            return {name == "amplitude" ? Column::amplitude
+                    : name == "pitch"   ? Column::pitch
+                                        : Column::phase,
+                    bandOf(numbers)};
         }
         if (numbers.size() == 2 && name == "noise")
         {
@@ -240,7 +244,8 @@ private:
     {
         constexpr double plainSharpness = 0.5;
         const bool isFrequency = place.kind == Column::pitch || place.kind == Column::centroid;
-        const double most = isFrequency ? limits::frequency : place.kind == Column::sharpness ? 1.0 : limits::amplitude;
+        const bool isShare = place.kind == Column::sharpness || place.kind == Column::phase;
+        const double most = isFrequency ? limits::frequency : isShare ? 1.0 : limits::amplitude;
         const double least = place.kind == Column::pitch ? 1e-3 : 0.0;
         if (place.kind != Column::time && !(value >= least && value <= most))
             return fail(line, column, fmt::format("must be {} to {}", least, most));
@@ -257,6 +262,11 @@ private:
             break;
         case Column::pitch:
             clip.bands[place.index].pitch.push_back({time, value});
+            break;
+        case Column::phase:
+            if (time != 0.0)
+                return fail(line, column, "must be at time 0");
+            clip.bands[place.index].phase = value;
             break;
         case Column::noise:
             clip.noise[place.index].amplitude.push_back({time, value});

@@ -92,6 +92,8 @@ Result<ExportedClip> writeCsv(const Clip& clip, const ExportParams&)
         table.add("amplitude " + range, band.amplitude);
         if (!band.pitch.empty())
             table.add("pitch " + range, band.pitch);
+        if (band.phase != 0.0)
+            table.add("phase " + range, Curve{{0.0, band.phase}});
     }
     for (const NoiseBand& band : clip.noise)
         table.add(fmt::format("noise {} {}", band.lowFrequency, band.highFrequency), band.amplitude);

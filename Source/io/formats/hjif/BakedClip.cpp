@@ -64,6 +64,7 @@ std::vector<double> levellingGain(const Clip& clip)
     for (const Band& band : clip.bands)
     {
         Carrier carrier;
+        carrier.phase = band.phase;
         for (const Breakpoint& point : band.amplitude)
             carrier.amplitude.push_back({point.time * fs, point.value});
         for (const Breakpoint& point : band.pitch)

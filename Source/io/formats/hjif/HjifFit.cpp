@@ -158,7 +158,9 @@ void HjifFit::multiplyWaves(const Clip& clip)
         pitches.emplace_back(band.pitch);
         amplitudes.emplace_back(band.amplitude);
     }
-    std::vector<double> cycles(n), waves(n);
+    std::vector<double> cycles, waves(n);
+    for (const Band& band : clip.bands)
+        cycles.push_back(band.phase);
     for (std::size_t interval = 0; interval + 1 < count; ++interval)
     {
         const double level = std::hypot(floor, sums[interval]);

@@ -161,7 +161,7 @@ private:
         const char* separator = "";
         for (const Curve& sound : soundsOf(amplitude))
         {
-            text += separator + effect(sound, pitch);
+            text += separator + effect(sound, pitch, band.phase);
             separator = ",";
         }
         return text + "]}";
@@ -193,8 +193,8 @@ private:
         return sounds;
     }
 
-    /// One effect, whose wave goes on from where a wave from the start of the clip would be.
-    std::string effect(const Curve& sound, const Curve& pitch)
+    /// One effect, whose wave goes on from where a wave of `firstPhase` cycles at the start of the clip would be.
+    std::string effect(const Curve& sound, const Curve& pitch, double firstPhase)
     {
         Keyframes keyframes;
         movedTime = std::max(movedTime, putOnTicks(sound, [&](std::int64_t tick, double value)
@@ -214,7 +214,8 @@ private:
         keyframes[start].frequency = hertz(valueAt(pitch, sound.front().time));
         if (pitch.size() > 1)
             keyframes[end].frequency = hertz(valueAt(pitch, sound.back().time));
-        const double phase = 2.0 * std::numbers::pi * cyclesUntil(pitch, sound.front().time);
+        const double cycles = firstPhase + cyclesUntil(pitch, sound.front().time);
+        const double phase = 2.0 * std::numbers::pi * (cycles - std::floor(cycles));
         std::string text = fmt::format(R"({{"effect_type":"Basis","position":{},"phase":{},"keyframes":[)", start,
                                        shortDecimalText(phase, 3));
         const char* separator = "";

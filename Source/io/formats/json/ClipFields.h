@@ -41,6 +41,7 @@ inline constexpr auto bandFields = [](auto& band, auto& visitor)
     visitor.integer("priority", band.priority);
     visitor.timeline("amplitude", band.amplitude, Need::required, amplitudePointFields);
     visitor.timeline("pitch", band.pitch, Need::usual, frequencyPointFields);
+    visitor.number("phase", band.phase, Need::optional);
 };
 
 inline constexpr auto transientFields = [](auto& transient, auto& visitor)

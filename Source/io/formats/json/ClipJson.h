@@ -22,9 +22,9 @@ inline constexpr std::size_t largestClipText = std::size_t(512) << 20;
 
 /// Reads a clip and checks it with validate(). Unknown keys are passed over with a warning each, if `warnings` are
 /// asked for; a key given twice is an error (programs differ in which one they take). `format`, `version`, `duration`
-/// and `bands` are required, and in every listed object all members but a band's `priority` and `pitch`; what may be
-/// missing keeps the default of Clip. Errors carry the place: a path such as `bands[2].amplitude[7].time` for a wrong,
-/// missing or badly ordered value (the path of the missing member), `line 3, column 17` for wrong JSON. Codes:
+/// and `bands` are required, and in every listed object all members but a band's `priority`, `pitch` and `phase`; what
+/// may be missing keeps the default of Clip. Errors carry the place: a path such as `bands[2].amplitude[7].time` for a
+/// wrong, missing or badly ordered value (the path of the missing member), `line 3, column 17` for wrong JSON. Codes:
 /// invalidData, unsupportedVersion, notFinite (numbers beyond double), tooLarge (longer than `maximumBytes`, nested
 /// deeper than 32, beyond the limits of Clip.h).
 [[nodiscard]] Result<Clip> readClipJson(std::string_view text, std::size_t maximumBytes = largestClipText,
