@@ -56,6 +56,7 @@ using BenchRun = std::function<Exit(const BenchOptions&, Console&)>;
 [[nodiscard]] std::unique_ptr<Command> fitSubcommand();
 [[nodiscard]] std::unique_ptr<Command> verifySubcommand();
 [[nodiscard]] std::unique_ptr<Command> simulateSubcommand();
+[[nodiscard]] std::unique_ptr<Command> reportSubcommand();
 
 /// The steps of `pacini study`.
 [[nodiscard]] std::unique_ptr<Command> newStudySubcommand();

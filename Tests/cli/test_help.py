@@ -8,7 +8,7 @@ import unittest
 from command import COMMAND, CommandTest, sine, wav
 
 COMMANDS = ["encode", "render", "info", "convert", "lint", "profiles", "devices", "play", "live", "serve", "compare", "manifest", "study",
-            "manifest merge", "manifest check", "manifest retry", "measure", "measure sweep", "measure analyse",
+            "manifest merge", "manifest check", "manifest retry", "measure", "measure sweep", "measure analyse", "measure report",
             "measure fit", "measure verify", "measure simulate", "plot", "bench", "help", "completions", "man"]
 
 

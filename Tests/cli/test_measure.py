@@ -1,6 +1,7 @@
 """End to end: pacini measure, from a sweep over simulated wearers to an actuator that is proven flat."""
 import json
 import math
+import re
 import struct
 import unittest
 
@@ -200,6 +201,45 @@ class EndToEnd(MeasureTest):
         start = data.index(b"data") + 8
         size = struct.unpack_from("<I", data, start - 4)[0]
         return rate, channels, struct.unpack_from(f"<{size // 4}f", data, start)
+
+    def test_a_report_has_what_standards_and_guides_ask(self):
+        self.succeeds("measure", "sweep", "-o", "sweep.wav", "--duration", "4", "--levels", "-10")
+        self.succeeds("measure", "simulate", "sweep.wav", "-o", "rec.wav")
+        self.succeeds("measure", "simulate", "sweep.wav", "-o", "heavy.wav", "--mass", "100")
+        measured = ["--sweep", "sweep.json", "--full-scale", "5g"]
+        report, warnings = self.warned("measure", "report", "rec.wav", *measured, "--volts", "2.5", "--worn", "heavy.wav",
+                                       "--mass", "100", "--name", "Band <b> & more", "-o", "report.html")[1:]
+        self.assertEqual((report["mass"], report["volts"], report["wornRecordings"]), (100, 2.5, ["heavy.wav"]))
+        self.assertAlmostEqual(report["strongest"]["perVolt"], report["strongest"]["acceleration"] / 2.5)
+        self.assertLess(report["bandwidth10"]["lowFrequency"], report["bandwidth3"]["lowFrequency"])
+        self.assertGreater(report["bandwidth10"]["highFrequency"], report["bandwidth3"]["highFrequency"])
+        self.assertGreater(report["worn"]["atStrongest"], 3.0)
+        self.assertGreater(report["edges"]["rise"], 0.01)
+        page = (self.folder / "report.html").read_text()
+        # One file: nothing is fetched, and names are text.
+        self.assertEqual(re.findall(r"(?i)(?:href|src) *=|@import|url\((?!#clip\d+\))", page), [])
+        self.assertEqual(set(re.findall(r"https?:[^\"' <]*", page)), {"http://www.w3.org/2000/svg"})
+        self.assertIn("Band &lt;b&gt; &amp; more", page)
+        for words in ("Rise, 10 to 90 %", "Acceleration at 1 V", "ISO 9241-940", "IEEE 1918.1.1", "VT-1", "Immersion",
+                      "not public", "100 g"):
+            self.assertIn(words, page)
+        # The voltage of a profile is that of full drive, and the figures are also a file.
+        same = self.warned("measure", "report", "rec.wav", *measured, "--profile", "l5-wristband", "-o", "r.json")[1]
+        self.assertEqual(json.loads((self.folder / "r.json").read_text())["resonance"], same["resonance"])
+        self.assertEqual(same["resonance"], report["resonance"])
+        self.assertNotIn("worn", same)
+
+    def test_a_report_is_written_over_nothing_that_was_read(self):
+        self.succeeds("measure", "sweep", "-o", "sweep.wav", "--duration", "2", "--levels", "-10")
+        self.succeeds("measure", "simulate", "sweep.wav", "-o", "rec.wav")
+        for pattern, *arguments in (
+            (r"extension .html or .json", "-o", "report.wav"),
+            (r"is the description of the sweep", "-o", "sweep.json"),
+            (r"--mass: needs --worn", "-o", "report.html", "--mass", "3"),
+        ):
+            with self.subTest(pattern):
+                self.assertRegex(self.fails(2, ["measure", "report", "rec.wav", "--sweep", "sweep.json", *arguments])
+                                 .stderr.decode(), pattern)
 
     def test_an_impulse_response_needs_a_wav_of_its_own(self):
         for name in ("impulse.flac", "impulse", "impulse.csv"):

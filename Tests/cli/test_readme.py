@@ -358,8 +358,8 @@ class Options(CommandTest):
     COMMANDS = {PAGES + "getting-started.md": ["encode"], PAGES + "settings.md": ["encode"],
                 PAGES + "scenes.md": ["render"], PAGES + "profiles.md": ["render"],
                 PAGES + "devices.md": ["play"],
-                PAGES + "measuring.md": ["measure sweep", "measure analyse", "measure fit", "measure verify",
-                                         "measure simulate"]}
+                PAGES + "measuring.md": ["measure sweep", "measure analyse", "measure report", "measure fit",
+                                         "measure verify", "measure simulate"]}
     OF_OTHER_TOOLS = {"--install", "--component", "--preset", "--workflow", "--make", "--at", "--rooms", "--install-links",
                       "--latency-msec"}
 

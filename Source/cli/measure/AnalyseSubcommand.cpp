@@ -209,16 +209,8 @@ Exit AnalyseSubcommand::run(Console& console)
                             {ErrorCode::invalidArgument, "--impulse",
                              fmt::format("holds {} recordings at most; write them in groups", mostImpulses)},
                             Exit::usage);
-    std::vector<std::pair<fs::path, const char*>> inputs{
-        {fs::path(options.sweep).replace_extension(".json"), "is the description of the sweep; name another output"},
-        {fs::path(options.sweep).replace_extension(".wav"), "is the sound of the sweep; name another output"},
-        {options.sweep, "is the sweep; name another output"}};
-    for (const std::string& recording : options.recordings)
-        inputs.emplace_back(recording, "is a recording to be analysed; name another output");
-    for (const std::string& result : {output, picture, impulse})
-        for (const auto& [input, what] : inputs)
-            if (!result.empty() && isSameFile(result, input))
-                return console.fail(result, {ErrorCode::invalidArgument, "", what}, Exit::usage);
+    if (const auto wrong = overwrittenInput(options, {output, picture, impulse}))
+        return console.fail(wrong->first, wrong->second, Exit::usage);
     Profile profile;
     profile.technology = Technology::vca;
     profile.name = output.empty() ? "" : std::filesystem::path(output).stem().string();

@@ -5,6 +5,7 @@
 #include "cli/measure/SweepNames.h"
 #include "io/AudioReader.h"
 #include "io/FileExtension.h"
+#include "io/Overwrite.h"
 
 #include <pacini/foundation/ParseNumber.h>
 #include <pacini/linearize/SimulatedRig.h>
@@ -187,6 +188,22 @@ void RecordingOptions::declare(CLI::App& command)
 double RecordingOptions::smoothingOctaves() const
 {
     return *fraction(smoothing);
+}
+
+std::optional<std::pair<std::string, Error>> overwrittenInput(const RecordingOptions& options,
+                                                              const std::vector<std::string>& results)
+{
+    std::vector<std::pair<fs::path, const char*>> inputs{
+        {fs::path(options.sweep).replace_extension(".json"), "is the description of the sweep; name another output"},
+        {fs::path(options.sweep).replace_extension(".wav"), "is the sound of the sweep; name another output"},
+        {options.sweep, "is the sweep; name another output"}};
+    for (const std::string& recording : options.recordings)
+        inputs.emplace_back(recording, "is a recording to be analysed; name another output");
+    for (const std::string& result : results)
+        for (const auto& [input, what] : inputs)
+            if (!result.empty() && isSameFile(result, input))
+                return std::pair(result, Error{ErrorCode::invalidArgument, "", what});
+    return std::nullopt;
 }
 
 std::optional<AnalysedRecordings> analyseRecordings(Console& console, const RecordingOptions& options)

@@ -14,6 +14,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace pacini::cli
@@ -32,6 +33,11 @@ struct RecordingOptions
     void declare(CLI::App& command);
     [[nodiscard]] double smoothingOctaves() const;
 };
+
+/// Names the first of `results` (empty ones aside) that is one of the recordings or the sweep: the result and why it
+/// must not be written; none if all may be.
+[[nodiscard]] std::optional<std::pair<std::string, Error>> overwrittenInput(const RecordingOptions& options,
+                                                                            const std::vector<std::string>& results);
 
 /// One analysed recording.
 struct AnalysedRecording

@@ -53,7 +53,7 @@ struct SimulateSubcommand : Command
 
     std::string input, output, profile = "l5-wristband";
     unsigned wearer = 0, wearers = 0;
-    double contact = 0.0, latency = 12.0, drift = 50.0, noise = 250.0, distortion = 0.0;
+    double mass = 0.0, contact = 0.0, latency = 12.0, drift = 50.0, noise = 250.0, distortion = 0.0;
     double range = 5.0; ///< g, of the ADXL325
     int axes = 3;
     int bits = 12;
@@ -78,6 +78,7 @@ CLI::App* SimulateSubcommand::declare(CLI::App& app)
               "Record wearers 1 to N into separate files: OUT-01.wav, OUT-02.wav and so on",
               wholeNumberFrom(1u, simulatedWearers), "N")
         ->excludes(one);
+    addOption(*command, "--mass", mass, "Mass that is attached to the device, g", numberFrom(0.0, 5000.0), "G");
     addOption(*command, "--contact", contact, "Level of a loose or a tight fit, dB", numberFrom(-60.0, 20.0), "DB");
     addPreset(*command, "--latency", latency, "Latency of player and recorder together, ms", numberFrom(0.0, 1000.0),
               "MS");
@@ -145,6 +146,7 @@ Exit SimulateSubcommand::record(Console& console) const
             return console.fail(input, existing.error());
         RigParams rig;
         rig.body = bodyOn(who, *actuator->body);
+        rig.body->deviceMass += 1e-3 * mass;
         rig.resonance = actuator->resonance;
         rig.contact = contact;
         rig.polynomial = {0.0, 1.0, 0.0, distortion};
