@@ -57,6 +57,7 @@ using BenchRun = std::function<Exit(const BenchOptions&, Console&)>;
 [[nodiscard]] std::unique_ptr<Command> verifySubcommand();
 [[nodiscard]] std::unique_ptr<Command> simulateSubcommand();
 [[nodiscard]] std::unique_ptr<Command> reportSubcommand();
+[[nodiscard]] std::unique_ptr<Command> compensateSubcommand();
 
 /// The steps of `pacini study`.
 [[nodiscard]] std::unique_ptr<Command> newStudySubcommand();

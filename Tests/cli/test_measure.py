@@ -1,9 +1,11 @@
 """End to end: pacini measure, from a sweep over simulated wearers to an actuator that is proven flat."""
 import json
 import math
+import random
 import re
 import struct
 import unittest
+import wave
 
 from command import SOURCE, SANITIZED, CommandTest, sine, wav
 
@@ -240,6 +242,37 @@ class EndToEnd(MeasureTest):
             with self.subTest(pattern):
                 self.assertRegex(self.fails(2, ["measure", "report", "rec.wav", "--sweep", "sweep.json", *arguments])
                                  .stderr.decode(), pattern)
+
+    def test_compensation_gives_back_what_a_tightened_strap_takes(self):
+        noise = random.Random(3)
+        self.put("drive.wav", wav([0.2 * noise.gauss(0, 1) for _ in range(8000)], 8000))
+        options = ["measure", "compensate", "drive.wav", "--duration", "50", "--range", "50"]
+        report = self.report(*options, "-o", "strap.wav")
+        self.assertGreater(report["change"], 3.0)
+        self.assertLess(report["compensated"], 0.5 * report["change"])
+        self.assertEqual(len(report["bands"]), 12)
+        with wave.open(str(self.folder / "strap.wav")) as sound:
+            self.assertEqual((sound.getnchannels(), sound.getnframes(), sound.getframerate()), (3, 400000, 8000))
+        # A strap that stays as it is leaves nothing to do.
+        same = self.report(*options, "--tightness", "1")
+        self.assertLess(same["change"], 1e-9)
+        self.assertLess(same["compensated"], 0.5)
+        # Any delay that is told, and any latency.
+        for latency, told in (("0", "1000"), ("1000", "0"), ("1000", "1000")):
+            wrong = self.report(*options, "--time", "2", "--latency", latency, "--delay", told)
+            self.assertLess(wrong["compensated"], 0.6 * wrong["change"], (latency, told))
+        self.assertEqual(self.report(*options, "--limit", "0")["compensated"], report["change"])
+
+    def test_what_cannot_be_compensated_is_said(self):
+        self.put("drive.wav", wav([0.1] * 800, 8000))
+        self.put("two.wav", wav([0.1] * 800, 8000, channels=2))
+        self.refused(r"two.wav: must have one channel", "measure", "compensate", "two.wav")
+        self.refused(r"is a motor", "measure", "compensate", "drive.wav", "--profile", "erm-coin")
+        for pattern, *arguments in ((r"is the drive", "-o", "drive.wav"), (r"--bands", "--bands", "25"),
+                                    (r"--time", "--time", "1.9"), (r"--delay", "--delay", "1001")):
+            with self.subTest(pattern):
+                self.assertRegex(self.fails(2, ["measure", "compensate", "drive.wav", *arguments]).stderr.decode(),
+                                 pattern)
 
     def test_an_impulse_response_needs_a_wav_of_its_own(self):
         for name in ("impulse.flac", "impulse", "impulse.csv"):

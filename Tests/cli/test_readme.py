@@ -359,7 +359,7 @@ class Options(CommandTest):
                 PAGES + "scenes.md": ["render"], PAGES + "profiles.md": ["render"],
                 PAGES + "devices.md": ["play"],
                 PAGES + "measuring.md": ["measure sweep", "measure analyse", "measure report", "measure fit",
-                                         "measure verify", "measure simulate"]}
+                                         "measure verify", "measure simulate", "measure compensate"]}
     OF_OTHER_TOOLS = {"--install", "--component", "--preset", "--workflow", "--make", "--at", "--rooms", "--install-links",
                       "--latency-msec"}
 

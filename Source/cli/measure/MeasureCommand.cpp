@@ -20,8 +20,8 @@ CLI::App* MeasureCommand::declare(CLI::App& app)
 {
     auto* command = app.add_subcommand("measure", "Measure and flatten an actuator");
     command->require_subcommand(1);
-    for (const auto make :
-         {sweepSubcommand, analyseSubcommand, reportSubcommand, fitSubcommand, verifySubcommand, simulateSubcommand})
+    for (const auto make : {sweepSubcommand, analyseSubcommand, reportSubcommand, fitSubcommand, verifySubcommand,
+                            simulateSubcommand, compensateSubcommand})
         addStep(*command, make());
     return command->footer(
         "From a bare actuator to a profile, with an accelerometer on it:\n"
