@@ -28,10 +28,17 @@ target_compile_definitions(Boost::headers INTERFACE _WIN32_WINNT=0x0A00)
 target_link_libraries(Boost::headers INTERFACE ws2_32 mswsock)
 find_package(Threads REQUIRED)
 
-# Sounds: a library of its own, whose licence asks that users can replace it.
-set(PACINI_SNDFILE_DLL "${PACINI_WINDOWS_SOURCES}/_soundfile_data/libsndfile_x64.dll")
+# Sounds: a library of its own, whose licence asks that users can replace it. Programs look for it by the name that it was
+# linked with.
+set(PACINI_SNDFILE_DLL "${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/sndfile.dll")
+file(MAKE_DIRECTORY "${CMAKE_RUNTIME_OUTPUT_DIRECTORY}")
+file(COPY_FILE "${PACINI_WINDOWS_SOURCES}/_soundfile_data/libsndfile_x64.dll" "${PACINI_SNDFILE_DLL}" ONLY_IF_DIFFERENT)
 target_link_libraries(PkgConfig::sndfile INTERFACE "${PACINI_SNDFILE_DLL}")
-file(COPY "${PACINI_SNDFILE_DLL}" DESTINATION "${CMAKE_RUNTIME_OUTPUT_DIRECTORY}")
+set(runtime "${PROJECT_SOURCE_DIR}/Source/cli/windows/vcruntime140")
+add_library(vcruntime140 SHARED "${runtime}.c" "${runtime}.def")
+set_target_properties(vcruntime140 PROPERTIES PREFIX "" OUTPUT_NAME VCRUNTIME140)
+target_compile_options(vcruntime140 PRIVATE -fno-builtin)
+target_link_options(vcruntime140 PRIVATE -nostdlib -Wl,--entry=DllMainCRTStartup)
 
 # Compiled here, each with the folder of its first source as that of its headers.
 function(pacini_windows_library target) # sources
@@ -62,6 +69,7 @@ endforeach()
 foreach(part BUILD_TOOLS BUILD_REGRESS BUILD_EXAMPLES BUILD_DOC BUILD_SHARED_LIBS LIBZIP_DO_INSTALL)
     set(${part} OFF CACHE BOOL "")
 endforeach()
+set(CMAKE_POLICY_DEFAULT_CMP0063 NEW) # it is of an older CMake
 add_subdirectory("${PACINI_WINDOWS_SOURCES}/libzip" "${CMAKE_BINARY_DIR}/libzip" EXCLUDE_FROM_ALL SYSTEM)
 target_compile_options(zip PRIVATE -w)
 target_link_libraries(PkgConfig::libzip INTERFACE zip)

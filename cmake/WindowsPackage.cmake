@@ -8,7 +8,7 @@ install(DIRECTORY "${PROJECT_SOURCE_DIR}/profiles" "${PROJECT_SOURCE_DIR}/Resour
 if(NOT PACINI_SNDFILE_DLL)
     return() # another compiler's package manager has its own ways
 endif()
-install(FILES "${PACINI_SNDFILE_DLL}" DESTINATION bin)
+install(FILES "${PACINI_SNDFILE_DLL}" $<TARGET_FILE:vcruntime140> DESTINATION bin)
 install(FILES "${PACINI_WINDOWS_SOURCES}/_soundfile_data/COPYING" DESTINATION licenses RENAME libsndfile-COPYING)
 foreach(file expat/expat/COPYING hidapi/LICENSE-bsd.txt libzip/LICENSE)
     string(REGEX REPLACE "/.*/|/" "-" name ${file})
@@ -19,4 +19,4 @@ add_custom_target(pacini_windows_package
     COMMAND "${CMAKE_COMMAND}" "-DBUILD=${PROJECT_BINARY_DIR}" "-DSCRIPT=${PROJECT_SOURCE_DIR}/Resources/package/pacini.nsi"
         "-DMAKENSIS=${PACINI_MAKENSIS}" -DVERSION=${PROJECT_VERSION} -P "${CMAKE_CURRENT_LIST_DIR}/WriteWindowsPackage.cmake"
     VERBATIM)
-add_dependencies(pacini_windows_package pacini pacini-bench pacini_library pacini_library_static)
+add_dependencies(pacini_windows_package pacini pacini-bench vcruntime140 pacini_library pacini_library_static)

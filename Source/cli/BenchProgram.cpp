@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdint>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 
@@ -33,7 +34,7 @@ Exit runBenchProgram(const std::vector<std::string>& words, Console& console)
         line.push_back(word.c_str());
     line.push_back(nullptr);
     if (const std::intptr_t exit = _wspawnv(_P_WAIT, (program.native() + L".exe").c_str(), line.data()); exit >= 0)
-        return static_cast<Exit>(exit);
+        std::exit(static_cast<int>(exit)); // it has reported
 #else
     std::vector<char*> line;
     for (std::string& word : arguments)

@@ -231,6 +231,7 @@ Result<std::size_t> writeClip(const fs::path& path, Clip clip, const ClipFormat&
     return bytes;
 }
 
+#ifndef PACINI_READERS_ONLY
 Result<std::vector<fs::path>> writeExport(const fs::path& main, const ExportedClip& exported, Existing existing)
 {
     const auto placeOf = [&main](const ExportedFile& file)
@@ -265,6 +266,7 @@ Result<std::vector<fs::path>> writeExport(const fs::path& main, const ExportedCl
     }
     return files;
 }
+#endif
 
 fs::path exportPath(const fs::path& main, std::string_view suffix)
 {
