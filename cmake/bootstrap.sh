@@ -376,7 +376,7 @@ sanitized-tests)
     case "${2:-}" in
     core)
         build asan "pacini_tests pacini_library_tests pacini_random_calls pacini_sweep_limits" \
-            "-DPACINI_TEST_ROOMS=$(rooms_of_tests '^(actuator|analysis|clip|evaluate|filters|foundation|linearize|realtime|runtime|simplify|synthesis|hearing)')"
+            "-DPACINI_TEST_ROOMS=$(rooms_of_tests '^(actuator|analysis|clip|evaluate|filters|foundation|linearize|realtime|runtime|simplify|synthesis|hearing|texture)')"
         run_tests asan --label-exclude slow --tests-regex '^(tests-|library|limits)'
         ;;
     files)

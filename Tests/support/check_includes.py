@@ -20,6 +20,7 @@ CORE = {
     "linearize": {"foundation", "filters", "actuator"},
     "synthesis": {"foundation", "filters", "clip", "actuator", "linearize"},
     "hearing": {"foundation"},
+    "texture": {"foundation", "filters", "clip"},
     "evaluate": {"foundation", "filters", "hearing"},
 }
 CORE["runtime"] = {"foundation", "clip", "actuator", "synthesis"}
