@@ -15,10 +15,8 @@ namespace pacini
 
 inline constexpr std::size_t largestResponseText = 64u << 20; ///< bytes
 
-/// A response from lines of `frequency, level`, Hz and dB. Columns are parted by commas, semicolons (then a comma may
-/// stand for the decimal point), tabs or spaces; what follows the second does not count. Lines that start with #, *, ;
-/// or // are comments, and one heading may come first. Errors name the line, such as `line 7: frequency`; otherwise as
-/// in utf8Text() and validate(FrequencyResponse).
+/// A response from lines of `frequency, level`, Hz and dB, as in readNumberTable(). Errors also as in
+/// validate(FrequencyResponse), at the line.
 [[nodiscard]] Result<FrequencyResponse> readResponseTable(std::string_view bytes);
 
 /// The same from a file. Errors of reading: io.
