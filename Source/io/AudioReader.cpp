@@ -1,9 +1,11 @@
 #include "io/AudioReader.h"
 
+#include "io/AudioHeader.h"
 #include "io/ByteWindow.h"
 #include "io/FilmSound.h"
 #include "io/InputFile.h"
 #include "io/RateRaiser.h"
+#include "io/SoundCodec.h"
 #include "io/SoundHandle.h"
 #include "io/SoundMarkers.h"
 #include "io/SoundPartView.h"
@@ -166,13 +168,25 @@ struct AudioReader::State
     std::optional<RateRaiser> raiser;
     std::optional<FilmSound> film; // instead of parts, view and sound
 
-    /// Opens a sound that ffmpeg decodes.
+    /// Opens a sound that ffmpeg decodes. `parts` are those of a file of chunks, or empty.
     Result<void> openFilm(const fs::path& path)
     {
-        auto opened = FilmSound::open(path, file.get(), options.allowTruncated);
+        const SoundPart* const chunked = parts.empty() ? nullptr : &parts.front();
+        const bool isCut = chunked && chunked->promisedBytes && !chunked->isWhole;
+        if (isCut && !options.allowTruncated)
+            return truncated(chunked->presentBytes, *chunked->promisedBytes, "bytes of audio");
+        auto opened = FilmSound::open(path, file.get(), {options.allowTruncated, chunked && chunked->promisedBytes});
         if (!opened)
             return opened.error();
         film.emplace(std::move(*opened));
+        if (isCut)
+            warn("is cut off: {} of {} bytes of its sound are there", chunked->presentBytes, *chunked->promisedBytes);
+        else if (chunked && chunked->promisedBytes)
+            warn("has a header that states {} bytes of sound, but {} are there; save it anew", *chunked->promisedBytes,
+                 chunked->presentBytes);
+        if (parts.size() > 1)
+            warn("has another sound behind its first, which is left out ({} bytes); save it as a file of its own",
+                 parts.back().end - parts[1].begin);
         info.samplerate = film->sampleRate();
         info.channels = film->channels();
         special = film->specialChannels();
@@ -224,6 +238,14 @@ struct AudioReader::State
 
     /// Fills `interleaved` at the rate of the file.
     Result<std::size_t> read(std::span<float> interleaved);
+
+    /// Whether the first part has a codec that libsndfile does not know.
+    [[nodiscard]] bool isForeign()
+    {
+        ByteWindow window(file.get());
+        return startsSound(window, part().begin) &&
+               soundCodecOf(window, part().begin, part().end) == SoundCodec::foreign;
+    }
 
     [[nodiscard]] const SoundPart& part() const { return parts[current]; }
     [[nodiscard]] double seconds(std::uint64_t frames) const { return static_cast<double>(frames) / info.samplerate; }
@@ -522,8 +544,18 @@ Result<AudioReader> AudioReader::open(const fs::path& path, AudioReadOptions opt
         if (state->parts.empty())
             return invalid("is empty; choose a file with audio");
         film = isFilm(state->file.get(), state->parts.front().begin); // behind a tag
+        if (film)
+            state->parts.clear();
     }
-    if (const auto opened = film ? state->openFilm(path) : state->openPart(); !opened)
+    auto opened = film ? state->openFilm(path) : state->openPart();
+    if (!opened && !film && !state->sound && state->isForeign())
+    {
+        film = true;
+        opened = state->openFilm(path);
+        if (opened)
+            state->findMarkers();
+    }
+    if (!opened)
         return opened.error();
     if (!film)
     {

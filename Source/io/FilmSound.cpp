@@ -2,6 +2,8 @@
 
 #include "io/ByteWindow.h"
 #include "io/FileHandle.h"
+#include "io/Mp4Tables.h"
+#include "io/SoundCodec.h"
 #include "io/Utf8.h"
 
 #include <pacini/foundation/ParseNumber.h>
@@ -14,6 +16,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 #include <string_view>
 #include <utility>
 
@@ -169,6 +172,30 @@ std::uint64_t missingBytesOfAvi(std::FILE* opened)
     return end > file.size() ? end - file.size() : 0;
 }
 
+/// Bytes that the header of an ASF file states and the file lacks. The object of file properties has an id of 16 bytes,
+/// its size and another id, then the size of the file (Microsoft, "Advanced Systems Format Specification", 2004).
+std::uint64_t missingBytesOfAsf(std::FILE* opened)
+{
+    constexpr auto properties = "\xA1\xDC\xAB\x8C\x47\xA9\xCF\x11\x8E\xE4\x00\xC0\x0C\x20\x53\x65"sv;
+    constexpr std::uint64_t reach = 65536;
+    ByteWindow file(opened);
+    const auto place = file.find(properties, 0, std::min(file.size(), reach));
+    const auto stated = file.has(place, properties) ? file.number(place + 40, 8, false) : 0;
+    const bool isStream = file.has(place, properties) && (file.number(place + 88, 4, false) & 1u) != 0;
+    return !isStream && stated > file.size() ? stated - file.size() : 0;
+}
+
+/// Bytes that the last tag of an FLV states and the file lacks: each has a head of 11 bytes with its size at the
+/// second, and its whole size behind it (Adobe, "Flash Video File Format Specification 10.1", 2010).
+std::uint64_t missingBytesOfFlv(std::FILE* opened)
+{
+    ByteWindow file(opened);
+    auto offset = file.number(5, 4, true) + 4;
+    while (offset + 11 <= file.size())
+        offset += 15 + file.number(offset + 1, 3, true);
+    return offset > file.size() ? offset - file.size() : 0;
+}
+
 /// What a person calls a track: `2 (eng, 5.1)`.
 std::string trackText(std::size_t number, const Json& stream)
 {
@@ -191,13 +218,17 @@ bool isFilm(std::FILE* opened, std::uint64_t begin)
     for (const std::string_view box : {"ftyp"sv, "moov"sv, "mdat"sv, "wide"sv, "free"sv, "skip"sv, "pnot"sv})
         if (at(4, box))
             return true;
+    for (const std::string_view id : {"FLV\1"sv, "\x30\x26\xB2\x75\x8E\x66\xCF\x11"sv, "wvpk"sv, "MAC "sv, "TTA1"sv,
+                                      "#!AMR"sv, "\x7F\xFE\x80\x01"sv, "\xFE\x7F\x01\x80"sv})
+        if (at(0, id))
+            return true;
     constexpr std::uint64_t packet = 188; // bytes of an MPEG transport stream
     return at(0, "\x1A\x45\xDF\xA3"sv) || (at(0, "RIFF") && at(8, "AVI ")) || at(0, "\xFF\xF1"sv) ||
            at(0, "\xFF\xF9"sv) || at(0, "\x0B\x77"sv) || at(0, "\0\0\1\xBA"sv) ||
            (at(0, "G") && at(packet, "G") && at(2 * packet, "G"));
 }
 
-Result<FilmSound> FilmSound::open(const fs::path& path, std::FILE* file, bool allowTruncated)
+Result<FilmSound> FilmSound::open(const fs::path& path, std::FILE* file, const Options& options)
 {
     // What came through a pipe has no name. Its copy has none either, but the child is given it.
     std::error_code unknown;
@@ -233,10 +264,9 @@ Result<FilmSound> FilmSound::open(const fs::path& path, std::FILE* file, bool al
     }
 
     FilmSound sound;
-    sound.takesTruncated = allowTruncated;
+    sound.takesTruncated = options.allowTruncated;
     std::vector<const Json*> tracks;
     std::optional<double> picture;
-    bool hasPicture = false;
     for (const Json* stream : listOf(found, "streams"))
     {
         const std::string kind = textOf(*stream, "codec_type");
@@ -244,13 +274,13 @@ Result<FilmSound> FilmSound::open(const fs::path& path, std::FILE* file, bool al
             tracks.push_back(stream);
         if (kind != "video" || numberOf(partOf(*stream, "disposition"), "attached_pic").value_or(0.0) != 0.0)
             continue;
-        hasPicture = true;
+        sound.hasPicture = true;
         if (!picture)
             picture = numberOf(*stream, "start_time");
     }
     if (tracks.empty())
-        return invalid(hasPicture ? "is a film without sound; choose one with sound"
-                                  : "has no sound that ffmpeg knows; convert it to WAV elsewhere");
+        return invalid(sound.hasPicture ? "is a film without sound; choose one with sound"
+                                        : "has no sound that ffmpeg knows; convert it to WAV elsewhere");
     const auto chosen = std::find_if(tracks.begin(), tracks.end(),
                                      [](const Json* one)
                                      { return numberOf(partOf(*one, "disposition"), "default").value_or(0.0) != 0.0; });
@@ -295,6 +325,11 @@ Result<FilmSound> FilmSound::open(const fs::path& path, std::FILE* file, bool al
         sound.duration = Duration::atLeast;
         end = secondsOfTag(textOf(partOf(track, "tags"), "DURATION"));
     }
+    else if (kind == "wv" || kind == "tta" || kind == "ape" || kind == "caf")
+    {
+        sound.duration = Duration::atLeast;
+        end = numberOf(track, "duration");
+    }
     if (!end)
     {
         sound.duration = Duration::estimated;
@@ -305,13 +340,10 @@ Result<FilmSound> FilmSound::open(const fs::path& path, std::FILE* file, bool al
     if (end && *end - zero < latest)
         sound.stated = static_cast<std::uint64_t>(std::llround(std::max(*end - zero, 0.0) * sound.rate));
 
-    if (const auto missing = kind == "avi" ? missingBytesOfAvi(file) : 0; missing > 0)
-    {
-        auto message = fmt::format("is cut off: {} bytes are missing of what its header states", missing);
-        if (!allowTruncated)
-            return Error{ErrorCode::truncated, "", message + "; get a complete copy"};
-        sound.warnings.push_back(std::move(message));
-    }
+    if (const auto whole = sound.checkCut(file, kind); !whole)
+        return whole.error();
+    const double index = numberOf(track, "index").value_or(0.0);
+    sound.checkTables(file, index);
 
     std::size_t number = 0;
     for (const Json* chapter : listOf(found, "chapters"))
@@ -329,11 +361,12 @@ Result<FilmSound> FilmSound::open(const fs::path& path, std::FILE* file, bool al
 
     words = safely("level+verbose"); // which tells of samples that were added or left out
     words.insert(words.begin(), {"-nostdin", "-nostats", "-hide_banner", "-copyts"});
-    words.insert(words.end(),
-                 {"-i", name, "-map", fmt::format("0:{}", static_cast<int>(numberOf(track, "index").value_or(0.0))),
-                  "-af", fmt::format("aresample=async=1:first_pts={}", std::llround(zero * sound.rate)), "-ar",
-                  fmt::format("{}", sound.rate), "-ac", fmt::format("{}", sound.width), "-f",
-                  std::endian::native == std::endian::little ? "f32le" : "f32be", "-"});
+    if (options.toTheEnd && kind == "wav")
+        words.insert(words.end(), {"-ignore_length", "1"});
+    words.insert(words.end(), {"-i", name, "-map", fmt::format("0:{}", static_cast<int>(index)), "-af",
+                               fmt::format("aresample=async=1:first_pts={}", std::llround(zero * sound.rate)), "-ar",
+                               fmt::format("{}", sound.rate), "-ac", fmt::format("{}", sound.width), "-f",
+                               std::endian::native == std::endian::little ? "f32le" : "f32be", "-"});
     if (input != nullptr && !seekStream(file, 0, SEEK_SET))
         return invalid("is a film, which cannot be read from a pipe here; save it to a file first");
     auto decoder = ChildProgram::start("ffmpeg", words, input);
@@ -390,15 +423,55 @@ Result<std::size_t> FilmSound::read(std::span<float> interleaved)
     return done / perFrame;
 }
 
+/// What the file as a whole states, of kinds that tell nothing of it to ffmpeg.
+Result<void> FilmSound::checkCut(std::FILE* file, const std::string& kind)
+{
+    const auto missing = kind == "avi"   ? missingBytesOfAvi(file)
+                         : kind == "asf" ? missingBytesOfAsf(file)
+                         : kind == "flv" ? missingBytesOfFlv(file)
+                                         : 0;
+    ByteWindow window(file);
+    const bool isCut = kind == "ogg" && isCutOgg(window, 0, window.size());
+    if (missing == 0 && !isCut)
+        return {};
+    auto message = isCut ? std::string("is cut off: the mark of its end is missing")
+                         : fmt::format("is cut off: {} bytes are missing of what its header states", missing);
+    if (!takesTruncated)
+        return Error{ErrorCode::truncated, "", message + "; get a complete copy"};
+    warnings.push_back(std::move(message));
+    return {};
+}
+
+/// What the tables of an MP4 state beside what ffmpeg believes of them.
+void FilmSound::checkTables(std::FILE* file, double index)
+{
+    auto tracks = mp4Tracks(file);
+    if (!(index >= 0.0 && index < static_cast<double>(tracks.size())))
+        return;
+    Mp4Track& track = tracks[static_cast<std::size_t>(index)];
+    std::move(track.doubts.begin(), track.doubts.end(), std::back_inserter(warnings));
+    // Codecs are primed, and their last block is filled up.
+    const double margin = shortest + static_cast<double>(longestBlock) / rate;
+    held = track.played - std::max(-late, 0.0) - margin;
+    if (track.played + margin < track.seconds)
+        warnings.push_back(fmt::format("has an edit list, by which {:.3f} s of the {:.3f} s of its sound are left out",
+                                       track.seconds - track.played, track.seconds));
+}
+
 Result<void> FilmSound::explainEnd()
 {
     const auto ending = ffmpeg->wait();
     ffmpeg.reset();
     const double here = static_cast<double>(delivered) / rate;
-    const double promised = static_cast<double>(stated.value_or(delivered)) / rate;
+    const double promised = std::max(static_cast<double>(stated.value_or(delivered)) / rate, here < held ? held : 0.0);
     const std::string why = complaintOf(ending.complaint, "file:");
     const std::string said = why.empty() ? "" : fmt::format(" (ffmpeg: {})", why);
-    if (const bool lacks = duration != Duration::estimated && here + shortest < promised; lacks || !ending.succeeded)
+    if (delivered == 0)
+        return invalid(fmt::format("has no sound that ffmpeg can decode{}; get a complete copy, or convert it to WAV "
+                                   "elsewhere",
+                                   said));
+    const bool lacks = here < held || (duration != Duration::estimated && here + shortest < promised);
+    if (lacks || !ending.succeeded)
     {
         if (!takesTruncated)
             return Error{ErrorCode::truncated, "",
@@ -412,6 +485,9 @@ Result<void> FilmSound::explainEnd()
     else if (!why.empty())
         warnings.push_back(
             fmt::format("is damaged, or ffmpeg does not know all of it; {:.3f} s were decoded{}", here, said));
+    else if (duration == Duration::estimated && !hasPicture && here < 0.5 * promised)
+        warnings.push_back(
+            fmt::format("lasts about {:.3f} s by its header, of which {:.3f} s can be decoded", promised, here));
     // Beyond what makes time 0 that of the picture.
     const double added = sumOf(ending.complaint, "adding ", " audio samples of silence") / rate - std::max(late, 0.0);
     const double cut = sumOf(ending.complaint, "discarding ", " audio samples") / rate - std::max(-late, 0.0);

@@ -22,8 +22,8 @@ namespace pacini
 {
 
 /// Whether the file from byte `begin` on is of a kind that ffmpeg reads and libsndfile does not, by its first bytes:
-/// MP4, MOV, M4A and 3GP (ISO/IEC 14496-12), Matroska and WebM (RFC 9559), AVI, MPEG program and transport streams, or
-/// AAC and AC-3 in frames. Moves the stream's position.
+/// MP4, MOV, M4A and 3GP (ISO/IEC 14496-12), Matroska and WebM (RFC 9559), AVI, ASF (WMA, WMV), FLV, MPEG program and
+/// transport streams, WavPack, Monkey's Audio, TTA, AMR, or AAC, AC-3 and DTS in frames. Moves the stream's position.
 [[nodiscard]] bool isFilm(std::FILE* file, std::uint64_t begin);
 
 /// An open sound of a film. Its time 0 is the time of the first picture, with the starts and edit lists of both tracks:
@@ -33,10 +33,17 @@ namespace pacini
 class FilmSound
 {
 public:
+    /// How a file is to be opened.
+    struct Options
+    {
+        bool allowTruncated = false;
+        bool toTheEnd = false; ///< whatever size a WAV states for its sound
+    };
+
     /// `file` is what was opened at `path`; the programs open the path themselves unless it is a pipe. Errors:
-    /// invalidData (no ffmpeg installed, no sound, damaged header); io.
+    /// invalidData (no ffmpeg installed, no sound, damaged header), truncated; io.
     [[nodiscard]] static Result<FilmSound> open(const std::filesystem::path& path, std::FILE* file,
-                                                bool allowTruncated);
+                                                const Options& options);
 
     [[nodiscard]] int sampleRate() const noexcept { return rate; } ///< Hz
     [[nodiscard]] int channels() const noexcept { return width; }
@@ -67,12 +74,16 @@ private:
     FilmSound() = default;
     [[nodiscard]] std::size_t readFrames(std::span<float> interleaved);
     [[nodiscard]] Result<void> explainEnd();
+    [[nodiscard]] Result<void> checkCut(std::FILE* file, const std::string& kind);
+    void checkTables(std::FILE* file, double index);
 
     int rate = 0;
     int width = 0;
     SpecialChannels special;
     std::optional<std::uint64_t> stated;
     Duration duration = Duration::estimated;
+    double held = 0.0; ///< s that the tables of an MP4 promise at least
+    bool hasPicture = false;
     bool takesTruncated = false;
     double late = 0.0; ///< s by which the sound begins after the picture
     FoundMarkers markers;

@@ -100,7 +100,7 @@ std::string oggComments(ByteWindow& file, std::uint64_t offset, std::uint64_t en
 /// The comments behind what a codec writes before them.
 std::string_view withoutCodecName(std::string_view packet)
 {
-    for (const auto name : {"\3vorbis"sv, "OpusTags"sv})
+    for (const auto name : {"\3vorbis"sv, "OpusTags"sv, "\x81theora"sv})
         if (packet.starts_with(name))
             return packet.substr(name.size());
     // FLAC in Ogg has its block of metadata there.
@@ -146,20 +146,24 @@ FoundMarkers soundMarkers(std::FILE* opened, const SoundPart& part, std::uint64_
     if (file.has(part.begin, "fLaC"))
         appendFound(tags, commentChapters(flacComments(file, part.begin + 4, part.end)));
     if (file.has(part.begin, "OggS"))
-        if (const std::string packet = oggComments(file, part.begin, part.end); !packet.empty())
-            appendFound(tags, commentChapters(withoutCodecName(packet)));
-    const auto audio = findAudioChunk(file, part.begin, until);
+    {
+        const std::string packet = oggComments(file, part.begin, part.end);
+        if (const auto comments = withoutCodecName(packet); !comments.empty())
+            appendFound(tags, commentChapters(comments));
+    }
+    const auto begin = part.outerBegin.value_or(part.begin);
+    const auto audio = findAudioChunk(file, begin, until);
     const auto audioBytes = part.presentBytes > 0 ? part.presentBytes : audio ? audio->promise.value_or(0) : 0;
     const auto audioEnd = audio && audioBytes > 0 ? audio->start + audioBytes : 0;
-    const auto chunks = chunksOf(file, part.begin, until, audioEnd);
+    const auto chunks = chunksOf(file, begin, until, audioEnd);
     for (const FileChunk& chunk : chunks)
     {
         if (file.has(chunk.offset, "id3 ") || file.has(chunk.offset, "ID3 "))
             appendFound(tags, id3Chapters(bytesOf(file, chunk.content, chunk.bytes)));
         else if (file.has(chunk.offset, "smpl"))
-            addLoops(tags, file, chunk, file.has(part.begin, "RIFX"), sampleRate);
+            addLoops(tags, file, chunk, file.has(begin, "RIFX"), sampleRate);
     }
-    FoundMarkers found = cuesOf(file, part.begin, chunks, sampleRate);
+    FoundMarkers found = cuesOf(file, begin, chunks, sampleRate);
     addMarkers(found, std::move(tags), 0.0);
     return found;
 }

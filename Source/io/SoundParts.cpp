@@ -3,6 +3,7 @@
 #include "io/AudioHeader.h"
 #include "io/ByteWindow.h"
 #include "io/MpegFrames.h"
+#include "io/SoundCodec.h"
 #include "io/SoundTags.h"
 
 #include <algorithm>
@@ -121,7 +122,7 @@ private:
         }
         if (file.has(begin, "OggS"))
             return addOgg(begin), std::nullopt;
-        if (hasMpegSync(file, begin) && addMpeg(begin))
+        if (hasMpegSync(file, begin) && addMpeg(begin, endBeforeTags(file, begin, end)))
             return {};
         return addChunked(begin);
     }
@@ -140,6 +141,11 @@ private:
             return {};
         }
         const auto next = addAudio(part, *found);
+        if (soundCodecOf(file, begin, end) == SoundCodec::mpeg)
+        {
+            addMpegInside(*found, begin);
+            return next;
+        }
         // AIFF says how many bytes of its audio chunk lie before the first frame, to place it on a disc: hardly ever.
         if (!found->layout || found->layout->fileId != "FORM")
             return next;
@@ -150,6 +156,33 @@ private:
         else
             part.skippedBytes = offset;
         return next;
+    }
+
+    /// Puts the MPEG audio inside a file of chunks, which begins at `begin`, in the place of that file.
+    void addMpegInside(const AudioChunk& chunk, std::uint64_t begin)
+    {
+        const SoundPart whole = std::move(parts.back());
+        const auto count = parts.size();
+        parts.pop_back();
+        if (!addMpeg(chunk.start, chunk.start + whole.presentBytes))
+        {
+            parts.push_back(whole);
+            return;
+        }
+        // W64 and some writers of WAV fill their chunks up.
+        constexpr std::uint64_t mostPadding = 8;
+        const auto audioEnd = chunk.start + whole.presentBytes;
+        if (const SoundPart& last = parts.back(); parts.size() > count && last.end <= last.begin &&
+                                                  last.skippedBytes <= mostPadding &&
+                                                  areZeros(file, audioEnd - last.skippedBytes, audioEnd))
+            parts.pop_back();
+        for (auto i = count - 1; i < parts.size(); ++i)
+            parts[i].outerBegin = begin;
+        parts.back().leftOutBytes = whole.leftOutBytes;
+        SoundPart& first = parts[count - 1];
+        first.promisedBytes = whole.promisedBytes;
+        first.presentBytes = whole.presentBytes;
+        first.isWhole = whole.isWhole;
     }
 
     std::optional<std::uint64_t> addAudio(SoundPart& part, const AudioChunk& chunk)
@@ -331,9 +364,9 @@ private:
         parts.back().skippedBytes += skipped;
     }
 
-    bool addMpeg(std::uint64_t begin)
+    bool addMpeg(std::uint64_t begin, std::uint64_t audioEnd)
     {
-        const auto runs = mpegRuns(file, begin, endBeforeTags(file, begin, end));
+        const auto runs = mpegRuns(file, begin, audioEnd);
         if (runs.empty() || runs.front().frames == 0)
             return false;
         for (const MpegRun& run : runs)

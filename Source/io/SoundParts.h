@@ -24,6 +24,7 @@ struct SoundPart
 {
     std::uint64_t begin = 0;
     std::uint64_t end = 0;
+    std::optional<std::uint64_t> outerBegin; ///< of the file of chunks around MPEG audio
     std::vector<BytePatch> patches;
 
     std::optional<std::uint64_t> promisedBytes; ///< of audio, where a header is wrong about them

@@ -320,3 +320,48 @@ TEST_CASE("Slow sounds are read at a multiple of their rate, which is said", "[i
     CHECK(asItIs->samples.size() == 3000);
     CHECK(asItIs->warnings.empty());
 }
+
+TEST_CASE("MPEG audio in a file of chunks is read as if it lay alone", "[io][audio]")
+{
+    const TempFolder folder;
+    const auto read = [&](const std::string& bytes, bool allowTruncated = false)
+    {
+        return readAudio(put(folder / "x", bytes), {.allowTruncated = allowTruncated});
+    };
+    const auto mp3 = bytesOf(testFolder() / "io/audio/tone.mp3");
+    const auto alone = read(mp3);
+    REQUIRE(alone.ok());
+    const std::string head = "WAVEfmt " + littleEndian(30, 4) + littleEndian(0x55, 2) + littleEndian(1, 2) +
+                             littleEndian(static_cast<std::uint64_t>(alone->sampleRate), 4) + littleEndian(8000, 4) +
+                             littleEndian(1, 2) + littleEndian(0, 2) + littleEndian(12, 2) + std::string(12, '\0') +
+                             "fact" + littleEndian(4, 4) + littleEndian(2 * alone->samples.size(), 4) + "data";
+    const auto wav = [&](std::uint64_t size, const std::string& behind)
+    {
+        return "RIFF" + littleEndian(head.size() + 4 + mp3.size() + behind.size(), 4) + head + littleEndian(size, 4) +
+               mp3 + behind;
+    };
+    const std::string cue = "cue " + littleEndian(28, 4) + littleEndian(1, 4) + littleEndian(1, 4) +
+                            littleEndian(1000, 4) + "data" + std::string(8, '\0') + littleEndian(1000, 4);
+    const std::string padding(mp3.size() % 2, '\0');
+    for (const auto& [size, warnings] : {std::pair(mp3.size(), 0u), std::pair(std::size_t{0}, 1u),
+                                         std::pair(mp3.size() / 2, 1u), std::pair(std::size_t{0xFFFFFFFF}, 0u)})
+    {
+        CAPTURE(size);
+        const auto audio = read(wav(size, padding + cue));
+        REQUIRE(audio.ok());
+        CHECK(audio->sampleRate == alone->sampleRate);
+        CHECK(audio->samples == alone->samples);
+        CHECK(audio->warnings.size() == warnings);
+    }
+    auto reader = AudioReader::open(put(folder / "x", wav(mp3.size(), padding + cue)));
+    REQUIRE(reader.ok());
+    REQUIRE(reader->markers().size() == 1);
+    CHECK(reader->markers().front().time == 1000.0 / alone->sampleRate);
+    const auto whole = wav(mp3.size(), "");
+    const auto cut = read(whole.substr(0, whole.size() - mp3.size() / 2));
+    REQUIRE_FALSE(cut.ok());
+    CHECK(cut.error().code == ErrorCode::truncated);
+    const auto rest = read(whole.substr(0, whole.size() - mp3.size() / 2), true);
+    REQUIRE(rest.ok());
+    CHECK_FALSE(rest->warnings.empty());
+}

@@ -1,0 +1,26 @@
+#pragma once
+
+// Tables of the sounds of an MP4 or MOV file, which players believe without a word where they contradict each other.
+
+#include <cstdio>
+#include <string>
+#include <vector>
+
+namespace pacini
+{
+
+/// What a header states of one track of sound.
+struct Mp4Track
+{
+    double seconds = 0.0;            ///< of its media, by the durations of their blocks
+    double played = 0.0;             ///< s of these that an edit list plays; `seconds` without one
+    int sampleRate = 0;              ///< Hz, by the description of its codec
+    std::vector<std::string> doubts; ///< contradictions, each a sentence about the file
+};
+
+/// The tracks of an MP4 or MOV file in their order, those that are no sound with 0 s. None for other files, and for
+/// those in fragments, whose lengths no header states. Moves the stream's position; trusts no number. Source: ISO/IEC
+/// 14496-12.
+[[nodiscard]] std::vector<Mp4Track> mp4Tracks(std::FILE* file);
+
+} // namespace pacini

@@ -1,0 +1,26 @@
+#pragma once
+
+// Codec of a sound inside a container, by the container's header.
+
+#include "io/ByteWindow.h"
+
+#include <cstdint>
+
+namespace pacini
+{
+
+/// Which decoder a sound needs.
+enum class SoundCodec
+{
+    plain,  ///< libsndfile, as far as can be told
+    mpeg,   ///< MPEG audio (MP3, MP2) in frames, whatever lies around it
+    foreign ///< one of ffmpeg
+};
+
+/// The codec of the WAV, W64, AIFF, CAF, AU or Ogg file that begins at `begin`.
+[[nodiscard]] SoundCodec soundCodecOf(ByteWindow& file, std::uint64_t begin, std::uint64_t end);
+
+/// Whether an Ogg file lacks the page that ends one of its streams.
+[[nodiscard]] bool isCutOgg(ByteWindow& file, std::uint64_t begin, std::uint64_t end);
+
+} // namespace pacini

@@ -1,0 +1,89 @@
+#include "io/Mp4Tables.h"
+
+#include "io/FileHandle.h"
+#include "io/Mp4Bytes.h"
+#include "support/Catch.h"
+#include "support/Paths.h"
+#include "support/TempFolder.h"
+
+#include <pacini/foundation/Random.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <string>
+
+using namespace pacini;
+using namespace pacini::test;
+
+namespace
+{
+std::vector<Mp4Track> tracksOf(const std::string& bytes, const TempFolder& folder)
+{
+    const auto path = put(folder / "film", bytes);
+    const FileHandle file(std::fopen(path.string().c_str(), "rb"));
+    REQUIRE(file != nullptr);
+    return mp4Tracks(file.get());
+}
+} // namespace
+
+TEST_CASE("The tables of an MP4 state its sound", "[io][audio]")
+{
+    const TempFolder folder;
+    for (const std::uint32_t rate : {8000u, 44100u, 48000u})
+    {
+        const auto tracks = tracksOf(mp4Bytes(60, rate), folder);
+        REQUIRE(tracks.size() == 1);
+        const double seconds = 60.0 * 1024.0 / rate;
+        CHECK(std::abs(tracks[0].seconds - seconds) < 1e-9);
+        CHECK(std::abs(tracks[0].played - seconds) < 0.001);
+        CHECK(tracks[0].sampleRate == static_cast<int>(rate));
+        CHECK(tracks[0].doubts.empty());
+    }
+    // Encoders state less for the last block, which they filled up.
+    for (const std::uint32_t blocks : {2u, 3u, 10u, 40u})
+        for (const std::uint32_t last : {1u, 256u, 1023u})
+        {
+            const auto tracks = tracksOf(mp4Bytes(blocks, 16000, 1, last), folder);
+            REQUIRE(tracks.size() == 1);
+            CHECK(tracks[0].doubts.empty());
+        }
+    CHECK(tracksOf("RIFF", folder).empty());
+}
+
+TEST_CASE("No damage of an MP4's header shortens its sound in silence", "[io][audio]")
+{
+    const TempFolder folder;
+    const std::string whole = mp4Bytes(60, 16000, 10, 300);
+    constexpr double seconds = (59.0 * 1024.0 + 300.0) / 16000.0;
+    const auto header = whole.find("mdat");
+    const char* wanted = std::getenv("PACINI_MUTATIONS");
+    const int rounds = wanted ? std::atoi(wanted) : 2000;
+    Random random(20261129);
+    int silent = 0, said = 0, without = 0;
+    for (int round = 0; round < rounds; ++round)
+    {
+        auto bytes = whole;
+        constexpr unsigned char usual[] = {0, 1, 127, 128, 255};
+        for (int i = 0; i <= round % 4; ++i)
+        {
+            const auto kind = random.next() % 6;
+            bytes[8 + random.next() % (header - 8)] = static_cast<char>(kind < 5 ? usual[kind] : random.next());
+        }
+        CAPTURE(round);
+        const auto tracks = tracksOf(bytes, folder);
+        // Without such a track, or with another codec, ffmpeg finds no sound either, or decodes all that there is.
+        if (tracks.empty() || tracks[0].seconds == 0.0 || bytes.substr(whole.find("mp4a"), 4) != "mp4a")
+        {
+            ++without;
+            continue;
+        }
+        const Mp4Track& track = tracks[0];
+        const bool isSaid = !track.doubts.empty() || track.played + 0.4 < track.seconds;
+        (isSaid ? said : silent) += 1;
+        if (!isSaid)
+            CHECK(track.seconds > 0.97 * seconds);
+    }
+    CHECK(said > rounds / 20);
+    CHECK(silent > rounds / 20);
+    CHECK(without < rounds / 2);
+}
