@@ -1,5 +1,6 @@
 #include "io/OnsetFile.h"
 
+#include "io/CueSheet.h"
 #include "io/InputFile.h"
 #include "io/JsonText.h"
 #include "io/TextMark.h"
@@ -216,6 +217,8 @@ Result<FoundMarkers> readLabelText(std::string_view text)
     const auto unmarked = utf8Text(text);
     if (!unmarked)
         return unmarked.error();
+    if (isCueSheet(*unmarked))
+        return readCueSheet(*unmarked);
     FoundMarkers found;
     std::size_t regions = 0;
     const auto read =

@@ -38,7 +38,8 @@ struct Onsets
 
 /// The lines of such a text (not JSON) as markers, in order, each called by its label: what follows the time and, where
 /// there is one, the end of the label. One without is called by its number. A warning tells how many have an end that
-/// is not their start, which markers have no place for. Errors: those of readOnsetText().
+/// is not their start, which markers have no place for. A cue sheet is one, too (see readCueSheet()). Errors: those of
+/// readOnsetText().
 [[nodiscard]] Result<FoundMarkers> readLabelText(std::string_view text);
 
 /// The same from a file of at most 64 MB. Errors also: io.

@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -31,6 +33,7 @@ struct CueList
     std::map<std::uint64_t, std::string> names; ///< by id
     std::uint64_t stated = 0;
     std::uint64_t regions = 0;
+    std::uint64_t unread = 0; ///< regions of which nothing is read
 };
 
 std::string cueTextAt(ByteWindow& file, std::uint64_t offset, std::uint64_t bytes)
@@ -93,16 +96,59 @@ void readMarkers(CueList& list, ByteWindow& file, const FileChunk& chunk)
     }
 }
 
+/// The markers of a CAF: a type, a frame in 64 bits of a float, an id, a time of SMPTE and a channel.
+void readCafMarkers(CueList& list, ByteWindow& file, const FileChunk& chunk)
+{
+    constexpr std::uint64_t headerBytes = 8, markerBytes = 28;
+    if (chunk.bytes < headerBytes)
+        return;
+    const auto stated = file.number(chunk.content + 4, 4, true);
+    list.stated += stated;
+    for (std::uint64_t i = 0; i < std::min(stated, (chunk.bytes - headerBytes) / markerBytes); ++i)
+    {
+        const auto marker = chunk.content + headerBytes + i * markerBytes;
+        const auto frame = std::bit_cast<double>(file.number(marker + 4, 8, true));
+        constexpr double largest = 1e15;
+        if (!(frame >= 0.0 && frame < largest))
+            continue; // which counts as one that cannot be read
+        const auto whole = static_cast<std::uint64_t>(std::llround(frame));
+        list.cues.push_back({file.number(marker + 12, 4, true), whole, whole});
+    }
+}
+
+/// The texts of a CAF: their number, an id and a place of each, and the texts.
+void readCafNames(CueList& list, ByteWindow& file, const FileChunk& chunk)
+{
+    constexpr std::uint64_t headerBytes = 4, entryBytes = 12;
+    if (chunk.bytes < headerBytes)
+        return;
+    const auto stated = file.number(chunk.content, 4, true);
+    const auto texts = chunk.content + headerBytes + stated * entryBytes;
+    const auto end = chunk.content + chunk.bytes;
+    for (std::uint64_t i = 0; i < std::min(stated, (chunk.bytes - headerBytes) / entryBytes); ++i)
+    {
+        const auto entry = chunk.content + headerBytes + i * entryBytes;
+        const auto place = file.number(entry + 4, 8, true);
+        if (texts < end && place < end - texts)
+            list.names[file.number(entry, 4, true)] = cueTextAt(file, texts + place, end - texts - place);
+    }
+}
 } // namespace
 
 FoundMarkers cuesOf(ByteWindow& file, std::uint64_t begin, const std::vector<FileChunk>& chunks, int sampleRate)
 {
     const bool bigEndian = file.has(begin, "RIFX");
-    const bool isAiff = file.has(begin, "FORM");
+    const bool isAiff = file.has(begin, "FORM"), isCaf = file.has(begin, "caff");
     CueList list;
     for (const FileChunk& chunk : chunks)
     {
-        if (!isAiff && file.has(chunk.offset, "cue "))
+        if (isCaf && file.has(chunk.offset, "mark"))
+            readCafMarkers(list, file, chunk);
+        else if (isCaf && file.has(chunk.offset, "strg"))
+            readCafNames(list, file, chunk);
+        else if (isCaf && file.has(chunk.offset, "regn") && chunk.bytes >= 8)
+            list.unread += file.number(chunk.content + 4, 4, true);
+        else if (!isAiff && file.has(chunk.offset, "cue "))
             readCues(list, file, chunk, bigEndian);
         else if (!isAiff && file.has(chunk.offset, "LIST"))
             readLabels(list, file, chunk, bigEndian);
@@ -122,6 +168,8 @@ FoundMarkers cuesOf(ByteWindow& file, std::uint64_t begin, const std::vector<Fil
     if (list.cues.size() < list.stated)
         found.warnings.push_back(
             fmt::format("states {} markers, of which {} can be read", list.stated, list.cues.size()));
+    if (list.unread > 0)
+        found.warnings.push_back(fmt::format("has {} regions, which are left out", list.unread));
     if (list.regions > 0)
         found.warnings.push_back(
             fmt::format("has {} regions, whose starts are read as markers, but not how long they last", list.regions));

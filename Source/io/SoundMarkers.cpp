@@ -143,6 +143,9 @@ FoundMarkers soundMarkers(std::FILE* opened, const SoundPart& part, std::uint64_
     ByteWindow file(opened);
     FoundMarkers tags;
     addTags(tags, file, from, part.begin);
+    FoundMarkers behind;
+    if (until == file.size())
+        addTags(behind, file, part.end, until);
     if (file.has(part.begin, "fLaC"))
         appendFound(tags, commentChapters(flacComments(file, part.begin + 4, part.end)));
     if (file.has(part.begin, "OggS"))
@@ -165,6 +168,7 @@ FoundMarkers soundMarkers(std::FILE* opened, const SoundPart& part, std::uint64_
     }
     FoundMarkers found = cuesOf(file, begin, chunks, sampleRate);
     addMarkers(found, std::move(tags), 0.0);
+    addMarkers(found, std::move(behind), 0.0);
     return found;
 }
 

@@ -51,6 +51,15 @@ class Markers(CommandTest):
         self.put("door.json", edited)
         self.fails(1, ["encode", "door.wav"], "was edited since it was encoded", lines=1)
 
+    def test_a_cue_sheet_beside_a_sound_is_markers(self):
+        self.put("long.wav", wav(sine(100, 1.0)))
+        self.put("long.cue", 'FILE "long.wav" WAVE\n  TRACK 01 AUDIO\n    TITLE "hit"\n    INDEX 01 00:00:15\n'
+                             '  TRACK 02 AUDIO\n    INDEX 01 00:00:45\n')
+        self.succeeds("encode", "long.wav", "--markers", "long.cue")
+        self.assertEqual(self.markers("long.json"), [(0.2, "hit"), (0.6, "02")])
+        self.put("wrong.cue", 'FILE "long.wav" WAVE\n  TRACK 01 AUDIO\n    INDEX 01 0.2\n')
+        self.fails(1, ["encode", "long.wav", "--markers", "wrong.cue"], "wrong.cue: line 3", "minutes:seconds:frames")
+
     def test_what_of_labels_is_lost_is_told(self):
         self.put("door.wav", wav(sine(100, 1.0)))
         self.put("labels.txt", "0.5\t0.7\tpart\n1.5\t1.5\tbehind\n")

@@ -103,3 +103,26 @@ TEST_CASE("Labels are markers by their names, in order; how long they last is to
     CHECK_FALSE(readLabelText("-1\t0\thit"));
     CHECK_FALSE(readLabels("missing.txt"));
 }
+
+TEST_CASE("Tracks of a cue sheet are markers by their titles", "[io]")
+{
+    const std::string sheet = "REM DATE 2026\r\nTITLE \"Album\"\r\nFILE \"long sound.wav\" WAVE\r\n"
+                              "  TRACK 01 AUDIO\r\n    TITLE \"Door, shut\"\r\n    INDEX 01 00:00:00\r\n"
+                              "  track 02 audio\n    index 00 00:02:00\n    index 01 00:02:37\n    INDEX 02 01:00:00\n";
+    const auto read = readLabelText(sheet);
+    REQUIRE(read);
+    REQUIRE(read->markers.size() == 3);
+    CHECK(read->markers[0] == Marker{0.0, "Door, shut"});
+    CHECK(read->markers[1] == Marker{2.0 + 37.0 / 75.0, "02"});
+    CHECK(read->markers[2] == Marker{60.0, "02 2"});
+    CHECK(read->warnings.empty());
+    const auto two = readLabelText(sheet + "FILE other.wav WAVE\n  TRACK 03 AUDIO\n    INDEX 01 00:00:00\n");
+    REQUIRE(two);
+    CHECK(two->markers == read->markers);
+    CHECK(two->warnings == std::vector<std::string>{"names 2 sounds; the markers of the first are read, 1 of others "
+                                                    "are left out"});
+    for (const char* time : {"2:37", "00:02:x", "", "00:02:37:00", "-1:00:00"})
+        CHECK(readLabelText("FILE a.wav WAVE\nTRACK 01 AUDIO\nINDEX 01 " + std::string(time)).error().where ==
+              "line 3");
+    CHECK(readLabelText("FILE").error().where == "line 1");
+}

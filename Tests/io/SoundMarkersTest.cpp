@@ -10,8 +10,10 @@
 #include "support/Paths.h"
 #include "support/TempFolder.h"
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -387,4 +389,67 @@ TEST_CASE("Markers that are written to a WAV come back exactly", "[io]")
     REQUIRE(writer->finish());
     CHECK(takenOf(bytesOf(folder / "large.wav")).markers == large.markers);
     CHECK(takenOf(bytesOf(folder / "large.wav")).warnings.empty());
+}
+
+TEST_CASE("Markers of a CAF are the clip's, by the names of its texts; regions are told to be left out", "[io]")
+{
+    const auto cafChunk = [](const std::string& name, const std::string& content)
+    {
+        return name + bigEndian(content.size(), 8) + content;
+    };
+    const auto frameOf = [](double frame)
+    {
+        std::uint64_t bits = 0;
+        std::memcpy(&bits, &frame, 8);
+        return bigEndian(bits, 8);
+    };
+    std::string samples;
+    for (int i = 0; i < 8000; ++i)
+        samples += bigEndian(i % 80 < 40 ? 8000 : 0xE0C0, 2);
+    const std::string head =
+        "caff" + bigEndian(1, 2) + bigEndian(0, 2) +
+        cafChunk("desc", bigEndian(0x40BF400000000000u, 8) + "lpcm" + bigEndian(0, 4) + bigEndian(2, 4) +
+                             bigEndian(1, 4) + bigEndian(1, 4) + bigEndian(16, 4));
+    const std::string data = cafChunk("data", bigEndian(0, 4) + samples);
+    const auto marker = [&](double frame, std::uint32_t id)
+    {
+        return bigEndian(0, 4) + frameOf(frame) + bigEndian(id, 4) + std::string(12, '\0');
+    };
+    const std::string texts = "hit\0L\xC3\xA4rm\0"s;
+    const std::string names = cafChunk("strg", bigEndian(2, 4) + bigEndian(7, 4) + bigEndian(0, 8) + bigEndian(9, 4) +
+                                                   bigEndian(4, 8) + texts);
+    const auto marks = [&](const std::string& content, std::uint32_t count)
+    {
+        return cafChunk("mark", bigEndian(0, 4) + bigEndian(count, 4) + content);
+    };
+    const auto two = marks(marker(1000.0, 9) + marker(500.0, 7), 2);
+    for (const auto& file : {head + data + two + names, head + names + two + data})
+    {
+        const auto taken = takenOf(file);
+        CHECK(taken.markers == twoChapters);
+        CHECK(taken.warnings.empty());
+    }
+    CHECK(takenOf(head + data + marks(marker(500.0, 3), 1)).markers == std::vector<Marker>{{0.0625, "1"}});
+    const auto nan = takenOf(head + data + marks(marker(std::nan(""), 7) + marker(500.0, 7), 3) + names);
+    CHECK(nan.markers == std::vector<Marker>{twoChapters[0]});
+    CHECK(nan.warnings == std::vector<std::string>{"states 3 markers, of which 1 can be read"});
+    const auto regions = takenOf(head + data + cafChunk("regn", bigEndian(0, 4) + bigEndian(2, 4)));
+    CHECK(regions.warnings == std::vector<std::string>{"has 2 regions, which are left out"});
+}
+
+TEST_CASE("Chapters in an ID3 tag behind a sound are markers", "[io]")
+{
+    // With a footer, as the standard has it for tags behind a sound.
+    const auto frames = id3Chapter("a", 10, "\3hit", 4) + id3Chapter("b", 20, "\3ring", 4);
+    const auto tag =
+        id3Tag(frames, 4, 0x10) + "3DI\4" + '\0' + '\x10' + sevenBits(static_cast<std::uint32_t>(frames.size()));
+    const std::vector<Marker> expected{{0.01, "hit"}, {0.02, "ring"}};
+    for (const char* name : {"tone.mp3", "ramp.flac", "tone.ogg"})
+    {
+        CAPTURE(name);
+        const auto sound = taggedSound(name);
+        for (const std::string& bytes : {sound + tag, sound + tag + "TAG" + std::string(125, 'x')})
+            CHECK(takenOf(bytes).markers == expected);
+        CHECK(takenOf(tag + sound + tag).markers == expected);
+    }
 }
