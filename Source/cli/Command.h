@@ -44,6 +44,7 @@ using BenchRun = std::function<Exit(const BenchOptions&, Console&)>;
 [[nodiscard]] std::unique_ptr<Command> manifestCommand();
 [[nodiscard]] std::unique_ptr<Command> measureCommand();
 [[nodiscard]] std::unique_ptr<Command> studyCommand();
+[[nodiscard]] std::unique_ptr<Command> textureCommand();
 [[nodiscard]] std::unique_ptr<Command> plotCommand();
 [[nodiscard]] std::unique_ptr<Command> benchCommand(BenchRun run);
 [[nodiscard]] std::unique_ptr<Command> helpCommand();
@@ -68,6 +69,10 @@ using BenchRun = std::function<Exit(const BenchOptions&, Console&)>;
 [[nodiscard]] std::unique_ptr<Command> exportStudySubcommand();
 [[nodiscard]] std::unique_ptr<Command> forgetStudySubcommand();
 [[nodiscard]] std::unique_ptr<Command> latencyStudySubcommand();
+
+/// The steps of `pacini texture`.
+[[nodiscard]] std::unique_ptr<Command> analyseTextureSubcommand();
+[[nodiscard]] std::unique_ptr<Command> renderTextureSubcommand();
 
 /// The whole program: parses, runs, returns the exit code. Exceptions of the parser end here. Without `bench`, the
 /// program pacini-bench measures.

@@ -67,7 +67,7 @@ Exit parseAndRun(Console& console, int argc, const char* const* argv, const Benc
     std::vector<std::unique_ptr<Command>> commands; // in the order of the help text
     for (const auto make : {encodeCommand, renderCommand, infoCommand, convertCommand, lintCommand, profilesCommand,
                             devicesCommand, playCommand, liveCommand, serveCommand, compareCommand, manifestCommand,
-                            measureCommand, studyCommand, plotCommand})
+                            measureCommand, studyCommand, textureCommand, plotCommand})
         commands.push_back(make());
     commands.push_back(benchCommand(bench));
     for (const auto make : {helpCommand, completionsCommand, manCommand})

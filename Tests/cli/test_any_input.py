@@ -169,6 +169,8 @@ class AnyInput(CommandTest):
                  "settings.json": ["encode", "tone.wav", "-o", "o.json", "-y", "--settings", "{}"],
                  "labels.txt": ["compare", "tone.wav", "tone.wav", "--onsets", "{}"],
                  "labels.json": ["compare", "tone.wav", "tone.wav", "--onsets", "{}"],
+                 "hand.csv": ["texture", "analyse", "tone.wav", "--speed", "{}", "-o", "t.json"],
+                 "wood.json": ["texture", "render", "{}", "--speed", "0:0 1:1", "-o", "o.wav", "-y"],
                  "response.csv": ["measure", "fit", "{}"], "ratings.csv": ["study", "report", "{}", "-y"]}
         profile = (SOURCE / "profiles/lra-175.json").read_text()
         self.put("mine.json", profile)
@@ -176,6 +178,8 @@ class AnyInput(CommandTest):
         self.put("settings.json", '{"format": "pacini.settings", "version": 1}')
         self.put("labels.txt", "0.1\t0.2\thit\n")
         self.put("labels.json", "[0.1]")
+        self.put("hand.csv", "0,1\n1,2\n")
+        self.assertEqual(self.run_command("texture", "analyse", "tone.wav", "-o", "wood.json").returncode, 0)
         self.put("response.csv", "\n".join(f"{10 * f},{f % 3}" for f in range(1, 60)))
         self.put("ratings.csv", "stimulus,rating\n" + "".join(f"{s},{r}\n" for s in "ab" for r in range(4)))
         for name, arguments in texts.items():

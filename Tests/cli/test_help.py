@@ -9,7 +9,8 @@ from command import COMMAND, CommandTest, sine, wav
 
 COMMANDS = ["encode", "render", "info", "convert", "lint", "profiles", "devices", "play", "live", "serve", "compare", "manifest", "study",
             "manifest merge", "manifest check", "manifest retry", "measure", "measure sweep", "measure analyse", "measure report",
-            "measure fit", "measure verify", "measure simulate", "measure compensate", "plot", "bench", "help", "completions", "man"]
+            "measure fit", "measure verify", "measure simulate", "measure compensate", "texture", "texture analyse",
+            "texture render", "plot", "bench", "help", "completions", "man"]
 
 
 class Help(CommandTest):

@@ -12,7 +12,8 @@ from check_schema import Draft202012Validator, strict_json  # noqa: E402  finds 
 
 SCHEMA = strict_json((SOURCE / "Resources/schema/pacini.report.schema.json").read_bytes())
 COMMANDS = ["encode", "render", "info", "convert", "lint", "profiles", "devices", "play", "live", "serve", "compare", "measure sweep",
-            "measure analyse", "measure fit", "measure verify", "measure simulate", "plot", "bench", "help", "completions",
+            "measure analyse", "measure fit", "measure verify", "measure simulate", "texture analyse", "texture render", "plot",
+            "bench", "help", "completions",
             "man"]
 HAPTIC = json.dumps({"version": {"major": 1, "minor": 0, "patch": 0}, "metadata": {}, "signals": {"continuous": {
     "envelopes": {"amplitude": [{"time": 0, "amplitude": 0}, {"time": 1, "amplitude": 1}]}}}})
@@ -80,6 +81,8 @@ class Json(CommandTest):
                  ["measure", "fit", "r.csv"],
                  ["measure", "verify", "after.wav", "--sweep", "flat.json", "--profile", "mine.json", "--tolerance",
                   "20"],
+                 ["texture", "analyse", "rec.wav", "-o", "t.json"],
+                 ["texture", "render", "t.json", "--speed", "0:0 1:1", "-o", "t.wav"],
                  ["encode", "door.wav", "--dry-run"], ["render", "clip.json", "--dry-run"],
                  ["convert", "clip.json", "x.ahap", "--dry-run"], ["help"], ["help", "encode"],
                  ["completions", "zsh"], ["man"], ["live", "door.wav", "-o", "live.wav"], ["plot", "clip.json"], ["bench", "decimate", "door.wav", "--repeat", "1"])
@@ -115,6 +118,8 @@ class Json(CommandTest):
                 (["measure", "fit", "bad.csv"], ["bad.csv"]),
                 (["measure", "verify", "after.wav", "--sweep", "flat.json", "--profile", "mine.json", "--tolerance",
                   "0"], ["mine.json"]),
+                (["texture", "analyse", "bad.wav", "-o", "t.json"], ["bad.wav"]),
+                (["texture", "render", "bad.json", "--speed", "0:0 1:1", "-o", "t.wav"], ["bad.json"]),
                 (["plot", "bad.json"], ["bad.json"]), (["bench", "decimate", "bad.wav"], ["bad.wav"])):
             with self.subTest(" ".join(arguments)):
                 report = self.reported(1, *arguments)

@@ -80,7 +80,7 @@ def outputs(folder):
     run("no such format", "convert", clips[0], "x.unknown")
     run("no such name", "convert", clips[0], "x", "--format", "hapic")
     run("help", "help")
-    for command in ["encode", "render", "info", "convert", "lint", "profiles", "play", "compare", "measure", "plot", "bench"]:
+    for command in ["encode", "render", "info", "convert", "lint", "profiles", "play", "compare", "measure", "texture", "plot", "bench"]:
         run(f"help {command}", "help", command)
     for path in sorted(folder.rglob("*")):
         if path.is_file() and not path.name.startswith("pacini.manifest"):
