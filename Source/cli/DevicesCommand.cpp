@@ -35,8 +35,7 @@ private:
 
 CLI::App* DevicesCommand::declare(CLI::App& app)
 {
-    auto* command =
-        app.add_subcommand("devices", "List connected game controllers and other haptic devices");
+    auto* command = app.add_subcommand("devices", "List connected game controllers and other haptic devices");
     command->add_flag("--sound", sounds, "List the sound devices that 'pacini live' can name instead");
     command->footer("'pacini play CLIP --device N' plays on device N.\nPacini supports Joy-Con, Switch Pro, DualShock "
                     "4, DualSense, Steam Controller (2026), Steam Deck,\nXbox controllers on Bluetooth, and as "

@@ -18,15 +18,16 @@ def strokes(speeds, seconds=2.0, seed=3):
         f, one, two = 200 * speed, 0.0, 0.0
         radius = math.exp(-2 * math.pi * 0.1 * f / RATE)
         for _ in range(round(seconds * RATE)):
-            x = source.gauss(0, 1) * math.sqrt(f / 200) + 2 * radius * math.cos(2 * math.pi * f / RATE) * one - radius ** 2 * two
+            x = source.gauss(0, 1) * math.sqrt(f / 200)
+            x += 2 * radius * math.cos(2 * math.pi * f / RATE) * one - radius ** 2 * two
             one, two = x, one
             samples.append(0.004 * speed ** 2 * x)
     return samples
 
 
 def table(speeds, seconds=2.0, scale=1.0, more=""):
-    return "time,speed\n" + "".join(f"{i * seconds},{scale * speed}{more}\n{(i + 1) * seconds - 1e-3},{scale * speed}{more}\n"
-                                    for i, speed in enumerate(speeds))
+    return "time,speed\n" + "".join(f"{time},{scale * speed}{more}\n" for i, speed in enumerate(speeds)
+                                    for time in (i * seconds, (i + 1) * seconds - 1e-3))
 
 
 class Texture(CommandTest):
@@ -60,8 +61,8 @@ class Analyse(Texture):
 
     def test_options_are_kept_to(self):
         texture = self.analysed("--order", "8", "--pitch", "0.25", "--full-speed", "240", "--name", "oak")
-        self.assertEqual((len(texture["nodes"][0]["reflection"]), texture["pitch"], texture["fullSpeed"], texture["name"]),
-                         (8, 0.25, 240, "oak"))
+        self.assertEqual(len(texture["nodes"][0]["reflection"]), 8)
+        self.assertEqual((texture["pitch"], texture["fullSpeed"], texture["name"]), (0.25, 240, "oak"))
         self.assertAlmostEqual(texture["nodes"][-1]["speed"], 0.5, delta=0.03)
         self.succeeds("texture", "analyse", "stroke.wav", "-o", "one.texture.json", "--recorded-speed", "0.3")
         one = json.loads((self.folder / "one.texture.json").read_text())
@@ -152,7 +153,8 @@ class Render(Texture):
         self.fails(1, [*render, "--speed", "none.csv"], "none.csv: ")
         self.fails(2, [*render, "--speed", "1", "--duration", "1", "--force", "2"], "--force: '2' must have a value")
         self.put("bad.json", '{"format": "pacini.texture", "version": 1}')
-        self.fails(1, ["texture", "render", "bad.json", "--speed", "0:0 1:1", "-o", "x.wav"], "bad.json: pitch: is missing")
+        self.fails(1, ["texture", "render", "bad.json", "--speed", "0:0 1:1", "-o", "x.wav"],
+                   "bad.json: pitch: is missing")
         self.fails(1, ["texture", "render", "stroke.wav", "--speed", "0:0 1:1", "-o", "x.wav"], "stroke.wav: ")
         self.fails(1, [*render[:-1], "x.txt", "--speed", "0:0 1:1"], "x.txt")
         self.assertEqual([name for name in self.names() if name.startswith("x.")], [])
@@ -166,20 +168,20 @@ class Overwriting(Texture):
     def test_inputs_are_never_written_over_and_n_keeps_everything(self):
         self.analysed()
         before = {name: (self.folder / name).read_bytes() for name in self.names()}
+        render = ["texture", "render", "wood.texture.json"]
         os.symlink("stroke.wav", self.folder / "link.wav")
         for more in ([], ["-y"]):
             for output in ("stroke.wav", "./stroke.wav", "link.wav", "hand.csv"):
                 self.fails(1, ["texture", "analyse", "stroke.wav", "--speed", "hand.csv", "-o", output, *more],
                            "is an input and would be overwritten")
-            self.fails(1, ["texture", "render", "wood.texture.json", "--speed", "0:0 1:1", "-o", "wood.texture.json", *more],
-                       "is an input")
+            self.fails(1, [*render, "--speed", "0:0 1:1", "-o", "wood.texture.json", *more], "is an input")
         self.succeeds("texture", "analyse", "stroke.wav", "-o", "wood.texture.json", "-n")
         self.assertEqual({name: (self.folder / name).read_bytes() for name in before}, before)
-        self.succeeds("texture", "render", "wood.texture.json", "--speed", "0:0 1:1", "-o", "drive.wav")
+        self.succeeds(*render, "--speed", "0:0 1:1", "-o", "drive.wav")
         drive = (self.folder / "drive.wav").read_bytes()
-        self.succeeds("texture", "render", "wood.texture.json", "--speed", "1", "--duration", "2", "-o", "drive.wav", "-n")
+        self.succeeds(*render, "--speed", "1", "--duration", "2", "-o", "drive.wav", "-n")
         self.assertEqual((self.folder / "drive.wav").read_bytes(), drive)
-        self.succeeds("texture", "render", "wood.texture.json", "--speed", "1", "--duration", "2", "-o", "drive.wav")
+        self.succeeds(*render, "--speed", "1", "--duration", "2", "-o", "drive.wav")
         self.assertNotEqual((self.folder / "drive.wav").read_bytes(), drive)
 
 
