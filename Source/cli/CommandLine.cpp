@@ -62,6 +62,7 @@ Exit parseAndRun(Console& console, int argc, const char* const* argv, const Benc
         "pacini");
     app.set_help_flag("-h,--help", "Print this help");
     app.set_version_flag("--version", "pacini " PACINI_VERSION, "Print the version");
+    app.allow_windows_style_options(false); // a path may begin with a slash there, too
     app.require_subcommand(1);
     app.fallthrough(false);
     std::vector<std::unique_ptr<Command>> commands; // in the order of the help text

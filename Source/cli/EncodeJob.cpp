@@ -15,6 +15,10 @@
 #include <system_error>
 #include <utility>
 
+#if defined(_WIN32)
+#include <windows.h>
+#endif
+
 namespace pacini::cli
 {
 
@@ -31,9 +35,17 @@ bool dependsOnSound(const EncoderParameter& parameter)
 /// Whether `input` has not been written since `output` was.
 bool wasWrittenBefore(const fs::path& input, const fs::path& output)
 {
+#if defined(_WIN32)
+    // libstdc++ tells whole seconds.
+    WIN32_FILE_ATTRIBUTE_DATA source{}, result{};
+    return GetFileAttributesExW(input.c_str(), GetFileExInfoStandard, &source) != 0 &&
+           GetFileAttributesExW(output.c_str(), GetFileExInfoStandard, &result) != 0 &&
+           CompareFileTime(&source.ftLastWriteTime, &result.ftLastWriteTime) <= 0;
+#else
     std::error_code error;
     const auto made = fs::last_write_time(output, error);
     return !error && fs::last_write_time(input, error) <= made && !error;
+#endif
 }
 } // namespace
 

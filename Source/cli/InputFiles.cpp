@@ -34,8 +34,27 @@ bool isFileExtension(const std::string& extension)
     return clipFormatWrittenTo(extension) != nullptr || among(audioExtensions()) || among(clipFileExtensions());
 }
 
+/// The C library of mingw-w64 would list another folder in the place of one with a long path.
+bool canBeListed([[maybe_unused]] const fs::path& folder, [[maybe_unused]] InputFiles& found)
+{
+#if defined(__MINGW32__)
+    std::error_code ignored;
+    if (fs::absolute(folder, ignored).native().size() >= 260)
+    {
+        found.failures.push_back({folder,
+                                  {ErrorCode::io, "",
+                                   "cannot be listed, as its path is longer than 259 characters; move it to "
+                                   "a shorter one"}});
+        return false;
+    }
+#endif
+    return true;
+}
+
 void addFolder(const fs::path& folder, const std::vector<std::string>& extensions, InputFiles& found)
 {
+    if (!canBeListed(folder, found))
+        return;
     std::error_code error;
     std::vector<fs::path> paths;
     fs::recursive_directory_iterator entry(folder, error);
@@ -44,6 +63,8 @@ void addFolder(const fs::path& folder, const std::vector<std::string>& extension
         const fs::path path = entry->path();
         std::error_code ignored;
         if (isHidden(path) && entry->is_directory(ignored))
+            entry.disable_recursion_pending();
+        else if (entry->is_directory(ignored) && !canBeListed(path, found))
             entry.disable_recursion_pending();
         else if (!isHidden(path) && !isManifestName(path) && entry->is_regular_file(ignored) &&
                  std::find(extensions.begin(), extensions.end(), lowerExtension(path)) != extensions.end())
