@@ -171,11 +171,16 @@ Result<std::size_t> EncodeJob::write(std::span<const float> signal, int sampleRa
     return static_cast<std::size_t>(report->bytes);
 }
 
-std::vector<EncoderParameter> EncodeJob::expectedRecord(const Clip& clip) const
+std::vector<EncoderParameter> EncodeJob::expectedRecord(const Clip& clip, const Path& input) const
 {
     auto record = methodRecord(clip);
-    if (settings.reading.withoutCentre)
-        record.push_back({std::string(withoutCentreName), true});
+    // Only the sound itself says which of its channels are special. Of up to two none is.
+    double lowFrequencyGain = 1.0;
+    if (clip.source.channels > 2)
+        if (const auto reader = AudioReader::open(input, settings.reading))
+            lowFrequencyGain = reader->lowFrequencyGain();
+    const auto reading = readingRecord(settings.reading, lowFrequencyGain);
+    record.insert(record.end(), reading.begin(), reading.end());
     return record;
 }
 
@@ -206,7 +211,7 @@ Result<Existing> EncodeJob::lookAt(const fs::path& input, const Target& target, 
     const bool mayBeEdited = seal == ClipSeal::missing;
     if (clip && seal != ClipSeal::broken && !(mayBeEdited && replaceable == Replaceable::any) && !settings.force &&
         !settings.markers && there == settings.format && wasWrittenBefore(input, output) &&
-        clip->source.file == source && isMadeSo(*clip))
+        clip->source.file == source && isMadeSo(*clip, input))
     {
         std::error_code ignored;
         result.upToDate = true;
@@ -229,13 +234,13 @@ Result<Existing> EncodeJob::lookAt(const fs::path& input, const Target& target, 
     return Existing::replace;
 }
 
-bool EncodeJob::isMadeSo(const Clip& clip) const
+bool EncodeJob::isMadeSo(const Clip& clip, const Path& input) const
 {
     if (clip.source.sampleRate < limits::lowestSampleRate || clip.source.sampleRate > limits::highestSampleRate)
         return false;
     auto record = clip.encoder;
     std::erase_if(record, dependsOnSound);
-    return record == expectedRecord(clip);
+    return record == expectedRecord(clip, input);
 }
 
 } // namespace pacini::cli

@@ -79,11 +79,11 @@ private:
     /// Returns how the clip may be written, unless the existing one is up to date, which `result` then records.
     [[nodiscard]] Result<Existing> lookAt(const Path& input, const Target& target, EncodeResult& result) const;
 
-    /// Whether a clip was made by this version in this way.
-    [[nodiscard]] bool isMadeSo(const Clip& clip) const;
+    /// Whether a clip was made of `input` by this version in this way.
+    [[nodiscard]] bool isMadeSo(const Clip& clip, const Path& input) const;
 
-    /// Returns the encoder record of a new clip, without the parts that depend on the sound.
-    [[nodiscard]] std::vector<EncoderParameter> expectedRecord(const Clip& clip) const;
+    /// Returns the encoder record of a new clip of `input`, without the parts that depend on its samples.
+    [[nodiscard]] std::vector<EncoderParameter> expectedRecord(const Clip& clip, const Path& input) const;
     [[nodiscard]] std::vector<EncoderParameter> methodRecord(const Clip& clip) const;
 
     /// Write a clip, or a signal, and return the size of the file or files.

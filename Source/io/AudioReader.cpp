@@ -118,7 +118,7 @@ std::optional<Error> brokenPromise(const SoundPart& part, const SF_INFO& info)
 SpecialChannels specialChannelsOf(SNDFILE* sound, int channels)
 {
     std::vector<int> map(static_cast<std::size_t>(channels));
-    if (channels < 2 ||
+    if (channels < 3 ||
         sf_command(sound, SFC_GET_CHANNEL_MAP_INFO, map.data(), static_cast<int>(map.size() * sizeof(int))) == SF_FALSE)
         return {};
     const auto placeOf = [&map](int role)
@@ -577,6 +577,12 @@ Result<AudioReader> AudioReader::open(const fs::path& path, AudioReadOptions opt
 int AudioReader::sampleRate() const noexcept
 {
     return state->info.samplerate * (state->raiser ? state->raiser->multiple() : 1);
+}
+
+double AudioReader::lowFrequencyGain() const noexcept
+{
+    const auto place = state->special.lowFrequency;
+    return place && *place < state->gains.size() ? static_cast<double>(state->gains[*place]) : 1.0;
 }
 
 const std::vector<Marker>& AudioReader::markers() const noexcept

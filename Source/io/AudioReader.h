@@ -103,6 +103,9 @@ public:
     /// Those that a clip of `duration` s takes; the others are told in warnings(), once. For the end of read().
     [[nodiscard]] std::vector<Marker> takeMarkers(double duration);
 
+    /// The factor that the channel of low-frequency effects is delivered with; 1 where the file names none.
+    [[nodiscard]] double lowFrequencyGain() const noexcept;
+
     /// Samples that allowNan has replaced so far.
     [[nodiscard]] std::uint64_t replacedSamples() const noexcept;
 

@@ -16,6 +16,7 @@
 #include <pacini/analysis/methods/Method.h>
 #include <pacini/clip/PackedClip.h>
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -36,8 +37,23 @@ struct SoundEncoderParams : TranslationParams
     AudioReadOptions reading{.lowFrequencyGain = lowFrequencyEffectsGain};
 };
 
-/// What a clip says of its encoder when the centre channel was left out.
+/// What a clip says of its encoder when the centre channel was left out, and how much more, in dB, the channel of
+/// low-frequency effects counts.
 inline constexpr std::string_view withoutCentreName = "withoutCentre";
+inline constexpr std::string_view lowFrequencyEffectsName = "lowFrequencyEffects";
+
+/// What the reading of a sound did to its samples, as a clip records it: a clip whose record is another is not up to
+/// date. Empty for sounds whose channels all count alike.
+[[nodiscard]] inline std::vector<EncoderParameter> readingRecord(const AudioReadOptions& reading,
+                                                                 double lowFrequencyGain)
+{
+    std::vector<EncoderParameter> record;
+    if (reading.withoutCentre)
+        record.push_back({std::string(withoutCentreName), true});
+    if (lowFrequencyGain != 1.0)
+        record.push_back({std::string(lowFrequencyEffectsName), std::round(20.0 * std::log10(lowFrequencyGain))});
+    return record;
+}
 
 /// The parts of an open file. Errors: those of AudioReader.
 class SoundFileParts
@@ -105,9 +121,9 @@ public:
         SoundFileParts file(reader, rest);
         auto clip = clipOf({reader.sampleRate(), reader.channels(), reader.frames().value_or(0), scale}, file,
                            clipNamesOf(input), work);
-        if (clip && settings.reading.withoutCentre)
+        if (const auto record = readingRecord(settings.reading, reader.lowFrequencyGain()); clip && !record.empty())
         {
-            clip->encoder.push_back({std::string(withoutCentreName), true});
+            clip->encoder.insert(clip->encoder.end(), record.begin(), record.end());
             sealClip(*clip);
         }
         if (clip)

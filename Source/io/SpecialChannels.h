@@ -9,7 +9,7 @@ namespace pacini
 {
 
 /// Which channels of a sound hold low-frequency effects, and the centre, where films have their speech; as far as the
-/// file names its channels. One channel alone is neither.
+/// file names its channels. Of one or two none is either.
 struct SpecialChannels
 {
     std::optional<std::size_t> lowFrequency;

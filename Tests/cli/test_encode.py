@@ -3,6 +3,7 @@ import json
 import os
 import re
 import shutil
+import struct
 import unittest
 
 from command import SOURCE, CommandTest, noise, sine, wav
@@ -165,6 +166,31 @@ class Encode(CommandTest):
             self.fails(2, ["encode", "a.wav", option, value], says, "pacini encode --help")
         self.fails(2, ["encode", "a.wav", "--low", "500", "--high", "100"], "--low: must be lower than high")
         self.assertEqual(self.names(), ["a.wav"])
+
+    def test_a_clip_from_before_the_effects_channel_counted_more_is_made_anew_once(self):
+        """As versions without it did, the first clip is made of a sound that does not name its channels."""
+        samples = [x for value in sine(60, 0.5) for x in (0.0, value * 0.5, value)]
+        plain = wav(samples, channels=3)
+        head, data = plain[:plain.index(b"data")], plain[plain.index(b"data"):]
+        rate, = struct.unpack("<I", head[24:28])
+        extensible = struct.pack("<HHIIHHHHIH14s", 0xFFFE, 3, rate, rate * 6, 6, 16, 22, 16, 0xB, 1,
+                                 bytes.fromhex("000000001000800000aa00389b71"))
+        named = b"RIFF" + struct.pack("<I", 20 + len(extensible) + len(data)) + b"WAVEfmt " + \
+            struct.pack("<I", len(extensible)) + extensible + data
+        self.put("film.wav", plain)
+        os.utime(self.folder / "film.wav", (1, 1))
+        self.succeeds("encode", "film.wav", "--keep-level")
+        old = json.loads((self.folder / "film.json").read_text())
+        self.assertNotIn("lowFrequencyEffects", old["encoder"])
+        self.assertIn("1 up to date", self.succeeds("encode", "film.wav", "--keep-level"))
+        self.put("film.wav", named)
+        os.utime(self.folder / "film.wav", (1, 1))
+        self.assertIn("1 encoded", self.succeeds("encode", "film.wav", "--keep-level"))
+        new = json.loads((self.folder / "film.json").read_text())
+        self.assertEqual(new["encoder"]["lowFrequencyEffects"], 10)
+        self.assertGreater(max(point["amplitude"] for point in new["envelope"]),
+                           1.4 * max(point["amplitude"] for point in old["envelope"]))
+        self.assertIn("1 up to date", self.succeeds("encode", "film.wav", "--keep-level"))
 
 
 class CommandLine(CommandTest):
