@@ -1,0 +1,178 @@
+"""End to end: every row of the table of sounds in formats.md, by a file of its kind."""
+import json
+import os
+import shutil
+import struct
+import subprocess
+import unittest
+
+from command import SOURCE, CommandTest, sine, wav
+
+RATE = 48000
+SOUNDS = SOURCE / "Tests/io/audio"
+HAS_FFMPEG = shutil.which("ffmpeg") and shutil.which("ffprobe")
+
+
+def rows():
+    """The kinds of files of the table, with what is said to happen to them."""
+    text = (SOURCE / "Resources/docs/formats.md").read_text().split("\n## Sounds\n")[1].split("\n## ")[0]
+    lines = [line.strip("| ") for line in text.splitlines() if line.startswith("| ")]
+    return dict(line.split(" | ") for line in lines if " | " in line)
+
+
+def chunk(name, content):
+    return name + struct.pack("<I", len(content)) + content + b"\0" * (len(content) % 2)
+
+
+def with_size(sound, size):
+    at = sound.index(b"data") + 4
+    return sound[:at] + struct.pack("<I", size) + sound[at + 4:]
+
+
+def cue(frame, played=None):
+    return chunk(b"cue ", struct.pack("<III4sIII", 1, 1, frame if played is None else played, b"data", 0, 0, frame))
+
+
+def loops(first, last):
+    return chunk(b"smpl", bytes(28) + struct.pack("<II", 1, 0) + struct.pack("<6I", 0, 0, first, last, 0, 0))
+
+
+def id3(frames=b""):
+    size = len(frames)
+    return b"ID3\4\0\0" + bytes(size >> shift & 0x7F for shift in (21, 14, 7, 0)) + frames
+
+
+def chapter(ms):
+    content = b"a\0" + struct.pack(">IIII", ms, ms + 1, 0xFFFFFFFF, 0xFFFFFFFF)
+    return b"CHAP" + struct.pack(">IH", len(content), 0) + content
+
+
+class SoundTable(CommandTest):
+    def setUp(self):
+        super().setUp()
+        self.sound = wav(sine(100, 1.0))
+        self.bytes = len(self.sound) - 44
+        self.mp3 = (SOUNDS / "tone.mp3").read_bytes()
+        self.left = rows()
+
+    def row(self, begins):
+        """What the table says of the one row that begins so."""
+        found = [kind for kind in self.left if kind.startswith(begins)]
+        self.assertEqual(len(found), 1, begins)
+        return self.left.pop(found[0])
+
+    def encode(self, content, *options, name="x.wav", env=None):
+        self.put(name, content)
+        done = self.run_command("encode", name, "-o", "x.json", "-y", *options, **({"env": env} if env else {}))
+        self.said = done.stderr.decode()
+        self.clip_read = json.loads((self.folder / "x.json").read_text()) if done.returncode == 0 else None
+        return done.returncode
+
+    def reads(self, says, content, seconds=1.0, **options):
+        self.assertIn("read", says + " read" if "marker" in says or "left out" in says or "passed" in says else says)
+        self.assertEqual(self.encode(content, **options), 0, self.said)
+        self.assertEqual(self.said, "")
+        self.assertAlmostEqual(self.clip_read["duration"], seconds, delta=0.001)
+
+    def reads_with_a_word(self, says, content, word, seconds=1.0, options=()):
+        self.assertIn("warning", says)
+        self.assertEqual(self.encode(content, *options), 0, self.said)
+        self.assertIn("pacini: x.wav: warning: ", self.said)
+        self.assertIn(word, self.said)
+        self.assertAlmostEqual(self.clip_read["duration"], seconds, delta=0.03)
+
+    def refuses(self, says, content, word):
+        self.assertIn("refused", says)
+        self.assertEqual(self.encode(content), 1)
+        self.assertRegex(self.said, r"^pacini: x\.wav: [^\n]+\n$")
+        self.assertIn(word, self.said)
+
+    def markers(self):
+        return [marker["time"] for marker in self.clip_read["markers"]]
+
+    def test_every_row_is_true(self):
+        sound, mp3, size = self.sound, self.mp3, self.bytes
+        says = self.row("WAV (RIFF")
+        for path in sorted(SOUNDS.iterdir()):
+            self.assertEqual(self.encode(path.read_bytes()), 0, path.name + self.said)
+            self.assertEqual(self.said, "", path.name)
+        self.reads(says, sound)
+        says = self.row("tags (ID3, APE, Lyrics3)")
+        self.reads(says, id3(b"\0" * 300) + sound + b"TAG" + bytes(125))
+        says = self.row("a size that was left open")
+        for open_size in (0xFFFFFFFF, 0x80000000, 0x7FFFFF00, 2_000_000_000):
+            self.reads(says, with_size(sound, open_size))
+        says = self.row("a size of 0 or smaller")
+        for less in (0, size // 2):
+            self.reads_with_a_word(says, with_size(sound, less), "all of them are read")
+        says = self.row("a size that is too large")
+        for more in (size + 44, size + 64, 2 * size):
+            self.reads_with_a_word(says, with_size(sound, more), "all of them are read")
+        says = self.row("an MP3 without a header")
+        second = mp3.index(mp3[:2], 50)
+        self.assertEqual(self.encode(mp3), 0)
+        whole = self.clip_read["duration"]
+        self.assertEqual(self.encode(mp3[second:]), 0)
+        self.assertEqual(self.said, "")
+        self.assertGreaterEqual(self.clip_read["duration"], whole)
+        says = self.row("MP3 or MP2 inside a WAV")
+        form = struct.pack("<HHIIHHH", 0x55, 1, 8000, 1000, 1, 0, 12) + bytes(12)
+        inside = b"WAVE" + chunk(b"fmt ", form) + chunk(b"data", mp3)
+        self.reads(says, chunk(b"RIFF", inside), whole)
+        says = self.row("another codec inside")
+        if HAS_FFMPEG:
+            self.put("a.wav", sound)
+            subprocess.run(["ffmpeg", "-v", "error", "-y", "-i", "a.wav", "-c:a", "adpcm_yamaha", "b.wav"],
+                           cwd=self.folder, check=True)
+            coded = (self.folder / "b.wav").read_bytes()
+            self.assertEqual(self.encode(coded), 0)
+            self.assertEqual(self.said, "")
+            self.reads_with_a_word(says, with_size(coded, 100), "100 bytes of sound, but")
+            self.assertEqual(self.encode(coded, env={**os.environ, "PATH": str(self.folder)}), 1)
+            self.assertIn("ffmpeg", self.said)
+        says = self.row("cues of a WAV")
+        self.reads(says, sound + cue(12000))
+        self.assertEqual(self.markers(), [0.25])
+        region = chunk(b"LIST", b"adtl" + chunk(b"ltxt", struct.pack("<II4sHHHH", 1, 500, b"rgn ", 0, 0, 0, 0)))
+        self.reads_with_a_word(says, sound + cue(12000) + region, "regions")
+        says = self.row("chapters: comments")
+        for content in (id3(chapter(250)) + sound, sound + chunk(b"id3 ", id3(chapter(250)))):
+            self.reads(says, content)
+            self.assertEqual(self.markers(), [0.25])
+        self.assertEqual(self.encode(mp3 + id3(chapter(10))), 0)
+        self.assertEqual(self.markers(), [0.01])
+        self.reads(self.row("loops of a WAV"), sound + loops(12000, 23999))
+        self.assertEqual(self.markers(), [0.25, 0.5])
+        says = self.row("markers behind the end")
+        self.reads_with_a_word(says, sound + cue(60000), "behind the end")
+        self.reads(self.row("sounds of one rate and number"), sound + sound, 2.0)
+        self.reads(self.row("cues that count frames in the order"), sound + cue(0, 12000))
+        self.assertEqual(self.markers(), [0.25])
+        says = self.row("another sound behind that has another rate")
+        self.reads_with_a_word(says, sound + wav(sine(100, 1.0), rate=44100), "another sound")
+        self.reads_with_a_word(self.row("zeros behind the stated end"), sound + bytes(400), "400 bytes")
+        says = self.row("a hole in an MP3")
+        self.assertIn("warning", says)
+        half = len(mp3) // 2
+        self.assertEqual(self.encode(mp3[:half] + bytes(700) + mp3[half + 700:], "--allow-truncated"), 0)
+        self.assertIn("warning", self.said)
+        self.reads_with_a_word(self.row("an MP3 that ends within a block"), mp3[:len(mp3) - 40], "within a block",
+                               whole - 0.048, ["--allow-truncated"])  # two blocks
+        says = self.row("a rate from 1 to 8 kHz")
+        self.reads_with_a_word(says, wav(sine(100, 1.0, rate=3000), rate=3000), "sampled at 3000 Hz")
+        says = self.row("a file that is cut off")
+        cut = sound[:44 + size * 6 // 10]
+        self.refuses(says, cut, "is truncated")
+        self.reads_with_a_word(says, cut, "is cut off", 0.6, ["--allow-truncated"])
+        says = self.row("a rate below 1 or above 768 kHz")
+        for wrong in (wav([0.5] * 100, rate=900), wav([0.5] * 100, rate=800000), wav([0.5] * 650, channels=65),
+                      sound[:20] + bytes(4) + sound[24:]):
+            self.refuses(says, wrong, "")
+        says = self.row("films (MP4")
+        film = struct.pack(">I", 16) + b"ftypisom" + bytes(4)
+        self.refuses(says, film, "")
+        self.assertEqual(list(self.left), [], "rows without a file")
+
+
+if __name__ == "__main__":
+    unittest.main()
