@@ -13,9 +13,9 @@ namespace pacini::cli
 {
 
 /// The names of allBenches(), in their order.
-inline constexpr std::array<std::string_view, 15> benchNames{
-    "simplify",   "decimate", "filters", "analysis", "synthesis", "oscillators", "scenes", "actuators",
-    "equalizers", "live",     "body",    "stages",   "methods",   "match",       "runtime"};
+inline constexpr std::array<std::string_view, 16> benchNames{
+    "simplify",   "decimate", "filters", "analysis", "synthesis", "oscillators", "scenes",  "actuators",
+    "equalizers", "live",     "body",    "stages",   "methods",   "match",       "runtime", "textures"};
 
 struct BenchSettings
 {

@@ -66,12 +66,13 @@ TEST_CASE("pacini bench measures everything on a folder and writes tables, chart
     const auto out = folder / "out";
     REQUIRE(bench(folder, "all . -o out --repeat 1 --markdown measurements.md --json") == 0);
     const auto printed = nlohmann::json::parse(bytesOf(folder / "log"));
-    CHECK(printed["benches"].size() == 15);
+    CHECK(printed["benches"].size() == 16);
     for (const auto& file : printed["written"])
         CHECK(std::filesystem::exists(folder / file.get<std::string>()));
 
-    for (const std::string name : {"simplify", "decimate", "filters", "analysis", "synthesis", "oscillators", "scenes",
-                                   "actuators", "equalizers", "live", "body", "stages", "methods", "match", "runtime"})
+    for (const std::string name :
+         {"simplify", "decimate", "filters", "analysis", "synthesis", "oscillators", "scenes", "actuators",
+          "equalizers", "live", "body", "stages", "methods", "match", "runtime", "textures"})
     {
         INFO(name);
         const auto json = nlohmann::json::parse(bytesOf(out / (name + ".json")));
@@ -106,7 +107,9 @@ TEST_CASE("pacini bench measures everything on a folder and writes tables, chart
                                     "methods",
                                     "methods-rate",
                                     "match",
-                                    "runtime"})
+                                    "runtime",
+                                    "textures-ridges",
+                                    "textures-rough"})
         CHECK(bytesOf(out / (chart + ".svg")).find("</svg>") != std::string::npos);
     const std::string text = bytesOf(folder / "measurements.md");
     CHECK(text.find("pacini bench all") != std::string::npos);
@@ -206,6 +209,38 @@ TEST_CASE("pacini bench filters and oscillators show which forms lose digits, on
         }
         if (row["form"] == "accumulator and sine, float" && row["after"] == "24 h")
             CHECK(row["error"].get<double>() > 10.0);
+    }
+}
+
+TEST_CASE("pacini bench textures shows autoregressive models nearer than bands of noise, and loops that repeat",
+          "[cli][bench][slow]")
+{
+    const TempFolder folder;
+    writeSound(folder / "tone.wav");
+    REQUIRE(bench(folder, "textures . -o . --repeat 1") == 0);
+    const auto json = nlohmann::json::parse(bytesOf(folder / "textures.json"));
+    REQUIRE(json["rows"].size() == 3 * 2 * (9 + 6 + 1));
+    const auto rowOf = [&](const auto& like, const char* form, const char* size)
+    {
+        for (const auto& row : json["rows"])
+            if (row["surface"] == like["surface"] && row["speeds"] == like["speeds"] && row["form"] == form &&
+                row["size"] == size)
+                return row;
+        FAIL("there is no such row");
+        return json["rows"][0];
+    };
+    for (const auto& row : json["rows"])
+    {
+        if (row["form"] != "loop")
+            continue;
+        INFO(row.dump());
+        const auto model = rowOf(row, "autoregressive", "32"), bands = rowOf(row, "noise bands", "24");
+        CHECK(model["error"].get<double>() < bands["error"].get<double>());
+        CHECK(model["error"].get<double>() < (row["surface"] == "ridges" ? 4.0 : 1.2));
+        CHECK(model["error"].get<double>() < rowOf(row, "autoregressive", "2")["error"].get<double>());
+        CHECK(row["repetition"].get<double>() > 0.7);
+        if (row["surface"] != "ridges")
+            CHECK(model["repetition"].get<double>() < 0.25);
     }
 }
 

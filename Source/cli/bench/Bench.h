@@ -80,13 +80,14 @@ struct Bench
 [[nodiscard]] Bench liveBench();
 [[nodiscard]] Bench matchBench();
 [[nodiscard]] Bench runtimeBench();
+[[nodiscard]] Bench texturesBench();
 
 /// All of them, see benchNames.
 [[nodiscard]] inline std::vector<Bench> allBenches()
 {
-    return {simplifyBench(),    decimateBench(), filtersBench(),   analysisBench(),   synthesisBench(),
-            oscillatorsBench(), scenesBench(),   actuatorsBench(), equalizersBench(), liveBench(),
-            bodyBench(),        stagesBench(),   methodsBench(),   matchBench(),      runtimeBench()};
+    return {simplifyBench(), decimateBench(),  filtersBench(),    analysisBench(), synthesisBench(), oscillatorsBench(),
+            scenesBench(),   actuatorsBench(), equalizersBench(), liveBench(),     bodyBench(),      stagesBench(),
+            methodsBench(),  matchBench(),     runtimeBench(),    texturesBench()};
 }
 
 } // namespace pacini::cli
