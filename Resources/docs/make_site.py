@@ -18,7 +18,7 @@ GUIDES = {
     "Start": ["index.md", "doors.md", "getting-started.md", "glossary.md"],
     "How it works": ["guide-bands.md", "guide-breakpoints.md", "guide-actuators.md", "guide-scenes.md",
                      "guide-protection.md", "guide-time.md"],
-    "Make and feel": ["editor.md", "plugin.md", "settings.md", "scenes.md", "profiles.md", "measuring.md", "devices.md", "video.md",
+    "Make and feel": ["editor.md", "plugin.md", "settings.md", "scenes.md", "textures.md", "profiles.md", "measuring.md", "devices.md", "video.md",
                       "formats.md"],
     "In games and programs": ["runtime.md", "engines.md", "csharp.md", "lua.md", "godot.md", "rust.md", "node.md", "web.md",
                               "sdl.md"],

@@ -160,6 +160,8 @@ class Documents(CommandTest):
         self.put("onsets.json", json.dumps({"bench.wav": bench, "outside/rain.wav": []}))
         self.put("labels.txt", "0.2\t0.2\tknock\n0.9\t1.1\tanother\n")
         self.put("quest.acf", ACF)
+        self.put("stroke.wav", wav(rain(3.0, seed=6), RATE))
+        self.put("hand.csv", "time,speed\n0,40\n1,250\n2,90\n3,180\n")
         self.put("ratings.csv", "group,stimulus,participant,rating\n" + "".join(
             f"{group},{stimulus},{person},{(person * stimulus + ord(group)) % 9}\n"
             for group in "ABC" for stimulus in (1, 2) for person in range(4)))
@@ -382,7 +384,7 @@ class Options(CommandTest):
         commands = re.findall(r"(?m)^  ([a-z]+) {2,}", top[top.index("Commands:"):top.index("Options")])
         self.assertGreater(len(commands), 10)
         self.helps = {command: self.help_of(command) for command in commands}
-        for command in ("measure", "study"):
+        for command in ("measure", "study", "texture"):
             top = self.succeeds(command, "--help")
             steps = re.findall(r"(?m)^  ([a-z]+) {3,}", top[top.index("Steps:"):top.index("Options")])
             self.helps.update({f"{command} {step}": self.help_of(f"{command} {step}") for step in steps})
@@ -399,7 +401,7 @@ class Options(CommandTest):
                     if option in self.OF_OTHER_TOOLS:
                         continue
                     found += 1
-                    command = re.match(r"pacini ((?:measure |study )?[a-z]+)", one.command)
+                    command = re.match(r"pacini ((?:measure |study |texture )?[a-z]+)", one.command)
                     if document.name in self.OTHER_PROGRAMS and not command:
                         if option != "--help":
                             self.assertIn(f'"{option}"', (SOURCE / self.OTHER_PROGRAMS[document.name]).read_text(), one)
