@@ -1,23 +1,14 @@
 #include "io/SweepFile.h"
 
 #include "support/Catch.h"
+#include "support/ChangedText.h"
 
 #include <pacini/foundation/Random.h>
 
 #include <string>
 
 using namespace pacini;
-
-namespace
-{
-/// `text` with the first `from` replaced.
-std::string changed(std::string text, const std::string& from, const std::string& to)
-{
-    const auto at = text.find(from);
-    REQUIRE(at != std::string::npos);
-    return text.replace(at, from.size(), to);
-}
-} // namespace
+using test::changed;
 
 TEST_CASE("The description of a sweep comes back as it was written")
 {

@@ -1,6 +1,7 @@
 #include "io/TextureFile.h"
 
 #include "support/Catch.h"
+#include "support/ChangedText.h"
 #include "support/RandomTexture.h"
 
 #include <pacini/texture/TexturePlayer.h>
@@ -11,17 +12,7 @@
 #include <vector>
 
 using namespace pacini;
-
-namespace
-{
-/// `text` with the first `from` replaced.
-std::string changed(std::string text, const std::string& from, const std::string& to)
-{
-    const auto at = text.find(from);
-    REQUIRE(at != std::string::npos);
-    return text.replace(at, from.size(), to);
-}
-} // namespace
+using test::changed;
 
 TEST_CASE("A texture comes back as it was written")
 {
