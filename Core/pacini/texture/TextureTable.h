@@ -104,7 +104,7 @@ private:
 class TextureTable
 {
 public:
-    /// For a valid texture and a playable rate. Allocates, and takes some milliseconds. [worker]
+    /// For a valid texture and a playable rate. Allocates, and takes some 15 ms. [worker]
     TextureTable(const Texture& texture, double sampleRate)
         : fs(sampleRate),
           factor(static_cast<std::size_t>(std::max(1.0, std::floor(sampleRate / textureRate)))),
