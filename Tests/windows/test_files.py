@@ -135,7 +135,7 @@ class Files(CommandTest):
         process = subprocess.Popen([wine.WINE, Path(self.tools.name) / "interrupt.exe", line], cwd=self.folder,
                                    stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         until = time.monotonic() + 60
-        while not any(".pacini-" in name for name in os.listdir(self.folder)):
+        while not any(path.stat().st_size for path in self.folder.glob(".*.pacini-*")):
             self.assertLess(time.monotonic(), until, "nothing is being written")
             self.assertIsNone(process.poll(), "ended too early")
             time.sleep(0.005)
