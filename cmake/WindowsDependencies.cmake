@@ -6,6 +6,7 @@ if(NOT EXISTS "${PACINI_WINDOWS_SOURCES}/complete")
     message(FATAL_ERROR "${PACINI_WINDOWS_SOURCES} is not complete: run 'bash cmake/bootstrap.sh windows'")
 endif()
 enable_language(C)
+set(CMAKE_C_COMPILER_LAUNCHER ${CMAKE_CXX_COMPILER_LAUNCHER})
 
 # Beside these headers there are those of another C library: links keep them apart.
 set(headers "${CMAKE_BINARY_DIR}/dependencies")

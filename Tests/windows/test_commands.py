@@ -25,6 +25,8 @@ def with_slashes(text):
 
 def run_command(self, *arguments, run=command.CommandTest.run_command, **options):
     done = run(self, *arguments, **options)
+    if type(self).__module__ == "test_clips":  # where texts have backslashes that are none of paths
+        return done
     done.stdout, done.stderr = with_slashes(done.stdout), with_slashes(done.stderr)
     return done
 
