@@ -87,12 +87,18 @@ void RoutingBar::resized()
     area.removeFromLeft(2 * grid);
     const std::array<std::pair<juce::Label*, juce::ComboBox*>, 4> groups{
         {{&inputLabel, &input}, {&sidechainLabel, &sidechain}, {&heardLabel, &heard}, {&hapticLabel, &haptic}}};
-    const std::array<int, 4> labels{5 * grid, 9 * grid, 9 * grid, 10 * grid};
-    const int left = area.getWidth() - 9 * grid - 3 * grid - 33 * grid - 3 * grid;
+    std::array<int, 4> labels{};
+    int left = area.getWidth() - (8 + 2 + 4) * grid;
+    for (std::size_t i = 0; i < groups.size(); ++i)
+    {
+        labels[i] = groups[i].first->getFont().getStringWidth(groups[i].first->getText()) + grid;
+        left -= labels[i];
+    }
+    const int box = std::min(editor::space::widestBox, left / 4);
     for (std::size_t i = 0; i < groups.size(); ++i)
     {
         groups[i].first->setBounds(area.removeFromLeft(labels[i]));
-        groups[i].second->setBounds(area.removeFromLeft(left / 4));
+        groups[i].second->setBounds(area.removeFromLeft(box));
         area.removeFromLeft(grid);
         if (i == 0)
         {

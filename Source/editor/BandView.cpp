@@ -75,7 +75,7 @@ void BandView::paint(juce::Graphics& g)
     g.drawText(tr("Events"), eventLane.withWidth(labelWidth - grid), juce::Justification::centredRight, false);
 
     const float step = static_cast<float>(plot.getWidth()) / static_cast<float>(columns);
-    g.setColour(p.warning);
+    g.setColour(p.event);
     for (std::size_t age = 0; age < columns; ++age)
         if (const float event = columnAt(age).event; event > 0.0f)
         {

@@ -117,7 +117,7 @@ void EventLamp::paint(juce::Graphics& g)
     const auto lamp = getLocalBounds().toFloat().withSizeKeepingCentre(12.0f, 12.0f);
     g.setColour(p.well);
     g.fillEllipse(lamp);
-    g.setColour(p.warning.withAlpha(0.1f * static_cast<float>(glow)));
+    g.setColour(p.event.withAlpha(0.1f * static_cast<float>(glow)));
     g.fillEllipse(lamp);
     g.setColour(p.line);
     g.drawEllipse(lamp, 1.0f);

@@ -14,7 +14,19 @@ namespace pacini::editor
 
 namespace
 {
-constexpr int mostKnobHeight = 15 * grid;
+constexpr int mostKnobHeight = space::mostKnob + 4 + 2 * (2 * grid + 2);
+
+/// Draws the value from 0 where that is its rest in the middle of the way, as of a gain or a transposition.
+void setOriginOf(juce::Slider& slider, const juce::AudioProcessorParameter& parameter)
+{
+    const auto* ranged = dynamic_cast<const juce::RangedAudioParameter*>(&parameter);
+    if (ranged == nullptr)
+        return;
+    const auto& range = ranged->getNormalisableRange();
+    const bool rests = std::abs(range.convertFrom0to1(ranged->getDefaultValue())) < 1e-4f;
+    if (rests && range.start < 0.0f && range.end > 0.0f)
+        setOrigin(slider, static_cast<double>(range.convertTo0to1(0.0f)));
+}
 
 juce::String withRange(const juce::AudioProcessorParameter& parameter, const juce::String& help)
 {
@@ -58,6 +70,7 @@ ParameterSlider::ParameterSlider(juce::AudioProcessorParameter& shown, Shape wan
     slider.setTextBoxStyle(knob ? juce::Slider::TextBoxBelow : juce::Slider::TextBoxRight, false, 7 * grid,
                            2 * grid + 2);
     slider.setDoubleClickReturnValue(true, static_cast<double>(parameter.getDefaultValue()));
+    setOriginOf(slider, parameter);
     slider.setWantsKeyboardFocus(true);
     slider.setTitle(name);
     slider.setDescription(help);

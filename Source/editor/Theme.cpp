@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/Theme.h"
 
+#include "editor/Icons.h"
 #include "editor/Translation.h"
 
 #include <algorithm>
@@ -11,81 +12,102 @@ namespace pacini::editor
 namespace
 {
 const juce::Identifier quietProperty("quiet");
-constexpr float largestKnob = 32.0f; // radius
+const juce::Identifier primaryProperty("primary");
+const juce::Identifier originProperty("origin");
+constexpr float disabledAlpha = 0.45f;
 
-/// A font of Japanese that JUCE finds by name, or, on Linux, one in a collection, which it does not list.
-struct JapaneseFont
+/// Whether a value goes both ways.
+bool hasOrigin(const juce::Slider& slider)
 {
-    juce::String name;
-    juce::Typeface::Ptr plain, bold;
-    [[nodiscard]] bool isThere() const { return name.isNotEmpty() || plain != nullptr; }
+    return slider.getProperties().contains(originProperty) || (slider.getMinimum() < 0.0 && slider.getMaximum() > 0.0);
+}
+
+/// From where the value is drawn, 0 to 1 of the way.
+float originOf(juce::Slider& slider)
+{
+    return hasOrigin(slider) ? static_cast<float>(slider.valueToProportionOfLength(
+                                   slider.getProperties().getWithDefault(originProperty, 0.0)))
+                             : 0.0f;
+}
+
+struct ButtonColours
+{
+    juce::Colour fill, border, text;
 };
 
-juce::Typeface::Ptr collection(const juce::String& file)
+ButtonColours coloursOf(const juce::Button& button, const Palette& p, bool highlighted, bool down)
 {
-    juce::MemoryBlock bytes;
-    if (!juce::File(file).loadFileAsData(bytes))
-        return nullptr;
-    return juce::Typeface::createSystemTypefaceFor(bytes.getData(), bytes.getSize());
-}
-
-const JapaneseFont& japaneseFont()
-{
-    static const JapaneseFont found = []
+    const float alpha = button.isEnabled() ? 1.0f : disabledAlpha;
+    const auto shade = [&](juce::Colour colour)
     {
-        JapaneseFont font;
-        const auto names = juce::Font::findAllTypefaceNames();
-        for (const char* name :
-             {"Noto Sans CJK JP", "Noto Sans JP", "Source Han Sans JP", "Hiragino Sans", "Yu Gothic UI", "Meiryo",
-              "IPAexGothic", "IPAPGothic", "IPAGothic", "TakaoPGothic", "VL PGothic"})
-            if (names.contains(name))
-            {
-                font.name = name;
-                return font;
-            }
-#if JUCE_LINUX || JUCE_BSD
-        const juce::String folder = "/usr/share/fonts/opentype/noto/NotoSansCJK-";
-        font.plain = collection(folder + "Regular.ttc");
-        if (font.plain != nullptr)
-            font.bold = collection(folder + "Bold.ttc");
-#endif
-        return font;
-    }();
-    return found;
-}
-
-bool japaneseNow = false;
-
-juce::Font fontOf(float height, bool bold)
-{
-    if (japaneseNow && japaneseFont().plain != nullptr)
-    {
-        const auto& font = japaneseFont();
-        return juce::Font(bold && font.bold != nullptr ? font.bold : font.plain).withHeight(height);
-    }
-    const int style = bold ? juce::Font::bold : juce::Font::plain;
-#if JUCE_MAJOR_VERSION >= 8
-    return juce::Font(juce::FontOptions(height, style));
-#else
-    return juce::Font(height, style);
-#endif
+        return down          ? colour.interpolatedWith(p.background, 0.18f)
+               : highlighted ? colour.interpolatedWith(p.text, 0.08f)
+                             : colour;
+    };
+    if (button.getToggleState())
+        return {shade(p.accent).withMultipliedAlpha(alpha), juce::Colours::transparentBlack, p.onAccent};
+    if (button.getProperties().contains(primaryProperty))
+        return {shade(p.primary).withMultipliedAlpha(alpha), juce::Colours::transparentBlack,
+                button.isEnabled() ? p.onPrimary : p.card};
+    return {shade(p.control).withMultipliedAlpha(alpha), p.line.withMultipliedAlpha(alpha),
+            p.text.withMultipliedAlpha(alpha)};
 }
 } // namespace
 
 const Palette& paletteOf(bool dark) noexcept
 {
-    // Text on card: contrast 12:1 (dark) and 14:1 (light); dim text 5:1 on both.
-    static const Palette darkOne{juce::Colour(0xff16191d), juce::Colour(0xff1f242a), juce::Colour(0xff14171b),
-                                 juce::Colour(0xff343b44), juce::Colour(0xffe6e9ec), juce::Colour(0xff97a1ac),
-                                 juce::Colour(0xff3fc1a6), juce::Colour(0xffe8a33d)};
-    static const Palette lightOne{juce::Colour(0xffeceef0), juce::Colour(0xfffbfcfc), juce::Colour(0xffe4e7ea),
-                                  juce::Colour(0xffc6ccd2), juce::Colour(0xff1b2026), juce::Colour(0xff5b6570),
-                                  juce::Colour(0xff0c7f69), juce::Colour(0xffa86408)};
-    return dark ? darkOne : lightOne;
+    return dark ? darkPalette : lightPalette;
+}
+
+bool systemIsDark()
+{
+#if JUCE_LINUX || JUCE_BSD
+    if (juce::Desktop::getInstance().isDarkModeActive())
+        return true;
+    // JUCE sees a running settings daemon only; desktops also write their choice where programs of GTK find it.
+    const juce::String theme = juce::SystemStats::getEnvironmentVariable("GTK_THEME", {});
+    if (theme.isNotEmpty())
+        return theme.containsIgnoreCase("dark");
+    const juce::File home = juce::File::getSpecialLocation(juce::File::userHomeDirectory);
+    for (const char* version : {"gtk-4.0", "gtk-3.0"})
+    {
+        const juce::String settings =
+            home.getChildFile(".config").getChildFile(version).getChildFile("settings.ini").loadFileAsString();
+        for (const auto& line : juce::StringArray::fromLines(settings))
+        {
+            const auto value = line.fromFirstOccurrenceOf("=", false, false).trim();
+            if (line.startsWith("gtk-application-prefer-dark-theme"))
+                return value == "1" || value == "true";
+            if (line.startsWith("gtk-theme-name") && value.containsIgnoreCase("dark"))
+                return true;
+        }
+        if (settings.isNotEmpty())
+            return false;
+    }
+    return true;
+#else
+    return juce::Desktop::getInstance().isDarkModeActive();
+#endif
+}
+
+void makePrimary(juce::Button& button)
+{
+    button.getProperties().set(primaryProperty, true);
+}
+
+juce::Colour buttonTextColour(const juce::Button& button)
+{
+    return coloursOf(button, paletteFor(button), false, false).text;
+}
+
+void setOrigin(juce::Slider& slider, double value)
+{
+    slider.getProperties().set(originProperty, value);
 }
 
 Look::Look()
 {
+    installFonts();
     setDark(true);
 }
 
@@ -105,9 +127,11 @@ void Look::setDark(bool dark)
     setColour(juce::PopupMenu::textColourId, p.text);
     setColour(juce::PopupMenu::headerTextColourId, p.dim);
     setColour(juce::PopupMenu::highlightedBackgroundColourId, p.accent);
-    setColour(juce::PopupMenu::highlightedTextColourId, p.card);
+    setColour(juce::PopupMenu::highlightedTextColourId, p.onAccent);
     setColour(juce::TextButton::textColourOffId, p.text);
-    setColour(juce::TextButton::textColourOnId, p.card);
+    setColour(juce::TextButton::textColourOnId, p.onAccent);
+    setColour(juce::ToggleButton::tickColourId, p.accent);
+    setColour(juce::ToggleButton::tickDisabledColourId, p.dim);
     setColour(juce::ToggleButton::textColourId, p.text);
     setColour(juce::TooltipWindow::backgroundColourId, p.well);
     setColour(juce::TooltipWindow::textColourId, p.text);
@@ -131,39 +155,57 @@ void Look::drawRotarySlider(juce::Graphics& g, int x, int y, int width, int heig
                             float endAngle, juce::Slider& slider)
 {
     const Palette& p = palette();
-    const auto area = juce::Rectangle<int>(x, y, width, height).toFloat().reduced(3.0f);
-    const float radius = std::min(0.5f * std::min(area.getWidth(), area.getHeight()), largestKnob);
+    const auto area = juce::Rectangle<int>(x, y, width, height).toFloat().reduced(2.0f);
     const auto centre = area.getCentre();
-    const float thickness = std::max(2.5f, 0.13f * radius);
+    const float radius = 0.5f * std::min({area.getWidth(), area.getHeight(), static_cast<float>(space::mostKnob)});
+    const float thickness = std::max(3.0f, 0.11f * radius);
     const float ring = radius - 0.5f * thickness;
     const juce::PathStrokeType stroke(thickness, juce::PathStrokeType::curved, juce::PathStrokeType::rounded);
     const bool enabled = slider.isEnabled();
-
-    juce::Path way;
-    way.addCentredArc(centre.x, centre.y, ring, ring, 0.0f, startAngle, endAngle, true);
-    g.setColour(p.line);
-    g.strokePath(way, stroke);
-
-    // From the value that a double click restores, so that the eye sees what was changed.
-    const auto origin = static_cast<float>(slider.valueToProportionOfLength(slider.getDoubleClickReturnValue()));
-    const float from = startAngle + origin * (endAngle - startAngle);
-    const float to = startAngle + place * (endAngle - startAngle);
-    if (std::abs(to - from) > 0.01f)
+    const auto arc = [&](float from, float to, juce::Colour colour)
     {
-        juce::Path part;
-        part.addCentredArc(centre.x, centre.y, ring, ring, 0.0f, std::min(from, to), std::max(from, to), true);
-        g.setColour(enabled ? p.accent : p.dim);
-        g.strokePath(part, stroke);
-    }
+        juce::Path path;
+        path.addCentredArc(centre.x, centre.y, ring, ring, 0.0f, from, to, true);
+        g.setColour(colour);
+        g.strokePath(path, stroke);
+    };
+    const auto angle = [&](float proportion)
+    {
+        return startAngle + proportion * (endAngle - startAngle);
+    };
+    arc(startAngle, endAngle, p.line);
+    const float origin = angle(originOf(slider)), value = angle(place);
+    if (std::abs(value - origin) > 0.01f)
+        arc(std::min(origin, value), std::max(origin, value), enabled ? p.accent : p.dim.withAlpha(disabledAlpha));
+    else if (hasOrigin(slider))
+        arc(origin - 0.02f, origin + 0.02f, enabled ? p.accent : p.dim);
 
-    const float inner = ring - 1.6f * thickness;
-    g.setColour(p.well);
+    const float inner = ring - 1.4f * thickness;
+    g.setColour(slider.isMouseOverOrDragging() && enabled ? p.control.interpolatedWith(p.text, 0.08f) : p.control);
     g.fillEllipse(juce::Rectangle<float>(2.0f * inner, 2.0f * inner).withCentre(centre));
-    const auto tip = centre.getPointOnCircumference(inner * 0.86f, to);
-    const auto root = centre.getPointOnCircumference(inner * 0.42f, to);
+    const auto tip = centre.getPointOnCircumference(inner * 0.88f, value);
+    const auto root = centre.getPointOnCircumference(inner * 0.40f, value);
+    juce::Path pointer;
+    pointer.startNewSubPath(root);
+    pointer.lineTo(tip);
     g.setColour(enabled ? p.text : p.dim);
-    g.drawLine({root, tip}, 2.0f);
+    g.strokePath(pointer, juce::PathStrokeType(2.2f, juce::PathStrokeType::curved, juce::PathStrokeType::rounded));
     drawFocusRing(g, slider, slider.getLocalBounds().toFloat());
+}
+
+/// A knob has its number right below it, however tall its box is.
+juce::Slider::SliderLayout Look::getSliderLayout(juce::Slider& slider)
+{
+    auto layout = juce::LookAndFeel_V4::getSliderLayout(slider);
+    if (slider.isRotary() && slider.getTextBoxPosition() == juce::Slider::TextBoxBelow)
+    {
+        const int text = slider.getTextBoxHeight();
+        const int knob = std::min({slider.getWidth(), slider.getHeight() - text, space::mostKnob + 4});
+        const int top = std::max(0, (slider.getHeight() - knob - text) / 2);
+        layout.sliderBounds = {(slider.getWidth() - knob) / 2, top, knob, knob};
+        layout.textBoxBounds = {0, top + knob, slider.getWidth(), text};
+    }
+    return layout;
 }
 
 void Look::drawLinearSlider(juce::Graphics& g, int x, int y, int width, int height, float position, float, float,
@@ -174,62 +216,95 @@ void Look::drawLinearSlider(juce::Graphics& g, int x, int y, int width, int heig
     const float middle = area.getCentreY();
     const float left = area.getX();
     const float right = area.getRight();
-    const auto origin = static_cast<float>(slider.valueToProportionOfLength(slider.getDoubleClickReturnValue()));
-    const float from = left + origin * (right - left);
+    const float from = left + originOf(slider) * (right - left);
     const bool enabled = slider.isEnabled();
     g.setColour(p.line);
     g.fillRoundedRectangle({left, middle - 2.0f, right - left, 4.0f}, 2.0f);
-    g.setColour(enabled ? p.accent : p.dim);
+    g.setColour(enabled ? p.accent : p.dim.withAlpha(disabledAlpha));
     g.fillRoundedRectangle({std::min(from, position), middle - 2.0f, std::abs(position - from), 4.0f}, 2.0f);
-    g.setColour(p.dim);
-    g.fillRect(juce::Rectangle<float>(from - 0.5f, middle - 5.0f, 1.0f, 10.0f));
+    if (hasOrigin(slider))
+    {
+        g.setColour(p.dim);
+        g.fillRect(juce::Rectangle<float>(from - 0.5f, middle - 5.0f, 1.0f, 10.0f));
+    }
     g.setColour(enabled ? p.text : p.dim);
     g.fillEllipse(juce::Rectangle<float>(12.0f, 12.0f).withCentre({position, middle}));
     drawFocusRing(g, slider, slider.getLocalBounds().toFloat());
 }
 
-void Look::drawToggleButton(juce::Graphics& g, juce::ToggleButton& button, bool highlighted, bool)
+void Look::drawToggleButton(juce::Graphics& g, juce::ToggleButton& button, bool highlighted, bool down)
 {
-    const Palette& p = palette();
-    const auto area = button.getLocalBounds().toFloat().reduced(1.0f);
-    const bool on = button.getToggleState();
-    g.setColour(on ? p.warning : p.well);
-    g.fillRoundedRectangle(area, 4.0f);
-    g.setColour(highlighted ? p.dim : p.line);
-    g.drawRoundedRectangle(area.reduced(0.5f), 4.0f, 1.0f);
-    g.setColour(on ? p.card : p.text);
+    drawButtonBackground(g, button, {}, highlighted, down);
+    g.setColour(coloursOf(button, palette(), highlighted, down).text);
     g.setFont(smallFont());
-    g.drawFittedText(button.getButtonText(), button.getLocalBounds().reduced(4, 0), juce::Justification::centred, 1);
-    drawFocusRing(g, button, button.getLocalBounds().toFloat());
+    g.drawText(button.getButtonText(), button.getLocalBounds().reduced(3, 0), juce::Justification::centred, true);
 }
 
 void Look::drawButtonBackground(juce::Graphics& g, juce::Button& button, const juce::Colour&, bool highlighted,
                                 bool down)
 {
-    const Palette& p = palette();
+    // "On" differs by light and dark, whatever colours are told apart.
+    const auto colours = coloursOf(button, palette(), highlighted, down);
     const auto area = button.getLocalBounds().toFloat().reduced(0.5f);
-    const bool on = button.getToggleState();
-    g.setColour(on ? p.text : down ? p.line : p.well);
-    g.fillRoundedRectangle(area, 4.0f);
-    g.setColour(highlighted ? p.dim : p.line);
-    g.drawRoundedRectangle(area, 4.0f, 1.0f);
-    if (on)
-    {
-        // By light and dark and by shape, whatever colours are told apart.
-        g.setColour(p.card);
-        g.fillRoundedRectangle(area.reduced(grid, 0.0f).removeFromBottom(5.0f).removeFromTop(2.5f), 1.0f);
-    }
-    drawFocusRing(g, button, on ? area.reduced(1.5f) : button.getLocalBounds().toFloat());
+    juce::Path shape;
+    shape.addRoundedRectangle(area.getX(), area.getY(), area.getWidth(), area.getHeight(), space::corner, space::corner,
+                              !button.isConnectedOnLeft(), !button.isConnectedOnRight(), !button.isConnectedOnLeft(),
+                              !button.isConnectedOnRight());
+    g.setColour(colours.fill);
+    g.fillPath(shape);
+    g.setColour(colours.border);
+    g.strokePath(shape, juce::PathStrokeType(1.0f));
+    const bool filled = colours.border.isTransparent(); // its colour would hide the ring
+    drawFocusRing(g, button, filled ? area.reduced(1.5f) : button.getLocalBounds().toFloat(),
+                  filled ? std::optional(colours.text) : std::nullopt);
+}
+
+void Look::drawButtonText(juce::Graphics& g, juce::TextButton& button, bool highlighted, bool down)
+{
+    g.setColour(coloursOf(button, palette(), highlighted, down).text);
+    g.setFont(getTextButtonFont(button, button.getHeight()));
+    g.drawText(button.getButtonText(), button.getLocalBounds().reduced(grid / 2, 0), juce::Justification::centred,
+               true);
+}
+
+void Look::drawTickBox(juce::Graphics& g, juce::Component& component, float x, float y, float w, float h, bool ticked,
+                       bool enabled, bool, bool)
+{
+    const Palette& p = palette();
+    const auto box = juce::Rectangle<float>(x, y, w, h).reduced(0.5f);
+    g.setColour((ticked ? p.accent : p.well).withMultipliedAlpha(enabled ? 1.0f : disabledAlpha));
+    g.fillRoundedRectangle(box, 3.0f);
+    g.setColour(p.dim);
+    if (!ticked)
+        g.drawRoundedRectangle(box, 3.0f, 1.0f);
+    g.setColour(p.onAccent);
+    if (ticked)
+        drawIcon(g, Icon::tick, box);
+    drawFocusRing(g, component, component.getLocalBounds().toFloat());
+}
+
+void Look::drawScrollbar(juce::Graphics& g, juce::ScrollBar& bar, int x, int y, int width, int height, bool vertical,
+                         int thumbStart, int thumbSize, bool over, bool down)
+{
+    if (thumbSize <= 0 || thumbSize >= (vertical ? height : width))
+        return;
+    const auto thumb = vertical ? juce::Rectangle<int>(x, thumbStart, width, thumbSize)
+                                : juce::Rectangle<int>(thumbStart, y, thumbSize, height);
+    const auto area = thumb.toFloat().reduced(over || down ? 1.0f : 2.0f);
+    g.setColour(palette().dim.withAlpha(bar.isEnabled() ? (down ? 0.8f : over ? 0.6f : 0.35f) : 0.2f));
+    g.fillRoundedRectangle(area, 0.5f * std::min(area.getWidth(), area.getHeight()));
 }
 
 void Look::drawComboBox(juce::Graphics& g, int width, int height, bool, int, int, int, int, juce::ComboBox& box)
 {
     const Palette& p = palette();
     const auto area = juce::Rectangle<int>(width, height).toFloat().reduced(0.5f);
-    g.setColour(p.well);
-    g.fillRoundedRectangle(area, 4.0f);
-    g.setColour(p.line);
-    g.drawRoundedRectangle(area, 4.0f, 1.0f);
+    const float alpha = box.isEnabled() ? 1.0f : disabledAlpha;
+    g.setColour((box.isMouseOver(true) && box.isEnabled() ? p.control.interpolatedWith(p.text, 0.08f) : p.control)
+                    .withMultipliedAlpha(alpha));
+    g.fillRoundedRectangle(area, space::corner);
+    g.setColour(p.line.withMultipliedAlpha(alpha));
+    g.drawRoundedRectangle(area, space::corner, 1.0f);
     juce::Path arrow;
     const float x = area.getRight() - 14.0f;
     const float y = area.getCentreY();
@@ -243,7 +318,7 @@ void Look::drawComboBox(juce::Graphics& g, int width, int height, bool, int, int
 
 void Look::positionComboBoxText(juce::ComboBox& box, juce::Label& label)
 {
-    label.setBounds(grid, 1, box.getWidth() - 4 * grid, box.getHeight() - 2);
+    label.setBounds(grid, 1, box.getWidth() - 3 * grid - 4, box.getHeight() - 2);
     label.setFont(getComboBoxFont(box));
 }
 
@@ -255,6 +330,20 @@ juce::Font Look::getComboBoxFont(juce::ComboBox&)
 juce::Font Look::getMenuBarFont(juce::MenuBarComponent&, int, const juce::String&)
 {
     return usualFont();
+}
+
+void Look::drawMenuBarItem(juce::Graphics& g, int width, int height, int, const juce::String& text, bool over,
+                           bool open, bool, juce::MenuBarComponent& bar)
+{
+    const Palette& p = palette();
+    if (open || over)
+    {
+        g.setColour(open ? p.accent : p.control);
+        g.fillRoundedRectangle(juce::Rectangle<int>(width, height).toFloat().reduced(1.0f, 2.0f), space::corner);
+    }
+    g.setColour((open ? p.onAccent : p.text).withMultipliedAlpha(bar.isEnabled() ? 1.0f : disabledAlpha));
+    g.setFont(usualFont());
+    g.drawText(text, 0, 0, width, height, juce::Justification::centred, true);
 }
 
 juce::Font Look::getPopupMenuFont()
@@ -325,43 +414,16 @@ void Look::drawLabel(juce::Graphics& g, juce::Label& label)
         return;
     g.fillAll(label.findColour(juce::Label::backgroundColourId));
     g.setColour(label.findColour(juce::Label::textColourId).withMultipliedAlpha(label.isEnabled() ? 1.0f : 0.6f));
-    g.setFont(getLabelFont(label));
-    g.drawFittedText(label.getText(), label.getLocalBounds(), label.getJustificationType(), 1, 0.8f);
+    const juce::Font font = getLabelFont(label);
+    const int lines = std::max(1, label.getHeight() / juce::roundToInt(font.getHeight()));
+    g.setFont(font);
+    g.drawFittedText(label.getText(), label.getLocalBounds(), label.getJustificationType(), lines);
 }
 
 const Palette& paletteFor(const juce::Component& component)
 {
     const auto* look = dynamic_cast<const Look*>(&component.getLookAndFeel());
     return look ? look->palette() : paletteOf(true);
-}
-
-bool findJapaneseFont()
-{
-    return japaneseFont().isThere();
-}
-
-void useFontOf(const juce::String& language)
-{
-    japaneseNow = language == "ja" && findJapaneseFont();
-    // All fonts without a name get this one, those of JUCE's own components, too.
-    juce::LookAndFeel::getDefaultLookAndFeel().setDefaultSansSerifTypefaceName(japaneseNow ? japaneseFont().name
-                                                                                           : juce::String());
-    juce::Typeface::clearTypefaceCache();
-}
-
-juce::Font smallFont()
-{
-    return fontOf(13.0f, false);
-}
-
-juce::Font usualFont()
-{
-    return fontOf(14.5f, false);
-}
-
-juce::Font titleFont()
-{
-    return fontOf(20.0f, true);
 }
 
 juce::Rectangle<int> insideOfCard(juce::Rectangle<int> area) noexcept
@@ -373,19 +435,20 @@ juce::Rectangle<int> drawCard(juce::Graphics& g, juce::Rectangle<int> area, cons
                               const Palette& palette)
 {
     g.setColour(palette.card);
-    g.fillRoundedRectangle(area.toFloat(), 6.0f);
+    g.fillRoundedRectangle(area.toFloat(), space::cardCorner);
     g.setColour(palette.dim);
-    g.setFont(fontOf(13.0f, true));
+    g.setFont(smallFont().boldened());
     g.drawText(tr(name), area.reduced(2 * grid, grid).withHeight(2 * grid), juce::Justification::centredLeft, true);
     return insideOfCard(area);
 }
 
-void drawFocusRing(juce::Graphics& g, const juce::Component& component, juce::Rectangle<float> around)
+void drawFocusRing(juce::Graphics& g, const juce::Component& component, juce::Rectangle<float> around,
+                   std::optional<juce::Colour> colour)
 {
     if (!component.hasKeyboardFocus(true))
         return;
-    g.setColour(paletteFor(component).accent.withAlpha(0.8f));
-    g.drawRoundedRectangle(around.reduced(1.0f), 4.0f, 1.5f);
+    g.setColour(colour.value_or(paletteFor(component).accent));
+    g.drawRoundedRectangle(around.reduced(1.0f), space::corner, 2.0f);
 }
 
 } // namespace pacini::editor

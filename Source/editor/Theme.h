@@ -1,22 +1,31 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Visual theme of all windows: one grid, one accent, light or dark.
+// Look of all windows, light or dark, made from the design tokens.
+
+#include "editor/Fonts.h"
+#include "editor/Tokens.h"
 
 #include <juce_gui_basics/juce_gui_basics.h>
+
+#include <optional>
 
 namespace pacini::editor
 {
 
-/// All distances are multiples of this many pixels.
-inline constexpr int grid = 8;
-
-struct Palette
-{
-    juce::Colour background, card, well, line, text, dim, accent, warning;
-};
-
 [[nodiscard]] const Palette& paletteOf(bool dark) noexcept;
+
+/// Whether the system's theme is the dark one; dark where it does not say. [message]
+[[nodiscard]] bool systemIsDark();
+
+/// Marks the one prominent button of a bar.
+void makePrimary(juce::Button& button);
+
+/// The colour of a button's text or icon, by what it is and whether it is on.
+[[nodiscard]] juce::Colour buttonTextColour(const juce::Button& button);
+
+/// The value that the arc of a slider starts at. Without it that is 0 of a slider that goes both ways, else its lowest.
+void setOrigin(juce::Slider& slider, double value);
 
 /// The look of all components of a window. Setting a palette does not repaint: send lookAndFeelChanged afterwards.
 class Look final : public juce::LookAndFeel_V4
@@ -35,6 +44,15 @@ public:
     void drawToggleButton(juce::Graphics&, juce::ToggleButton&, bool highlighted, bool down) override;
     void drawButtonBackground(juce::Graphics&, juce::Button&, const juce::Colour&, bool highlighted,
                               bool down) override;
+    void drawButtonText(juce::Graphics&, juce::TextButton&, bool highlighted, bool down) override;
+    void drawMenuBarItem(juce::Graphics&, int width, int height, int index, const juce::String& text, bool over,
+                         bool open, bool overBar, juce::MenuBarComponent&) override;
+    void drawScrollbar(juce::Graphics&, juce::ScrollBar&, int x, int y, int width, int height, bool vertical,
+                       int thumbStart, int thumbSize, bool over, bool down) override;
+    int getDefaultScrollbarWidth() override { return space::scrollBar; }
+    void drawTickBox(juce::Graphics&, juce::Component&, float x, float y, float w, float h, bool ticked, bool enabled,
+                     bool highlighted, bool down) override;
+    juce::Slider::SliderLayout getSliderLayout(juce::Slider&) override;
     void drawComboBox(juce::Graphics&, int width, int height, bool down, int x, int y, int w, int h,
                       juce::ComboBox&) override;
     void positionComboBoxText(juce::ComboBox&, juce::Label&) override;
@@ -57,24 +75,14 @@ private:
 /// The look of a component's window; a dark one for a component without.
 [[nodiscard]] const Palette& paletteFor(const juce::Component& component);
 
-/// Whether this system has a font with the characters of Japanese.
-[[nodiscard]] bool findJapaneseFont();
-
-/// Fonts from now on have the characters of this language: Japanese needs one of its own. [message]
-void useFontOf(const juce::String& language);
-
-/// Type sizes: small for units and notes, usual, and large for titles.
-[[nodiscard]] juce::Font smallFont();
-[[nodiscard]] juce::Font usualFont();
-[[nodiscard]] juce::Font titleFont();
-
 /// A rounded panel behind a group of controls, with its name in the first row; what is left inside.
 juce::Rectangle<int> drawCard(juce::Graphics& g, juce::Rectangle<int> area, const juce::String& name,
                               const Palette& palette);
 /// The same rectangle without drawing.
 [[nodiscard]] juce::Rectangle<int> insideOfCard(juce::Rectangle<int> area) noexcept;
 
-/// Around the component that the keyboard speaks to.
-void drawFocusRing(juce::Graphics& g, const juce::Component& component, juce::Rectangle<float> around);
+/// A ring around the component that the keyboard speaks to, in the accent or another colour that is seen there.
+void drawFocusRing(juce::Graphics& g, const juce::Component& component, juce::Rectangle<float> around,
+                   std::optional<juce::Colour> colour = std::nullopt);
 
 } // namespace pacini::editor

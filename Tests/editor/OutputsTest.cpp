@@ -219,7 +219,7 @@ TEST_CASE("Without a device Play says so, offers to reconnect and does not prete
     CHECK(view.statusBar().playsOn() == "No audio device: nothing plays");
     view.doCommand(editor::playOrPause);
     CHECK_FALSE(session.transport.isPlaying());
-    CHECK(get<juce::TextButton>(view, "Play/pause").getButtonText() == "Play");
+    CHECK(get<editor::IconButton>(view, "Play/pause").icon() == editor::Icon::play);
     REQUIRE(view.question() != nullptr);
     CHECK(view.question()->getTitle() == "Nothing to play on");
     test::answer(*view.question(), "Reconnect");

@@ -74,23 +74,30 @@ TEST_CASE("Texts have the contrast that readers with weak eyes need, light and d
     {
         CAPTURE(dark);
         const auto& p = editor::paletteOf(dark);
-        for (const juce::Colour ground : {p.background, p.card, p.well})
+        for (const juce::Colour ground : {p.background, p.card, p.well, p.control})
         {
             CHECK(contrast(p.text, ground) >= 7.0); // WCAG AAA
             CHECK(contrast(p.dim, ground) >= 4.5);  // AA
-            CHECK(contrast(p.accent, ground) >= 3.0);
-            CHECK(contrast(p.warning, ground) >= 3.0);
+            for (const juce::Colour mark : {p.accent, p.warning, p.danger, p.event, p.tone, p.primary})
+                CHECK(contrast(mark, ground) >= 3.0);
         }
+        CHECK(contrast(p.onAccent, p.accent) >= 4.5);
+        CHECK(contrast(p.onPrimary, p.primary) >= 7.0);
     }
 }
 
-TEST_CASE("Accent, warning and text are told apart without red or green cones")
+TEST_CASE("Accent, warning, events and text are told apart without red or green cones")
 {
     for (const bool dark : {true, false})
     {
         const auto& p = editor::paletteOf(dark);
-        const std::array<std::pair<juce::Colour, juce::Colour>, 3> pairs{
-            {{p.accent, p.warning}, {p.accent, p.text}, {p.warning, p.text}}};
+        const std::array<std::pair<juce::Colour, juce::Colour>, 7> pairs{{{p.accent, p.warning},
+                                                                          {p.accent, p.text},
+                                                                          {p.warning, p.text},
+                                                                          {p.event, p.accent},
+                                                                          {p.event, p.warning},
+                                                                          {p.event, p.danger},
+                                                                          {p.event, p.text}}};
         for (const auto& [one, other] : pairs)
         {
             CAPTURE(dark, one.toString(), other.toString());

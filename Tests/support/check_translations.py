@@ -40,7 +40,8 @@ FILES = {
     "units and values of parameters, which are the same in every language for hosts": [
         "Source/plugin/engine/ParameterText.cpp"],
     "the description of the LV2, and errors of building it": ["Source/plugin/engine/Lv2Parameters.cpp"],
-    "codes of languages and names of fonts": ["Source/editor/Translation.cpp", "Source/editor/Translation.h"],
+    "codes of languages and names of fonts": [
+        "Source/editor/Fonts.cpp", "Source/editor/Translation.cpp", "Source/editor/Translation.h"],
 }
 
 LITERALS = {
@@ -50,7 +51,8 @@ LITERALS = {
         "IPAGothic", "TakaoPGothic", "VL PGothic", "/usr/share/fonts/opentype/noto/NotoSansCJK-", "DualSense",
         "Joy-Con", "LRA 175 Hz", "LRA 235 Hz", "L5 wristband", "L5 test jig", "ERM coin", "English", "A Framework for Audio-Tactile Signal Translation"],
     "names of threads, folders, settings and functions of libraries": [
-        "XESetWireToError", "Pacini capture", "Pacini joysticks", "js", "/dev/input", "/dev/snd/seq", "joycon-hd-rumble", "erm-coin", "Pacini set-up", "Pacini clips", "Application Support", "~/.config", "quiet", "devices",
+        "XESetWireToError", "Pacini capture", "Pacini joysticks", "js", "/dev/input", "/dev/snd/seq", "joycon-hd-rumble", "erm-coin", "Pacini set-up", "Pacini clips", "Application Support", "~/.config", "quiet", "primary", "origin", "dark", "true", "GTK_THEME", "gtk-theme-name",
+        "gtk-application-prefer-dark-theme", "max ", "fs ", "devices",
         "state", "recovery", "profiles", "Resources/demo", "share/pacini/demo", "pacini", "json", "wav", "pacb",
         "files", "clip", "Presets", "scale", ".sound-", "md", "demo", "pacini-demo", "flac", "plain drive"],
     "names that Windows keeps for devices": ["CON", "PRN", "AUX", "NUL", "COM", "LPT"],

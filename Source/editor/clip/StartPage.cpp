@@ -164,6 +164,7 @@ StartPage::StartPage(EditorModel& project, Actuators& profiles, FilePreview& pla
         addAndMakeVisible(*button);
         feltBy.push_back(std::move(button));
     }
+    makePrimary(openButton);
     prepareButton(openButton, "Opens sounds, clips and projects (Ctrl+O)", [this] { onOpen(); });
     addAndMakeVisible(openButton);
     prepareButton(outputsButton, "Chooses which output plays on which actuator",

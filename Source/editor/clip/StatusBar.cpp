@@ -2,6 +2,7 @@
 #include "editor/clip/StatusBar.h"
 
 #include "editor/Controls.h"
+#include "editor/Icons.h"
 #include "editor/Text.h"
 #include "editor/Theme.h"
 #include "editor/Translation.h"
@@ -105,14 +106,18 @@ void StatusBar::paint(juce::Graphics& g)
     for (std::size_t i = 0; i < steps.size(); ++i)
     {
         const auto& [isDone, text] = steps[i];
-        const juce::String words = (isDone ? toText("✓ ") : juce::String(static_cast<int>(i) + 1) + " ") + text;
+        const juce::String words = juce::String(static_cast<int>(i) + 1) + " " + text;
         // The step that comes next stands out, by weight and not by colour alone.
         const bool now = next && !isDone;
         next = next && isDone;
         g.setFont(now ? smallFont().boldened() : smallFont());
         g.setColour(now ? p.text : p.dim);
-        const int width = g.getCurrentFont().getStringWidth(words) + 3 * grid;
-        g.drawText(words, area.removeFromLeft(width), juce::Justification::centredLeft, true);
+        if (isDone)
+            drawIcon(g, Icon::tick, area.removeFromLeft(12).toFloat());
+        const juce::String& shown = isDone ? text : words;
+        area.removeFromLeft(isDone ? 4 : 0);
+        const int width = g.getCurrentFont().getStringWidth(shown) + 3 * grid;
+        g.drawText(shown, area.removeFromLeft(width), juce::Justification::centredLeft, true);
     }
 }
 

@@ -15,9 +15,9 @@ namespace
 {
 constexpr int plainDrive = 1; // menus know no item 0; profiles follow
 constexpr int fromFile = 100000;
-constexpr int clipWidth = 28, heardWidth = 36, profileWidth = 60, strengthWidth = 52; // of the labels
 constexpr int sliderWidth = 124;
-constexpr int leastHeard = 76;
+constexpr int iconWidth = 34, playWidth = 52;
+constexpr int leastHeard = 76, mostHeard = 140, leastLabel = 28;
 constexpr int leastChoices = 300; // of the three menus together: with less, labels are left out
 
 juce::String clockText(double seconds)
@@ -29,21 +29,12 @@ juce::String clockText(double seconds)
 } // namespace
 
 Toolbar::Toolbar(EditorModel& project, Actuators& profiles, Transport& playing)
-    : model(project),
-      actuators(profiles),
-      transport(playing),
-      startButton("|<"),
-      playButton("Play"),
-      zoomOutButton(toText("−")),
-      zoomInButton("+"),
-      fitButton("Fit"),
-      loopButton("Loop")
+    : model(project), actuators(profiles), transport(playing)
 {
     setTitle("Toolbar");
     const auto button = [this](juce::Button& one, Command command, const juce::String& title, const juce::String& help)
     {
         one.setTitle(title);
-        one.setWantsKeyboardFocus(true);
         prepareButton(one, help,
                       [this, command]
                       {
@@ -55,11 +46,11 @@ Toolbar::Toolbar(EditorModel& project, Actuators& profiles, Transport& playing)
     button(startButton, toStart, "Go to start", "Moves the playhead to the start (Home)");
     button(playButton, playOrPause, "Play/pause", "Plays from the playhead, or pauses (Space)");
     button(loopButton, loop, "Loop", "Repeats the time range or the whole clip (Ctrl+L)");
-    loopButton.setClickingTogglesState(false);
+    makePrimary(playButton);
     button(zoomOutButton, zoomOut, "Zoom out", "Zooms out (-)");
     button(zoomInButton, zoomIn, "Zoom in", "Zooms in (+)");
     button(fitButton, editor::fit, "Fit clip", "Shows the whole clip (0)");
-    time.setFont(juce::Font(juce::Font::getDefaultMonospacedFontName(), 15.0f, juce::Font::plain));
+    time.setFont(usualFont());
     time.setJustificationType(juce::Justification::centred);
     time.setTitle("Playhead");
     time.setTooltip("Playhead and clip length, minutes:seconds");
@@ -159,7 +150,6 @@ void Toolbar::fillProfiles()
 
 void Toolbar::showState()
 {
-    playButton.setButtonText(tr(transport.isPlaying() ? "Pause" : "Play"));
     loopButton.setToggleState(transport.isLooping(), juce::dontSendNotification);
     heard.setSelectedId(1 + static_cast<int>(transport.heard()), juce::dontSendNotification);
     int chosen = plainDrive;
@@ -183,9 +173,7 @@ void Toolbar::showTime()
     time.setText(clip ? clockText(transport.playhead()) + " / " + clockText(clip->duration)
                       : juce::String("-:-- / -:--"),
                  juce::dontSendNotification);
-    const juce::String wanted = tr(transport.isPlaying() ? "Pause" : "Play");
-    if (playButton.getButtonText() != wanted)
-        playButton.setButtonText(wanted);
+    playButton.setIcon(transport.isPlaying() ? Icon::pause : Icon::play);
 }
 
 void Toolbar::paint(juce::Graphics& g)
@@ -203,32 +191,38 @@ void Toolbar::resized()
         one.setBounds(area.removeFromLeft(width));
         area.removeFromLeft(after);
     };
-    put(startButton, 36, 4);
-    put(playButton, 64, 4);
-    put(loopButton, 52, grid);
-    put(time, 152, grid);
-    put(zoomOutButton, 30, 4);
-    put(zoomInButton, 30, 4);
-    put(fitButton, 44, 2 * grid);
+    put(startButton, iconWidth, 4);
+    put(playButton, playWidth, 4);
+    put(loopButton, iconWidth, grid);
+    put(time, smallFont().getStringWidth("00:00.00 / 00:00.00") + 3 * grid, grid);
+    put(zoomOutButton, iconWidth, 4);
+    put(zoomInButton, iconWidth, 4);
+    put(fitButton, iconWidth, 2 * grid);
+    const auto widthOf = [](const juce::Label& label)
+    {
+        return std::max(leastLabel, label.getFont().getStringWidth(label.getText()) + 2);
+    };
     int rest = area.getWidth() - sliderWidth - 3 * grid;
-    const int withLabels = rest - clipWidth - heardWidth - profileWidth - strengthWidth - 4 * 4;
-    const bool labelled = withLabels >= leastChoices;
-    rest = std::max(leastHeard, labelled ? withLabels : rest);
-    const int heardNow = std::max(leastHeard, rest * 22 / 100);
-    const int clipsNow = (rest - heardNow) * 2 / 5;
-    const auto putLabel = [&](juce::Label& label, int width)
+    int labels = 4 * 4;
+    for (const juce::Label* label : {&clipLabel, &heardLabel, &profileLabel, &strengthLabel})
+        labels += widthOf(*label);
+    const bool labelled = rest - labels >= leastChoices;
+    rest = std::max(leastHeard, labelled ? rest - labels : rest);
+    const int heardNow = std::clamp(rest * 22 / 100, leastHeard, mostHeard);
+    const int clipsNow = std::min(space::widestBox, (rest - heardNow) * 2 / 5);
+    const auto putLabel = [&](juce::Label& label)
     {
         label.setVisible(labelled);
         if (labelled)
-            put(label, width, 4);
+            put(label, widthOf(label), 4);
     };
-    putLabel(clipLabel, clipWidth);
+    putLabel(clipLabel);
     put(clips, clipsNow, grid);
-    putLabel(heardLabel, heardWidth);
+    putLabel(heardLabel);
     put(heard, heardNow, grid);
-    putLabel(profileLabel, profileWidth);
-    put(profile, rest - heardNow - clipsNow, grid);
-    putLabel(strengthLabel, strengthWidth);
+    putLabel(profileLabel);
+    put(profile, std::min(space::widestBox, rest - heardNow - clipsNow), grid);
+    putLabel(strengthLabel);
     put(strength, sliderWidth, 0);
 }
 

@@ -4,6 +4,7 @@
 // Toolbar: transport, zoom, actuator and clip, always in sight.
 
 #include "editor/Controls.h"
+#include "editor/Icons.h"
 #include "editor/clip/commands/Command.h"
 #include "editor/clip/session/Transport.h"
 
@@ -34,8 +35,8 @@ private:
     EditorModel& model;
     Actuators& actuators;
     Transport& transport;
-    juce::TextButton startButton, playButton, zoomOutButton, zoomInButton, fitButton;
-    juce::ToggleButton loopButton;
+    IconButton startButton{Icon::toStart}, playButton{Icon::play}, loopButton{Icon::loop};
+    IconButton zoomOutButton{Icon::zoomOut}, zoomInButton{Icon::zoomIn}, fitButton{Icon::fit};
     juce::Label time, clipLabel, heardLabel, profileLabel, strengthLabel;
     juce::ComboBox clips, heard, profile;
     Slider strength;

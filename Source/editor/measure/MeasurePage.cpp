@@ -60,6 +60,7 @@ MeasurePage::MeasurePage(std::shared_ptr<MeasurementController> wanted, std::fun
         show(static_cast<MeasureStep>(static_cast<int>(stepNow) + by));
     };
     prepareButton(backButton, "Previous step", [go] { go(-1); });
+    makePrimary(nextButton);
     prepareButton(nextButton, "Next step", [go] { go(1); });
     prepareButton(closeButton, "Back to the editor; measurements are kept until you quit", [this] { close(); });
     steps.onChoose = [this](MeasureStep chosen)

@@ -32,7 +32,6 @@ public:
         label.setText(name, juce::dontSendNotification);
         label.setFont(usualFont());
         label.setAccessible(false);
-        label.setMinimumHorizontalScale(0.8f);
         control.setTitle(name);
         control.setTooltip(help);
         addAndMakeVisible(label);

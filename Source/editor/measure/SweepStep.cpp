@@ -122,7 +122,6 @@ void SweepStep::refresh()
         row->name.setFont(usualFont());
         row->name.setTooltip(
             translateMessage(toText(placement.notes.empty() ? std::string() : placement.notes.front())));
-        row->name.setMinimumHorizontalScale(0.8f);
         row->drop.setButtonText(tr("Remove"));
         row->drop.setTitle(tr("Remove: {0}", {toText(placement.name)}));
         row->drop.setEnabled(controller.activity() == MeasurementController::Activity::none);

@@ -12,6 +12,7 @@
 #include <pacini/foundation/Units.h>
 #include <pacini/realtime/TranslatorPresets.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -71,10 +72,6 @@ juce::String helpOf(ParameterId parameter)
     return rowOf(parameter).help;
 }
 
-bool systemIsDark()
-{
-    return juce::Desktop::getInstance().isDarkModeActive();
-}
 } // namespace
 
 juce::AudioProcessorEditor* Plugin::createEditor()
@@ -100,7 +97,7 @@ PluginWindow::PluginWindow(Plugin& shown)
       capture(shown)
 {
     using Id = ParameterId;
-    look.setDark(systemIsDark());
+    look.setDark(editor::systemIsDark());
     setLookAndFeel(&look);
     setTitle("Pacini");
     setDescription("Turns sound into touch");
@@ -110,7 +107,7 @@ PluginWindow::PluginWindow(Plugin& shown)
     editor::prepareButton(undoButton, "Undoes the last step", [this] { processor.undo(); });
     redoButton.setTitle("Redo");
     editor::prepareButton(redoButton, "Redoes the last undone step", [this] { processor.redo(); });
-    for (IconButton* button : {&undoButton, &redoButton})
+    for (editor::IconButton* button : {&undoButton, &redoButton})
     {
         button->setWantsKeyboardFocus(true);
         adopt(*button, nullptr);
@@ -581,9 +578,9 @@ void PluginWindow::placeHeader(juce::Rectangle<int> area)
     atRight(clipsButton, 8);
     atRight(actuatorsButton, 11);
     area.removeFromRight(grid);
-    atRight(loadButton, 8);
     constexpr int edits = 4 * 4 * grid + 3 * grid; // and what is around them
-    const int box = (area.getWidth() - edits) / 2;
+    constexpr int load = 8 * grid;
+    const int box = std::min(editor::space::widestBox, (area.getWidth() - edits - load - 2 * grid) / 2);
     presets.setBounds(area.removeFromLeft(box));
     area.removeFromLeft(grid);
     undoButton.setBounds(area.removeFromLeft(4 * grid));
@@ -591,7 +588,10 @@ void PluginWindow::placeHeader(juce::Rectangle<int> area)
     area.removeFromLeft(grid);
     for (juce::TextButton& button : sideButtons)
         button.setBounds(area.removeFromLeft(4 * grid));
-    actuator->setBounds(area.withTrimmedLeft(grid));
+    area.removeFromLeft(grid);
+    actuator->setBounds(area.removeFromLeft(box));
+    area.removeFromLeft(grid);
+    loadButton.setBounds(area.removeFromLeft(load));
 }
 
 void PluginWindow::placeKnobs(juce::Rectangle<int> area, std::initializer_list<editor::ParameterSlider*> knobs)

@@ -4,6 +4,7 @@
 // The plugin's window.
 
 #include "editor/BandView.h"
+#include "editor/Icons.h"
 #include "editor/Meters.h"
 #include "editor/ParameterControls.h"
 #include "editor/Theme.h"
@@ -11,7 +12,6 @@
 #include "editor/clip/sheets/SheetOver.h"
 #include "plugin/window/ActuatorsPage.h"
 #include "plugin/window/CapturePanel.h"
-#include "plugin/window/IconButton.h"
 #include "plugin/window/Plugin.h"
 #include "plugin/window/PresetBox.h"
 #include "plugin/window/WindowSettings.h"
@@ -94,12 +94,12 @@ private:
     float hostScale = 1.0f;
     int scale = 100; // %
     PresetBox presets;
-    IconButton undoButton{IconButton::Icon::undo}, redoButton{IconButton::Icon::redo};
+    editor::IconButton undoButton{editor::Icon::undo}, redoButton{editor::Icon::redo};
     std::array<juce::TextButton, 2> sideButtons;
     std::unique_ptr<editor::ParameterChoice> actuator;
     juce::TextButton loadButton, actuatorsButton, clipsButton;
     std::unique_ptr<editor::ParameterToggle> bypassToggle;
-    IconButton menuButton{IconButton::Icon::menu};
+    editor::IconButton menuButton{editor::Icon::menu};
 
     std::unique_ptr<editor::ParameterChoice> sourceChoice;
     std::unique_ptr<editor::ParameterSlider> sourceMix, inputGain;

@@ -37,7 +37,7 @@ constexpr double roomBelowTouch = 12.0;  // dB
 constexpr std::size_t stepsPerPixel = 8; // are looked at, at most
 constexpr int shades = 8;
 
-juce::Colour lossColour(Loss loss, const Palette& p, bool dark)
+juce::Colour lossColour(Loss loss, const Palette& p)
 {
     switch (loss)
     {
@@ -46,10 +46,10 @@ juce::Colour lossColour(Loss loss, const Palette& p, bool dark)
     case Loss::outOfRange:
         return p.warning;
     case Loss::noVoice:
-        return juce::Colour(dark ? 0xff6f9be8 : 0xff3a66b8);
+        return p.tone;
     case Loss::dropped:
     case Loss::limited:
-        return juce::Colour(dark ? 0xffec6a5e : 0xffb8322a);
+        return p.danger;
     case Loss::none:
         break;
     }
@@ -308,9 +308,9 @@ void ActuatorRow::paintHead(juce::Graphics& g)
         return;
     g.setColour(p.dim);
     g.setFont(smallFont());
-    g.drawFittedText(toText(profile->name), top.removeFromTop(15), juce::Justification::centredLeft, 1, 0.75f);
+    g.drawFittedText(toText(profile->name), top.removeFromTop(15), juce::Justification::centredLeft, 1);
     g.drawFittedText(waiting ? tr(toText("Rendering…")) : summary, top.removeFromTop(15),
-                     juce::Justification::centredLeft, 1, 0.75f);
+                     juce::Justification::centredLeft, 1);
     // What the colours of the lower plot mean.
     struct Item
     {
@@ -318,26 +318,25 @@ void ActuatorRow::paintHead(juce::Graphics& g)
         const char* name;
     };
     auto legend = head.withSizeKeepingCentre(head.getWidth(), 44);
-    const bool dark = darkOf(*this);
     for (const Item& item :
          {Item{Loss::belowTouch, "not felt"}, Item{Loss::outOfRange, "out of range"}, Item{Loss::noVoice, "merged"}})
     {
         auto line = legend.removeFromTop(14);
         const auto swatch = [&](Loss loss)
         {
-            g.setColour(lossColour(loss, p, dark));
+            g.setColour(lossColour(loss, p));
             g.fillRect(line.removeFromLeft(9).withSizeKeepingCentre(9, 9));
             line.removeFromLeft(4);
             g.setColour(p.dim);
         };
         auto second = line;
         swatch(item.loss);
-        g.drawFittedText(tr(item.name), line.withWidth(72), juce::Justification::centredLeft, 1, 0.8f);
+        g.drawFittedText(tr(item.name), line.withWidth(72), juce::Justification::centredLeft, 1);
         if (item.loss == Loss::belowTouch)
         {
             line = second.withTrimmedLeft(74);
             swatch(Loss::dropped);
-            g.drawFittedText(tr("left out"), line, juce::Justification::centredLeft, 1, 0.8f);
+            g.drawFittedText(tr("left out"), line, juce::Justification::centredLeft, 1);
         }
     }
 }
@@ -345,7 +344,6 @@ void ActuatorRow::paintHead(juce::Graphics& g)
 void ActuatorRow::paintDrive(juce::Graphics& g, juce::Rectangle<int> plot)
 {
     const Palette& p = paletteFor(*this);
-    const bool dark = darkOf(*this);
     const auto visible = g.getClipBounds().getIntersection(plot);
     if (visible.isEmpty())
         return;
@@ -362,8 +360,8 @@ void ActuatorRow::paintDrive(juce::Graphics& g, juce::Rectangle<int> plot)
     std::vector<Column> peaks(static_cast<std::size_t>(visible.getWidth())), taken(peaks.size());
     shown->drive.columns(axis, peaks);
     shown->reduction.columns(axis, taken);
-    const juce::Colour limited = lossColour(Loss::limited, p, dark);
-    const juce::Colour soft = lossColour(Loss::belowTouch, p, dark);
+    const juce::Colour limited = lossColour(Loss::limited, p);
+    const juce::Colour soft = lossColour(Loss::belowTouch, p);
     {
         ColumnFill limits(g, limited), softLine(g, p.dim), line(g, p.accent), softGround(g, soft),
             ground(g, p.accent.withAlpha(0.45f)); // drawn from the last to the first
@@ -425,7 +423,7 @@ void ActuatorRow::drawLosses(const Clip& clip, juce::Rectangle<int> plot, const 
     const juce::PixelRGB ground = pixel(p.well), gap = pixel(p.card);
     std::array<juce::PixelRGB, 6> lost;
     for (std::size_t i = 0; i < lost.size(); ++i)
-        lost[i] = pixel(lossColour(static_cast<Loss>(i), p, dark));
+        lost[i] = pixel(lossColour(static_cast<Loss>(i), p));
     std::vector<std::size_t> rowOf(static_cast<std::size_t>(plot.getHeight()));
     for (std::size_t y = 0; y < rowOf.size(); ++y)
         rowOf[y] = sourceAt(static_cast<double>(y) + 0.5);

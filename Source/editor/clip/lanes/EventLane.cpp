@@ -45,7 +45,7 @@ EventLane::EventLane(EditorModel& project, ClipSelection& selected, ViewState& s
 
 PlotLane::Style EventLane::style() const
 {
-    const auto colour = paletteFor(*this).warning;
+    const auto colour = paletteFor(*this).event;
     if (shows == Shows::sharpness)
         return {"Sharpness", toText("0–100 %"), colour};
     return {"Transients", counted(count(), "{0} event", "{0} events"), colour};
@@ -90,8 +90,9 @@ void EventLane::paintPlot(juce::Graphics& g, juce::Rectangle<int> plot, int firs
         const auto i = static_cast<std::size_t>(event - events.begin());
         const auto at = pointOf(place(i));
         const bool isChosen = std::binary_search(chosen.begin(), chosen.end(), i);
-        g.setColour(isChosen ? p.text : p.warning);
-        g.fillRect(juce::roundToInt(at.x), juce::roundToInt(at.y), 1, juce::roundToInt(bottom - at.y));
+        g.setColour(isChosen ? p.text : p.event);
+        const int width = isChosen ? 3 : 1;
+        g.fillRect(juce::roundToInt(at.x) - width / 2, juce::roundToInt(at.y), width, juce::roundToInt(bottom - at.y));
         if (crowded)
             continue;
         g.fillPath(headOf(at, isChosen ? 12.0f : 9.0f, kindOf(*event)));

@@ -18,7 +18,7 @@ juce::Colour laneColour(const Clip& clip, Lane lane, const Palette& palette, boo
     if (lane.kind == LaneKind::envelope)
         return palette.accent;
     if (lane.kind == LaneKind::centroid)
-        return palette.warning;
+        return palette.tone;
     if (lane.kind == LaneKind::noise || clip.bands.empty())
         return palette.dim;
     const float place = static_cast<float>(lane.index) / static_cast<float>(clip.bands.size());

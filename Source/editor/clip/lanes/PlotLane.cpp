@@ -24,7 +24,6 @@ constexpr int edgeOfThings = 9;          // pixels to either side of what has ch
 constexpr double floorAmplitude = 0.001; // -60 dB
 constexpr double tickGap = 15.0;         // pixels between marks of the scale
 constexpr int tickWidth = 26;
-constexpr float tickFontHeight = 11.0f;
 
 constexpr juce::uint32 nudgePause = 700; // ms: presses nearer than this are one step of undo
 constexpr double spreadStep = 1.05;      // of differences of levels, a press
@@ -204,12 +203,12 @@ void PlotLane::paintHead(juce::Graphics& g)
         text = text.withSizeKeepingCentre(text.getWidth(), 36);
     const bool technical = viewState.viewOptions().technicalTerms;
     g.drawFittedText(tr(technical ? look.name : designerWord(look.name)), two ? text.removeFromTop(19) : text,
-                     juce::Justification::centredLeft, 1, 0.8f);
+                     juce::Justification::centredLeft, 1);
     if (!two)
         return;
     g.setColour(p.dim);
     g.setFont(smallFont());
-    g.drawFittedText(look.note, text, juce::Justification::centredLeft, 1, 0.7f);
+    g.drawFittedText(look.note, text, juce::Justification::centredLeft, 1);
 }
 
 /// Numbers of the scale, at the edge of the plot.
@@ -217,7 +216,7 @@ void PlotLane::paintTicks(juce::Graphics& g, juce::Rectangle<int> column, juce::
 {
     const ValueAxis& axis = scale();
     g.setColour(paletteFor(*this).dim);
-    g.setFont(smallFont().withHeight(tickFontHeight));
+    g.setFont(captionFont());
     for (const double value : valueTicks(axis, tickGap))
     {
         const juce::String text = axis.scale == ValueScale::decibels

@@ -38,7 +38,6 @@ AnalysisPanel::AnalysisPanel(EditorView& shown)
     const auto label = [this](juce::Label& one, const juce::String& text)
     {
         prepareLabel(one, text, smallFont());
-        one.setMinimumHorizontalScale(0.8f);
         one.setBorderSize({});
         addAndMakeVisible(one);
     };

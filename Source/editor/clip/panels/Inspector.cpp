@@ -27,7 +27,7 @@ juce::String stretchText(TimeRange range)
 }
 
 constexpr int inspectorRowHeight = 3 * grid;
-constexpr int inspectorPreferredHeight = 78 * grid;
+constexpr int inspectorPreferredHeight = 75 * grid;
 
 /// The first thing selected.
 struct FirstThing
@@ -67,7 +67,6 @@ Inspector::Inspector(EditorView& shown)
     const auto label = [this](juce::Label& one, const juce::String& text)
     {
         prepareLabel(one, text, smallFont());
-        one.setMinimumHorizontalScale(0.8f);
         addAndMakeVisible(one);
     };
     label(timeLabel, "Time");
@@ -199,7 +198,7 @@ void Inspector::lookAndFeelChanged()
     const Palette& p = paletteFor(*this);
     for (juce::Label* one : {&timeField, &valueField, &sharpField})
     {
-        one->setColour(juce::Label::backgroundColourId, p.well);
+        one->setColour(juce::Label::backgroundColourId, one->isEnabled() ? p.well : juce::Colours::transparentBlack);
         one->setColour(juce::Label::textColourId, p.text);
     }
     for (juce::Label* one : {&scopeText, &cost, &facts, &timeLabel, &valueLabel, &sharpLabel, &gainLabel, &keepLabel})
@@ -216,7 +215,9 @@ void Inspector::showSelection()
         label.setEnabled(shown);
         field.setEnabled(shown);
         if (!field.isBeingEdited())
-            field.setText(shown ? text : juce::String(), juce::dontSendNotification);
+            field.setText(shown ? text : toText("–"), juce::dontSendNotification);
+        field.setColour(juce::Label::backgroundColourId,
+                        shown ? paletteFor(field).well : juce::Colours::transparentBlack);
     };
     set(timeLabel, timeField, first.has_value(), first ? juce::String(first->time, 4) + " s" : "");
     const bool hertz = first.has_value() && first->hertz;
@@ -350,7 +351,7 @@ void Inspector::resized()
     fadeOutButton.setBounds(line);
     inside.removeFromTop(grid);
     reverseButton.setBounds(inside.removeFromTop(inspectorRowHeight + 4));
-    inside = card(simplifyCard, 17 * grid);
+    inside = card(simplifyCard, 14 * grid);
     keepLabel.setBounds(inside.removeFromTop(2 * grid));
     keep.setBounds(inside.removeFromTop(inspectorRowHeight + 4));
     cost.setBounds(inside);

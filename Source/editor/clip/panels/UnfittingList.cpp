@@ -47,9 +47,9 @@ public:
         auto area = getLocalBounds().reduced(2, 2);
         g.setColour(p.text);
         g.setFont(smallFont());
-        g.drawFittedText(title, area.removeFromTop(2 * grid), juce::Justification::centredLeft, 1, 0.8f);
+        g.drawFittedText(title, area.removeFromTop(2 * grid), juce::Justification::centredLeft, 1);
         g.setColour(p.dim);
-        g.drawFittedText(reason, area.removeFromTop(5 * grid), juce::Justification::topLeft, 3, 0.85f);
+        g.drawFittedText(reason, area.removeFromTop(5 * grid), juce::Justification::topLeft, 3);
         g.setColour(p.line);
         g.fillRect(getLocalBounds().removeFromBottom(1));
     }

@@ -59,6 +59,7 @@ SceneSheet::SceneSheet(Session& shared)
     for (juce::TextButton* button :
          {&playButton, &removeButton, &removeCurveButton, &fitButton, &openButton, &exportButton})
         button->setTitle(button->getButtonText());
+    makePrimary(playButton);
     prepareButton(playButton, "Plays the scene on the haptic outputs from the cursor on, or stops (Space)",
                   [this] { plays ? stop() : play(); });
     prepareButton(removeButton, "Removes the selected clip from the scene (Delete)",

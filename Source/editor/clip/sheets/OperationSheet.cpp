@@ -54,7 +54,6 @@ public:
                                             numberText(field.high, shortDecimals(field.high))}),
                      juce::dontSendNotification);
         unit.setFont(smallFont());
-        unit.setMinimumHorizontalScale(0.7f);
         unit.setAccessible(false);
         addAndMakeVisible(unit);
         slider.setSliderStyle(juce::Slider::LinearHorizontal);

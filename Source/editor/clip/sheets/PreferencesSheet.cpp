@@ -144,8 +144,9 @@ void PreferencesSheet::layOut(juce::Rectangle<int> area)
         auto line = area.removeFromTop(step).withSizeKeepingCentre(area.getWidth(),
                                                                    std::min(step - 2, preferenceRowHeight - 4));
         row->name.setBounds(line.removeFromLeft(nameWidth));
-        row->control->setBounds(dynamic_cast<juce::ToggleButton*>(row->control.get()) ? line.withWidth(9 * grid)
-                                                                                      : line);
+        row->control->setBounds(dynamic_cast<juce::ToggleButton*>(row->control.get())
+                                    ? line.withWidth(9 * grid)
+                                    : line.withWidth(std::min(line.getWidth(), space::widestBox)));
     }
 }
 

@@ -92,6 +92,8 @@ void Sheet::setAnswers(std::vector<Answer> answers)
             if (chosen)
                 chosen();
         };
+        if (i == 0 && choices.size() > 1) // what Return does
+            makePrimary(*button);
         addAndMakeVisible(*button);
         buttons.push_back(std::move(button));
     }

@@ -75,7 +75,7 @@ public:
             g.drawFittedText(key, row.removeFromLeft(keyWidth).withTrimmedRight(grid), juce::Justification::centredLeft,
                              1);
             g.setColour(p.dim);
-            g.drawFittedText(text, row, juce::Justification::centredLeft, 1, 0.8f);
+            g.drawFittedText(text, row, juce::Justification::centredLeft, 1);
         }
     }
 
