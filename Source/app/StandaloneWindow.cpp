@@ -2,6 +2,7 @@
 #include "app/StandaloneWindow.h"
 
 #include "app/DevicePage.h"
+#include "app/WindowPlace.h"
 #include "editor/Translation.h"
 
 #include <cstdlib>
@@ -115,6 +116,8 @@ StandaloneWindow::StandaloneWindow(plugin::Plugin& processor, AudioDevices& rig)
     setResizable(true, false);
     content->limitWindow();
     centreWithSize(getWidth(), getHeight());
+    if (const auto* display = juce::Desktop::getInstance().getDisplays().getDisplayForRect(getBounds()))
+        setBounds(insideOf(display->userArea, getBounds()));
     setVisible(true);
 }
 

@@ -111,10 +111,9 @@ public:
         const bool firstRun = settings && settings->isFirstRun();
         if (settings)
             settings->apply(view);
-        window->centreWithSize(1280, 800);
-        if (!settings || !window->restoreWindowStateFromString(settings->window()))
-            window->centreWithSize(1280, 800);
-        window->setVisible(true);
+        else
+            view.setDark(editor::systemIsDark());
+        window->open(settings ? settings->window() : juce::String());
         view.grabKeyboardFocus();
         if (!files.empty())
             view.files().open(files);
@@ -170,7 +169,7 @@ public:
     void shutdown() override
     {
         if (settings && window)
-            settings->keep(*rig, window->view(), window->getWindowStateAsString());
+            settings->keep(*rig, window->view(), window->state());
         studyWindow.reset();
         studyDevices.reset();
         window.reset();

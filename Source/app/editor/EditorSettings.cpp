@@ -2,6 +2,7 @@
 #include "app/editor/EditorSettings.h"
 
 #include "editor/Text.h"
+#include "editor/Theme.h"
 
 #include <utility>
 
@@ -68,7 +69,7 @@ void EditorSettings::apply(editor::EditorView& view) const
     view.session().actuators.setUsual(file.getValue("usualActuator").toStdString());
     view.statusBar().setSteps({file.getBoolValue("hasChosen", false), file.getBoolValue("hasShaped", false),
                                file.getBoolValue("hasExported", false)});
-    view.setDark(file.getBoolValue("dark", true));
+    view.setDark(file.getBoolValue("dark", editor::systemIsDark()));
     view.setScale(file.getDoubleValue("scale", 1.0));
     viewState.setAmplitudesInDecibels(file.getBoolValue("decibels", true));
     view.lastExport = {file.getValue("exportFormat").toStdString(), file.getIntValue("exportRate", 0),
@@ -92,7 +93,8 @@ void EditorSettings::keep(PreviewDevices& rig, editor::EditorView& view, const j
     file.setValue("hasChosen", view.statusBar().steps().chosen);
     file.setValue("hasShaped", view.statusBar().steps().shaped);
     file.setValue("hasExported", view.statusBar().steps().exported);
-    file.setValue("dark", view.isDark());
+    if (file.containsKey("dark") || view.isDark() != editor::systemIsDark()) // else the system's theme is followed
+        file.setValue("dark", view.isDark());
     file.setValue("scale", view.scale());
     file.setValue("decibels", viewState.amplitudesInDecibels());
     file.setValue("laneHeight", viewState.laneHeight());

@@ -1,17 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/editor/EditorWindow.h"
 
+#include "app/WindowPlace.h"
 #include "app/editor/DevicesSheet.h"
 #include "app/editor/MeasureDevice.h"
 #include "app/editor/PhoneSheet.h"
 #include "editor/Text.h"
 #include "editor/Translation.h"
 
+#include <algorithm>
+
 namespace pacini::app
 {
 
 namespace
 {
+constexpr int leastWidth = 880, leastHeight = 560;
+constexpr const char* maximisedMark = "max ";
+
 /// The shipped profile of what a controller has; empty: none is known.
 const char* profileFor(devices::ControllerHaptics haptics)
 {
@@ -44,7 +50,7 @@ EditorWindow::EditorWindow(editor::Session& session, PreviewDevices& wanted, edi
     setUsingNativeTitleBar(true);
     setContentNonOwned(&content, false);
     setResizable(true, false);
-    setResizeLimits(880, 560, 6000, 4000);
+    setResizeLimits(leastWidth, leastHeight, 6000, 4000);
     content.onTitleChanged = [this]
     {
         setName(content.title());
@@ -113,6 +119,37 @@ EditorWindow::~EditorWindow()
 void EditorWindow::closeButtonPressed()
 {
     juce::JUCEApplication::getInstance()->systemRequestedQuit();
+}
+
+void EditorWindow::open(const juce::String& state)
+{
+    constexpr int usualWidth = 1280, usualHeight = 800;
+    centreWithSize(usualWidth, usualHeight);
+    const auto& displays = juce::Desktop::getInstance().getDisplays();
+    const bool known = state.isNotEmpty() && restoreWindowStateFromString(state.trimCharactersAtStart(maximisedMark));
+    if (!known)
+        centreWithSize(usualWidth, usualHeight);
+    if (const auto* display = displays.getDisplayForRect(getBounds()))
+    {
+        const auto screen = display->userArea;
+        // The least size gives way to a screen that is even less.
+        setResizeLimits(std::min(leastWidth, screen.getWidth()),
+                        std::min(leastHeight, screen.getHeight() - usualTitleBar), 6000, 4000);
+        if (!isFullScreen())
+            setBounds(insideOf(screen, getBounds()));
+    }
+    setVisible(true);
+    if (state.startsWith(maximisedMark))
+        setFullScreen(true);
+}
+
+juce::String EditorWindow::state()
+{
+    // Window managers that maximise do not tell JUCE.
+    const auto* display = juce::Desktop::getInstance().getDisplays().getDisplayForRect(getBounds());
+    const bool maximised = isFullScreen() || (display != nullptr && fills(display->userArea, getBounds()));
+    return (maximised ? juce::String(maximisedMark) : juce::String()) +
+           getWindowStateAsString().trimCharactersAtStart("fs ");
 }
 
 void EditorWindow::showDevices()

@@ -24,6 +24,11 @@ public:
     EditorWindow(editor::Session& session, PreviewDevices& rig, editor::HostServices around);
     ~EditorWindow() override;
 
+    /// Shows the window where `state` says, inside the screen there is now; without one, in the middle.
+    void open(const juce::String& state);
+    /// For open().
+    [[nodiscard]] juce::String state();
+
     [[nodiscard]] editor::EditorView& view() noexcept { return content; }
     void closeButtonPressed() override;
     void focusGained(FocusChangeType) override { content.takeFocus(); }
