@@ -125,11 +125,13 @@ EditorView::EditorView(Session& shared, HostServices around)
                          if (onTitleChanged)
                              onTitleChanged();
                      });
+    juce::Desktop::getInstance().addFocusChangeListener(this);
     arrange();
 }
 
 EditorView::~EditorView()
 {
+    juce::Desktop::getInstance().removeFocusChangeListener(this);
     open.model.onError = nullptr;
     open.model.onNotice = nullptr;
     open.model.onWritten = nullptr;
@@ -226,6 +228,37 @@ void EditorView::takeFocus()
         grabKeyboardFocus();
 }
 
+void EditorView::globalFocusChanged(juce::Component* focused)
+{
+    if (focused != nullptr && isParentOf(focused) &&
+        !juce::ModifierKeys::getCurrentModifiersRealtime().isAnyMouseButtonDown())
+        scrollIntoView(*focused);
+}
+
+void EditorView::scrollIntoView(juce::Component& focused)
+{
+    auto* viewport = focused.findParentComponentOfClass<juce::Viewport>();
+    auto* page = viewport != nullptr ? viewport->getViewedComponent() : nullptr;
+    if (page == nullptr || !page->isParentOf(&focused))
+        return;
+    const auto wanted = page->getLocalArea(&focused, focused.getLocalBounds()).expanded(0, grid);
+    const auto seen = viewport->getViewArea();
+    if (wanted.getY() < seen.getY() || wanted.getHeight() > seen.getHeight())
+        viewport->setViewPosition(seen.getX(), wanted.getY());
+    else if (wanted.getBottom() > seen.getBottom())
+        viewport->setViewPosition(seen.getX(), wanted.getBottom() - seen.getHeight());
+}
+
+/// To what had the keyboard before the sheet.
+void EditorView::returnFocus()
+{
+    auto* const before = focusedBefore.getComponent();
+    focusedBefore = nullptr;
+    takeFocus();
+    if (before != nullptr && before->isShowing() && isParentOf(before))
+        before->grabKeyboardFocus();
+}
+
 void EditorView::focusPart(int direction)
 {
     const std::vector<juce::Component*> parts{&toolbar, &clipPart, &side, &meters, &start};
@@ -280,6 +313,8 @@ bool EditorView::keyPressed(const juce::KeyPress& key)
 
 void EditorView::showSheet(std::unique_ptr<Sheet> wanted)
 {
+    if (!sheetNow && wanted)
+        focusedBefore = getCurrentlyFocusedComponent();
     sheetNow = std::move(wanted);
     if (!lastExport.format.empty())
         status.setExported();
@@ -289,7 +324,7 @@ void EditorView::showSheet(std::unique_ptr<Sheet> wanted)
         messages.pop_front();
     }
     if (!sheetNow)
-        return takeFocus();
+        return returnFocus();
     sheetNow->onClose = [this]
     {
         // Not from within one of its own functions.

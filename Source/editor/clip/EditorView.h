@@ -53,7 +53,7 @@ struct HostServices
 };
 
 /// Layout, look and sheets; the menus implement the commands.
-class EditorView final : public juce::Component, public juce::FileDragAndDropTarget
+class EditorView final : public juce::Component, public juce::FileDragAndDropTarget, private juce::FocusChangeListener
 {
 public:
     EditorView(Session& shared, HostServices around);
@@ -107,7 +107,12 @@ public:
     void paint(juce::Graphics& g) override;
     void resized() override;
 
+    /// Scrolls what has the keyboard into view; not while a mouse button is down, which would move what it holds.
+    static void scrollIntoView(juce::Component& focused);
+
 private:
+    void globalFocusChanged(juce::Component* focused) override;
+    void returnFocus();
     void showOpenedScene();
     void tellNowhere();
     void reconnect();
@@ -136,6 +141,7 @@ private:
     NoticeBar notice;
     SheetOver over{body};
     std::unique_ptr<Sheet> sheetNow;
+    SafePointer<juce::Component> focusedBefore;  ///< the sheet
     std::deque<std::unique_ptr<Sheet>> messages; ///< that wait
     HeldSwitch drawKey;
     juce::TooltipWindow tooltips{&body, 600};
