@@ -15,10 +15,12 @@ from pathlib import Path
 
 from host_test import Processes, check, failures, needs, picture, until
 
-needs("Xvfb", "xdotool", "import", "convert")
+needs("Xvfb", "xdotool", "import", "convert", "compare")
 
 # Where things are in a window of 1280 x 800: the head of a row, then the plot.
 PLOT_LEFT, ENVELOPE_TOP, ENVELOPE_HEIGHT = 144, 26 + 42 + 26 + 72 + 72 + 48, 71
+
+TAB_STOPS, LEAST_RING = 40, 40  # pixels of a ring around the smallest button
 
 
 class Screen(Processes):
@@ -55,6 +57,25 @@ class Screen(Processes):
         self.tool("type", "--delay", "20", text)
         time.sleep(0.3)
 
+    def difference(self, one, other):
+        """Pixels in which two pictures differ beyond the smoothing of edges."""
+        found = subprocess.run(["compare", "-metric", "AE", "-fuzz", "5%", str(one), str(other), "null:"],
+                               capture_output=True, text=True, timeout=60)
+        return int(float(found.stderr.split()[0]))
+
+    def unseen_stops(self, folder, most):
+        """The stops of Tab, of `most`, at which nothing shows where the keyboard is."""
+        without, now = folder / "without.png", folder / "now.png"
+        self.keys("Tab")  # enters the window
+        picture(self.display, without)
+        unseen = []
+        for stop in range(1, most + 1):
+            self.keys("Tab")
+            picture(self.display, now)
+            if self.difference(without, now) < LEAST_RING:
+                unseen.append(stop)
+        return unseen
+
     def export(self, path, rendered=False):
         """The shown clip as a file: the path."""
         self.keys("ctrl+e")
@@ -88,6 +109,10 @@ def main():
         app = screen.start(program, "--fresh", demo, env=screen.environment)
         check("the window opens", until(screen.find_window))
         time.sleep(3)  # the analysis of a short sound
+        screen.focus()
+
+        unseen = screen.unseen_stops(folder, TAB_STOPS)
+        check("every stop of Tab shows where the keyboard is", not unseen, f"{len(unseen)} of {TAB_STOPS}: {unseen}")
         screen.focus()
 
         def clip(path):
