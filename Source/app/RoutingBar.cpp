@@ -2,6 +2,7 @@
 #include "app/RoutingBar.h"
 
 #include "editor/Translation.h"
+#include "io/AudioExtensions.h"
 
 #include <algorithm>
 #include <array>
@@ -242,8 +243,10 @@ void RoutingBar::readMenus()
 
 void RoutingBar::chooseFile()
 {
-    chooser = std::make_unique<juce::FileChooser>(tr("Play a sound file"), juce::File(),
-                                                  "*.wav;*.flac;*.ogg;*.mp3;*.aif;*.aiff;*.caf");
+    juce::StringArray names;
+    for (const std::string& extension : audioExtensions())
+        names.add("*" + juce::String(extension));
+    chooser = std::make_unique<juce::FileChooser>(tr("Play a sound file"), juce::File(), names.joinIntoString(";"));
     chooser->launchAsync(juce::FileBrowserComponent::openMode | juce::FileBrowserComponent::canSelectFiles,
                          [this](const juce::FileChooser& chosen)
                          {

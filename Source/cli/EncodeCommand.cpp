@@ -204,8 +204,8 @@ CLI::App* EncodeCommand::declare(CLI::App& app)
         oneOf(formats));
     addOption(
         *command, "--markers", markersFile,
-        "Text file of times in s and labels, such as Audacity's, that become markers of the clip besides those of "
-        "the sound; for one sound",
+        "Cue sheet (.cue), or text file of times in s and labels, such as Audacity's, that become markers of the clip "
+        "besides those of the sound; for one sound",
         "FILE");
     addOption(
         *command, "--scenes", scenes,

@@ -112,16 +112,6 @@ InputFiles findInputs(const std::vector<std::string>& named, const std::vector<s
     return found;
 }
 
-const std::vector<std::string>& audioExtensions()
-{
-    static const std::vector<std::string> extensions = {
-        ".wav", ".wave", ".aif", ".aiff", ".aifc", ".flac", ".ogg",  ".oga", ".opus", ".mp3",  ".caf",
-        ".w64", ".rf64", ".bwf", ".au",   ".snd",  ".mp4",  ".m4v",  ".mov", ".mkv",  ".webm", ".avi",
-        ".m4a", ".mka",  ".aac", ".ac3",  ".3gp",  ".mpg",  ".m2ts", ".wma", ".wmv",  ".asf",  ".flv",
-        ".ogv", ".spx",  ".wv",  ".ape",  ".tta",  ".amr",  ".dts",  ".eac3"};
-    return extensions;
-}
-
 Result<OutputPlace> outputFor(const InputFile& input, const OutputNames& names, bool several, bool makeFolders)
 {
     fs::path path;

@@ -2,6 +2,8 @@
 
 // Input files of a command, and the paths of its results.
 
+#include "io/AudioExtensions.h"
+
 #include <pacini/foundation/Result.h>
 
 #include <filesystem>
@@ -36,9 +38,6 @@ struct InputFiles
 /// `extensions` (lower case, with dot) count. Hidden files and records of conversions are passed over in folders. `-`
 /// is standard input.
 [[nodiscard]] InputFiles findInputs(const std::vector<std::string>& named, const std::vector<std::string>& extensions);
-
-/// The extensions of audio files that are looked for in folders.
-[[nodiscard]] const std::vector<std::string>& audioExtensions();
 
 /// Whether `output`, which is not empty, is or is to be a folder.
 [[nodiscard]] bool namesFolder(const std::string& output);

@@ -1,5 +1,6 @@
 #include "document/FolderFiles.h"
 
+#include "io/AudioExtensions.h"
 #include "io/ClipFile.h"
 #include "io/FileExtension.h"
 
@@ -13,7 +14,7 @@ namespace fs = std::filesystem;
 
 std::vector<std::string> openableExtensions()
 {
-    std::vector<std::string> all = {".wav", ".flac", ".ogg", ".opus", ".mp3", ".aif", ".aiff", ".caf", ".w64", ".au"};
+    std::vector<std::string> all = audioExtensions();
     for (std::string extension : clipFileExtensions())
         if (std::find(all.begin(), all.end(), extension) == all.end())
             all.push_back(std::move(extension));

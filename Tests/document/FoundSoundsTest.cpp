@@ -3,11 +3,14 @@
 #include "document/Document.h"
 #include "document/FolderFiles.h"
 #include "document/ProjectEdits.h"
+#include "io/AudioExtensions.h"
 #include "io/AudioWriter.h"
 #include "support/Catch.h"
 #include "support/TempFolder.h"
 
+#include <algorithm>
 #include <filesystem>
+#include <string>
 
 using namespace pacini;
 using pacini::test::TempFolder;
@@ -85,4 +88,11 @@ TEST_CASE("A folder gives its sounds and clips at every depth, sorted, and nothi
                                                          folder / "b/m.json", folder / "z.wav"};
     CHECK(openableFiles(folder.path()) == expected);
     CHECK(openableFiles(folder / "missing").empty());
+    // What the command looks for in folders, the editor does.
+    const auto openable = openableExtensions();
+    for (const std::string& extension : audioExtensions())
+    {
+        INFO(extension);
+        CHECK(std::find(openable.begin(), openable.end(), extension) != openable.end());
+    }
 }
