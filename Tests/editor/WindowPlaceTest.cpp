@@ -1,6 +1,7 @@
 // Windows open inside the screen that there is.
 
 #include "app/WindowPlace.h"
+
 #include "support/Catch.h"
 
 using namespace pacini;

@@ -57,9 +57,7 @@ def main():
             samples = sound(seed)
             length += len(samples) / RATE
             pacini.write_audio(f"sounds/{seed:06}.wav", samples.astype("f4"), RATE, encoding="pcm16")
-        print(
-            f"{count} sounds, {length / count:.2f} s each, {size('sounds') / count / 1e3:.0f} kB; {WORKERS} workers"
-        )
+        print(f"{count} sounds, {length / count:.2f} s each, {size('sounds') / count / 1e3:.0f} kB; {WORKERS} workers")
         steps = {
             "encode": (
                 "encode",
