@@ -153,15 +153,15 @@ void IconButton::paintButton(juce::Graphics& g, bool highlighted, bool down)
     getLookAndFeel().drawButtonBackground(g, *this, {}, highlighted, down);
     g.setColour(buttonTextColour(*this));
     auto area = getLocalBounds();
-    const juce::String text = getButtonText();
-    if (text.isEmpty())
+    const juce::String label = getButtonText();
+    if (label.isEmpty())
         return drawIcon(g, shown, area.toFloat());
     const int room = juce::roundToInt(iconSide) + 6;
-    const int width = room + smallFont().getStringWidth(text);
+    const int width = room + smallFont().getStringWidth(label);
     area = area.withSizeKeepingCentre(std::min(width, getWidth() - 8), getHeight());
     drawIcon(g, shown, area.removeFromLeft(room).withTrimmedRight(6).toFloat());
     g.setFont(smallFont());
-    g.drawText(text, area.withTrimmedRight(-2), juce::Justification::centredLeft, true);
+    g.drawText(label, area.withTrimmedRight(-2), juce::Justification::centredLeft, true);
 }
 
 } // namespace pacini::editor

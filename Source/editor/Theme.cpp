@@ -244,19 +244,19 @@ void Look::drawButtonBackground(juce::Graphics& g, juce::Button& button, const j
                                 bool down)
 {
     // "On" differs by light and dark, whatever colours are told apart.
-    const auto colours = coloursOf(button, palette(), highlighted, down);
+    const auto shown = coloursOf(button, palette(), highlighted, down);
     const auto area = button.getLocalBounds().toFloat().reduced(0.5f);
     juce::Path shape;
     shape.addRoundedRectangle(area.getX(), area.getY(), area.getWidth(), area.getHeight(), space::corner, space::corner,
                               !button.isConnectedOnLeft(), !button.isConnectedOnRight(), !button.isConnectedOnLeft(),
                               !button.isConnectedOnRight());
-    g.setColour(colours.fill);
+    g.setColour(shown.fill);
     g.fillPath(shape);
-    g.setColour(colours.border);
+    g.setColour(shown.border);
     g.strokePath(shape, juce::PathStrokeType(1.0f));
-    const bool filled = colours.border.isTransparent(); // its colour would hide the ring
+    const bool filled = shown.border.isTransparent(); // its colour would hide the ring
     drawFocusRing(g, button, filled ? area.reduced(1.5f) : button.getLocalBounds().toFloat(),
-                  filled ? std::optional(colours.text) : std::nullopt);
+                  filled ? std::optional(shown.text) : std::nullopt);
 }
 
 void Look::drawButtonText(juce::Graphics& g, juce::TextButton& button, bool highlighted, bool down)
