@@ -62,9 +62,7 @@ void addFolder(const fs::path& folder, const std::vector<std::string>& extension
     {
         const fs::path path = entry->path();
         std::error_code ignored;
-        if (isHidden(path) && entry->is_directory(ignored))
-            entry.disable_recursion_pending();
-        else if (entry->is_directory(ignored) && !canBeListed(path, found))
+        if (entry->is_directory(ignored) && (isHidden(path) || !canBeListed(path, found)))
             entry.disable_recursion_pending();
         else if (!isHidden(path) && !isManifestName(path) && entry->is_regular_file(ignored) &&
                  std::find(extensions.begin(), extensions.end(), lowerExtension(path)) != extensions.end())

@@ -131,7 +131,7 @@ public:
         const auto saved = settings ? settings->devices() : nullptr;
         if (const auto error = openDevice(*studyDevices, 0, mostChannels, saved.get(), deviceType); error.isNotEmpty())
             juce::Logger::writeToLog("Pacini: no sound device: " + error);
-        const auto opened = openStudy(named, *studyDevices, std::move(profiles), [this] { quit(); });
+        const auto opened = openStudy(named, *studyDevices, std::move(profiles), [] { quit(); });
         if (!opened)
         {
             std::cerr << "PaciniEditor: " << study::studyFileOf(named).string() << ": " << opened.error().text()
