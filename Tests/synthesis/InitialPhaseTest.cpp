@@ -1,5 +1,6 @@
 // The initial phase of a band's carrier (Weber 2020, Eq. 4.13), from the clip to the samples.
 
+#include "analysis/methods/MethodSignals.h"
 #include "support/Catch.h"
 #include "support/ClipSamples.h"
 
@@ -32,17 +33,6 @@ Clip tone(double phase)
     return clip;
 }
 
-std::vector<float> rendered(const Clip& clip, double fs)
-{
-    DecoderParams params;
-    params.sampleRate = fs;
-    params.followEnvelope = false;
-    Decoder decoder(clip, params);
-    std::vector<float> out(static_cast<std::size_t>(decoder.totalFrames()));
-    decoder.process(out);
-    return out;
-}
-
 /// Phase of 100 Hz at the start, cycles from 0 to 1, from the middle of the sound.
 double phaseOf(const std::vector<float>& x, double fs)
 {
@@ -65,7 +55,7 @@ TEST_CASE("A carrier starts at the phase of its band at every sample rate", "[cl
         for (const double phase : {0.0, 0.1, 0.25, 0.5, 0.9})
         {
             CAPTURE(fs, phase);
-            CHECK(std::abs(std::remainder(phaseOf(rendered(tone(phase), fs), fs) - phase, 1.0)) < 2e-3);
+            CHECK(std::abs(std::remainder(phaseOf(test::played(tone(phase), fs), fs) - phase, 1.0)) < 2e-3);
         }
 }
 
@@ -74,13 +64,13 @@ TEST_CASE("Whole cycles of phase change nothing, and any finite number is a phas
 {
     for (const double fs : {8000.0, 48000.0, 768000.0})
     {
-        const auto without = rendered(tone(0.0), fs);
-        CHECK(rendered(tone(1.0), fs) == without);
-        CHECK(rendered(tone(0.25), fs) != without);
+        const auto without = test::played(tone(0.0), fs);
+        CHECK(test::played(tone(1.0), fs) == without);
+        CHECK(test::played(tone(0.25), fs) != without);
         for (const double phase : {-0.25, 7.75, -1e6 - 0.25, 1e15, -1e300, 5e-324, std::numeric_limits<double>::max()})
         {
             CAPTURE(fs, phase);
-            CHECK(rendered(tone(phase), fs) == rendered(tone(phase - std::floor(phase)), fs));
+            CHECK(test::played(tone(phase), fs) == test::played(tone(phase - std::floor(phase)), fs));
         }
     }
 }
@@ -175,7 +165,7 @@ TEST_CASE("Phases leave stiff bodies and sharp filters stable from 8 to 768 kHz"
         for (const double phase : {0.0, 0.123, 0.25, 0.5, 0.999})
         {
             CAPTURE(fs, phase);
-            auto drive = rendered(tone(phase), fs);
+            auto drive = test::played(tone(phase), fs);
             float peak = 0.0f;
             for (const float x : drive)
                 peak = std::max(peak, std::abs(x));

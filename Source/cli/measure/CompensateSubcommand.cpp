@@ -4,7 +4,7 @@
 #include "cli/InputFiles.h"
 #include "cli/Options.h"
 #include "cli/Overwrite.h"
-#include "cli/ProfileInput.h"
+#include "cli/measure/RigInput.h"
 #include "io/AudioFile.h"
 #include "io/Overwrite.h"
 
@@ -102,54 +102,43 @@ CLI::App* CompensateSubcommand::declare(CLI::App& app)
 
 Exit CompensateSubcommand::run(Console& console)
 {
-    auto actuator = openProfile(console, profile);
-    if (!actuator)
+    const auto opened = openRig(console, profile, input);
+    if (!opened)
         return Exit::failed;
-    if (!actuator->body || actuator->technology == Technology::erm)
-        return console.fail(profile, {ErrorCode::invalidData, actuator->body ? "technology" : "body",
-                                      actuator->body ? "is a motor, which plays no waveform"
-                                                     : "is missing; choose a profile with a body model"});
-    AudioReadOptions options;
-    options.lowestSampleRate = limits::lowestWrittenRate;
-    const auto sound = readAudio(input, options);
-    if (!sound)
-        return console.fail(input, sound.error());
-    console.warnings(input, sound->warnings);
-    if (sound->channels != 1)
-        return console.fail(input, {ErrorCode::invalidData, "", "must have one channel"});
-    if (sound->samples.empty())
+    const auto& [actuator, sound] = *opened;
+    if (sound.samples.empty())
         return console.fail(input, {ErrorCode::invalidData, "", "has no frames"});
     if (!output.empty() && isSameFile(output, input))
         return console.fail(output, {ErrorCode::invalidArgument, "", "is the drive; name another output"}, Exit::usage);
 
     constexpr double mostFrames = 4e7; // three channels of them are half a gigabyte
-    if (!output.empty() && duration * sound->sampleRate > mostFrames)
+    if (!output.empty() && duration * sound.sampleRate > mostFrames)
         return console.fail(output,
                             {ErrorCode::tooLarge, "--duration",
-                             fmt::format("is too long to write at {} Hz; at most {:.0f} s", sound->sampleRate,
-                                         std::floor(mostFrames / sound->sampleRate))},
+                             fmt::format("is too long to write at {} Hz; at most {:.0f} s", sound.sampleRate,
+                                         std::floor(mostFrames / sound.sampleRate))},
                             Exit::usage);
 
     TighteningStrapParams strap;
-    strap.loose = *actuator->body;
-    strap.tight = tightened(*actuator->body, tightness);
-    strap.resonance = strap.tightResonance = actuator->resonance;
+    strap.loose = *actuator.body;
+    strap.tight = tightened(*actuator.body, tightness);
+    strap.resonance = strap.tightResonance = actuator.resonance;
     strap.start = at;
     DynamicCompensationParams params;
     params.bands = bands;
     params.time = Seconds(time);
     params.limit = Decibels(limit);
     params.delay = Seconds(1e-3 * told.value_or(latency));
-    params.lowFrequency = Hertz(std::max(10.0, actuator->range.lowFrequency));
-    params.highFrequency = Hertz(actuator->range.highFrequency);
+    params.lowFrequency = Hertz(std::max(10.0, actuator.range.lowFrequency));
+    params.highFrequency = Hertz(actuator.range.highFrequency);
     if (target)
         params.target = Decibels(*target);
-    const double fs = sound->sampleRate;
+    const double fs = sound.sampleRate;
     DynamicCompensation compensation;
     compensation.setParams(params);
     compensation.prepare({fs, 64});
     bool clipped = false;
-    const auto interleaved = play(sound->samples, fs, strap, compensation, clipped);
+    const auto interleaved = play(sound.samples, fs, strap, compensation, clipped);
 
     const auto frequencies = compensation.frequencies();
     const double before = changeOf(strap, frequencies.front(), frequencies.back(), nullptr);
@@ -173,7 +162,7 @@ Exit CompensateSubcommand::run(Console& console)
     if (!output.empty())
     {
         AudioWriteParams writing;
-        writing.sampleRate = sound->sampleRate;
+        writing.sampleRate = sound.sampleRate;
         writing.channels = 3;
         writing.encoding = SampleEncoding::pcm24;
         if (const auto written = writeAudio(output, interleaved, writing); !written)

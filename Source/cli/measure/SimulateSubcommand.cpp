@@ -4,7 +4,7 @@
 #include "cli/InputFiles.h"
 #include "cli/Options.h"
 #include "cli/Overwrite.h"
-#include "cli/ProfileInput.h"
+#include "cli/measure/RigInput.h"
 #include "io/AtomicFile.h"
 #include "io/AudioFile.h"
 #include "io/Fingerprint.h"
@@ -113,21 +113,10 @@ Exit SimulateSubcommand::run(Console& console)
 
 Exit SimulateSubcommand::record(Console& console) const
 {
-    const auto actuator = openProfile(console, profile);
-    if (!actuator)
+    const auto opened = openRig(console, profile, input);
+    if (!opened)
         return Exit::failed;
-    if (!actuator->body || actuator->technology == Technology::erm)
-        return console.fail(profile, {ErrorCode::invalidData, actuator->body ? "technology" : "body",
-                                      actuator->body ? "is a motor, which cannot play a sweep"
-                                                     : "is missing; choose a profile with a body model"});
-    AudioReadOptions options;
-    options.lowestSampleRate = limits::lowestWrittenRate;
-    const auto sound = readAudio(input, options);
-    if (!sound)
-        return console.fail(input, sound.error());
-    console.warnings(input, sound->warnings);
-    if (sound->channels != 1)
-        return console.fail(input, {ErrorCode::invalidData, "", "must have one channel"});
+    const auto& [actuator, sound] = *opened;
 
     std::vector<std::string> clipped;
     const unsigned first = wearers > 0 ? 1 : wearer;
@@ -145,9 +134,9 @@ Exit SimulateSubcommand::record(Console& console) const
         if (!existing)
             return console.fail(input, existing.error());
         RigParams rig;
-        rig.body = bodyOn(who, *actuator->body);
+        rig.body = bodyOn(who, *actuator.body);
         rig.body->deviceMass += 1e-3 * mass;
-        rig.resonance = actuator->resonance;
+        rig.resonance = actuator.resonance;
         rig.contact = contact;
         rig.polynomial = {0.0, 1.0, 0.0, distortion};
         rig.range = range * standardGravity;
@@ -157,9 +146,9 @@ Exit SimulateSubcommand::record(Console& console) const
         rig.latency = 1e-3 * latency;
         rig.driftPpm = drift;
         rig.seed = seed + who;
-        rig.sampleRate = sound->sampleRate;
+        rig.sampleRate = sound.sampleRate;
         console.progress(static_cast<double>(who - first) / static_cast<double>(last - first + 1), target);
-        const auto channels = recordOnRig(sound->samples, rig);
+        const auto channels = recordOnRig(sound.samples, rig);
         if (std::any_of(channels.begin(), channels.end(), clips))
             clipped.push_back(target);
         std::vector<float> interleaved(channels.size() * channels.front().size());
@@ -167,7 +156,7 @@ Exit SimulateSubcommand::record(Console& console) const
             for (std::size_t i = 0; i < channels[c].size(); ++i)
                 interleaved[i * channels.size() + c] = channels[c][i];
         AudioWriteParams writing;
-        writing.sampleRate = sound->sampleRate;
+        writing.sampleRate = sound.sampleRate;
         writing.channels = static_cast<int>(channels.size());
         writing.encoding = SampleEncoding::pcm24;
         if (wearers > 0)

@@ -76,13 +76,14 @@ void AnalyseTextureSubcommand::tell(Console& console, const TextureFit& fit) con
     {
         return assumed ? " (assumed)" : "";
     };
-    const std::size_t count = texture.nodes.size();
-    console.wrote(output,
-                  fmt::format("{} speed{} from {:.2g} to {:.2g}; frequencies as speed^{:.2g}{}, level as "
-                              "speed^{:.2g}{} and force^{:.2g}{}",
-                              count, count == 1 ? "" : "s", texture.nodes.front().speed, texture.nodes.back().speed,
-                              texture.pitch, law(fit.pitchAssumed), texture.levelBySpeed, law(fit.speedLawAssumed),
-                              texture.levelByForce, law(fit.forceLawAssumed)));
+    const double slowest = texture.nodes.front().speed;
+    const std::string speeds =
+        texture.nodes.size() == 1
+            ? fmt::format("one speed, {:.2g}", slowest)
+            : fmt::format("{} speeds from {:.2g} to {:.2g}", texture.nodes.size(), slowest, texture.nodes.back().speed);
+    console.wrote(output, fmt::format("{}; frequencies as speed^{:.2g}{}, level as speed^{:.2g}{} and force^{:.2g}{}",
+                                      speeds, texture.pitch, law(fit.pitchAssumed), texture.levelBySpeed,
+                                      law(fit.speedLawAssumed), texture.levelByForce, law(fit.forceLawAssumed)));
 }
 
 Exit AnalyseTextureSubcommand::run(Console& console)
