@@ -17,7 +17,7 @@ WINDOWS = ("Source/editor", "Source/app", "Source/plugin")
 DOCUMENT = ("Source/document",)
 
 # Writers say what is lost; the editor lists it before an export.
-LOSSES = re.compile(r"Source/io/formats/(.*Writer|.*/?LossList|VoiceReduction|ClipFormat|.*AndroidEffects|"
+LOSSES = re.compile(r"Source/io/formats/(.*Writer|.*/?LossList|VoiceReduction|ClipFormat|.*HjifModel|.*AndroidEffects|"
                     r".*AndroidWaveform|.*EnvelopeFit|.*SumLimit|.*HjifVoices|.*DriveSamples)\.cpp$")
 
 # Names of presets; what is said of the plugin's is for the command.

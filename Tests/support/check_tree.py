@@ -27,6 +27,7 @@ BINARY = {
     "Tests/io/broken/*": "documents with bytes that no text has",
     "Tests/fuzz/corpus/chapters/*": "tags and comments of sound files",
     "Tests/fuzz/corpus/hid/*": "descriptors of devices",
+    "Tests/fuzz/corpus/hmpg/*": "MPEG haptics that its reference program made of our HJIF samples",
     "Tests/fuzz/corpus/packed/*": "packed clips",
     "Tests/fuzz/corpus/pulsar/*": "archives",
     "Tests/fuzz/corpus/*/sound-*": "headers of sound files",

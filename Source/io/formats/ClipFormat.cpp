@@ -9,6 +9,7 @@
 #include "io/formats/haptic/HapticFormat.h"
 #include "io/formats/hasp/HaspFormat.h"
 #include "io/formats/hjif/HjifFormat.h"
+#include "io/formats/hmpg/HmpgFormat.h"
 #include "io/formats/json/JsonFormat.h"
 #include "io/formats/openxr/OpenXrFormat.h"
 #include "io/formats/packed/PackedFormat.h"
@@ -140,6 +141,15 @@ constexpr std::array allFormats{
                .recognises = isHjif,
                .reader = always<readHjif>,
                .writer = writeHjif,
+               .choices = {.amplitudePoints = true, .frequencyPoints = true, .quick = true},
+               .events = hjifEvents},
+    ClipFormat{.name = "hmpg",
+               .title = "MPEG haptics stream, binary (ISO/IEC 23090-31)",
+               .extension = ".hmpg",
+               .keeps = "Bands with amplitudes in 255 steps and frequencies, and events.",
+               .recognises = isHmpg,
+               .reader = always<readHmpg>,
+               .writer = writeHmpg,
                .choices = {.amplitudePoints = true, .frequencyPoints = true, .quick = true},
                .events = hjifEvents},
     ClipFormat{.name = "haps",

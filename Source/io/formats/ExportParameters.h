@@ -58,17 +58,19 @@ inline constexpr std::array exportParameters{
     ExportParameter{
         described<&ExportParams::quick>(
             {.name = "quick",
-             .text = "Skip the search for the best file (hjif): much faster, usually a little less like the sound",
+             .text =
+                 "Skip the search for the best file (hjif, hmpg): much faster, usually a little less like the sound",
              .group = "Other formats"}),
         &ExportChoices::quick},
-    ExportParameter{described<&ExportParams::events>(
-                        {.name = "events",
-                         .text = "How events are written (haptic, ahap, hjif): as transients, with the voice ducked "
-                                 "around them, or merged into the voice where it is as strong",
-                         .choices = eventExportNames,
-                         .usualText = "transients; merged in hjif",
-                         .group = "Other formats"}),
-                    nullptr},
+    ExportParameter{
+        described<&ExportParams::events>(
+            {.name = "events",
+             .text = "How events are written (haptic, ahap, hjif, hmpg, pulsar): as transients, with the voice ducked "
+                     "around them, or merged into the voice where it is as strong",
+             .choices = eventExportNames,
+             .usualText = "transients; merged in hjif and hmpg",
+             .group = "Other formats"}),
+        nullptr},
     ExportParameter{described<&ExportParams::envelope, &EnvelopeLimits::points>(
                         {.name = "maxPoints",
                          .text = "Maximum number of control points in an Android envelope, at any cost in detail",

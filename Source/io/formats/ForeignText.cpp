@@ -32,12 +32,17 @@ Result<nlohmann::json> readForeignTree(std::string_view bytes, std::vector<std::
     return tree;
 }
 
+std::string_view wholeCharacters(std::string_view text, std::size_t most)
+{
+    std::size_t bytes = std::min(text.size(), most);
+    while (bytes > 0 && bytes < text.size() && (static_cast<unsigned char>(text[bytes]) & 0xC0u) == 0x80u)
+        --bytes;
+    return text.substr(0, bytes);
+}
+
 std::string importedName(std::string_view name)
 {
-    std::size_t bytes = std::min(name.size(), limits::text / 2);
-    while (bytes > 0 && bytes < name.size() && (static_cast<unsigned char>(name[bytes]) & 0xC0u) == 0x80u)
-        --bytes;
-    return std::string(name.substr(0, bytes));
+    return std::string(wholeCharacters(name, limits::text / 2));
 }
 
 std::string identifierOf(std::string_view text)

@@ -45,6 +45,9 @@ template <typename Read>
     return imported;
 }
 
+/// The first characters of `text` that have `most` bytes or fewer.
+[[nodiscard]] std::string_view wholeCharacters(std::string_view text, std::size_t most);
+
 /// `name` as that of a clip: whole characters up to half of what all its texts may have.
 [[nodiscard]] std::string importedName(std::string_view name);
 

@@ -57,9 +57,9 @@ void readPerception(FieldsReader& reader, HjifPerception& perception)
                                 });
                 });
 }
+} // namespace
 
-/// Year and amendment, `2023` or `2023-1`.
-std::optional<Error> checkVersion(const std::string& version, std::vector<std::string>& warnings)
+std::optional<Error> checkHjifVersion(const std::string& version, std::vector<std::string>& warnings)
 {
     constexpr int firstYear = 2023, knownYear = 2025;
     const bool wellFormed = version.size() >= 4 && std::all_of(version.begin(), version.begin() + 4,
@@ -72,7 +72,6 @@ std::optional<Error> checkVersion(const std::string& version, std::vector<std::s
             fmt::format("version: {} is newer than the versions that this program supports", shownText(version)));
     return {};
 }
-} // namespace
 
 Result<HjifFile> readHjifFile(const nlohmann::json& tree, std::vector<std::string>& warnings)
 {
@@ -96,7 +95,7 @@ Result<HjifFile> readHjifFile(const nlohmann::json& tree, std::vector<std::strin
                 [&](HjifPerception& perception) { readPerception(reader, perception); });
     if (reader.error)
         return *reader.error;
-    if (auto error = checkVersion(version, warnings))
+    if (auto error = checkHjifVersion(version, warnings))
         return *error;
     for (const char* name : {"profile", "level", "date", "avatars", "syncs"})
         if (isMissing(name))

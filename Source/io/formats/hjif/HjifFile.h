@@ -65,4 +65,8 @@ struct HjifFile
 /// version newer than known, missing entries that other players need. Errors: invalidData with the entry's place.
 [[nodiscard]] Result<HjifFile> readHjifFile(const nlohmann::json& tree, std::vector<std::string>& warnings);
 
+/// Warning for a version newer than known. Errors: invalidData unless it is a year with or without an amendment, such
+/// as `2023` or `2023-1`.
+[[nodiscard]] std::optional<Error> checkHjifVersion(const std::string& version, std::vector<std::string>& warnings);
+
 } // namespace pacini

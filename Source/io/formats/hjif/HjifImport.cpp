@@ -1,6 +1,7 @@
 #include "io/formats/hjif/HjifImport.h"
 
 #include "io/JsonText.h"
+#include "io/formats/ForeignText.h"
 #include "io/formats/ImportReport.h"
 #include "io/formats/hjif/HjifEvents.h"
 #include "io/formats/hjif/HjifFormat.h"
@@ -329,6 +330,27 @@ Result<Clip> clipOfHjif(const HjifFile& file, std::vector<std::string>& warnings
     if (importer.report.error)
         return *importer.report.error;
     return std::move(importer.clip);
+}
+
+std::optional<Error> importHjif(const HjifFile& file, ImportedClip& imported)
+{
+    auto clip = clipOfHjif(file, imported.warnings);
+    if (!clip)
+        return clip.error();
+    imported.clip = std::move(clip).value();
+    imported.clip.name = importedName(file.description);
+    if (imported.clip.bands.empty() && imported.clip.transients.empty())
+    {
+        const bool hadMore = std::any_of(file.perceptions.begin(), file.perceptions.end(),
+                                         [](const HjifPerception& p) {
+                                             return std::any_of(p.channels.begin(), p.channels.end(),
+                                                                [](const HjifChannel& c) { return !c.bands.empty(); });
+                                         });
+        if (hadMore)
+            return Error{ErrorCode::invalidData, "perceptions", "contain no vibration over time"};
+        imported.warnings.push_back("perceptions: nothing is played");
+    }
+    return {};
 }
 
 } // namespace pacini
