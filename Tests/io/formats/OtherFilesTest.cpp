@@ -84,6 +84,29 @@ TEST_CASE(".haps: keyframes out of order are put into it with a warning", "[io][
               .find("m_keyframes[1].m_time: is negative") != std::string::npos);
 }
 
+TEST_CASE(".haps: frequencies of 0 to 1 are fractions, not Hz that nobody feels", "[io][formats]")
+{
+    const auto withFrequency = [](const std::string& keyframes)
+    {
+        std::string text = haps(R"({"m_time": 0, "m_value": 0.5}, {"m_time": 1, "m_value": 0.9})");
+        return text.replace(text.find(R"("m_amplitudeModulation")"), 0,
+                            R"("m_frequencyModulation": {"m_keyframes": [)" + keyframes + "]}, ");
+    };
+    const auto half = readAs("haps", withFrequency(R"({"m_time": 0, "m_value": 0.5})"));
+    REQUIRE(half.clip.bands.size() == 1);
+    CHECK(half.clip.bands[0].centreFrequency == 410.0); // 60 + 700 / 2
+    REQUIRE(half.warnings.size() == 1);
+    CHECK(half.warnings[0].find("fractions of 60 to 760 Hz") != std::string::npos);
+    const auto course = readAs("haps", withFrequency(R"({"m_time": 0, "m_value": 0}, {"m_time": 1, "m_value": 1})"));
+    CHECK(course.clip.bands[0].pitch == Curve{{0.0, 60.0}, {1.0, 760.0}});
+    const auto none = readAs("haps", withFrequency(R"({"m_time": 0, "m_value": 0})"));
+    CHECK(none.clip.bands[0].centreFrequency == 150.0);
+    CHECK(none.warnings.size() == 1);
+    const auto hertz = readAs("haps", withFrequency(R"({"m_time": 0, "m_value": 1.5})"));
+    CHECK(hertz.clip.bands[0].centreFrequency == 1.5);
+    CHECK(hertz.warnings.empty());
+}
+
 TEST_CASE(".haps: what a writer leaves out is its default, with a warning", "[io][formats]")
 {
     const std::string where = "m_vibration.m_melodies[0].m_notes[0]";

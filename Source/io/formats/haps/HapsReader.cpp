@@ -186,12 +186,37 @@ private:
         return curve;
     }
 
+    /// Some writers keep the frequencies of a .haptic, 0 to 1, which nobody would feel as Hz.
+    Curve pitchOf(const Note& note, const std::string& where)
+    {
+        std::vector<Keyframe> keyframes = note.effect.frequency;
+        const auto isAtMost = [](double most)
+        {
+            return [most](const Keyframe& keyframe)
+            {
+                return std::abs(keyframe.value.value_or(0.0)) <= most;
+            };
+        };
+        if (keyframes.empty() || !std::all_of(keyframes.begin(), keyframes.end(), isAtMost(1.0)))
+            return curveOf(note, keyframes, 1.0, 20000.0, 1.0, where);
+        if (std::all_of(keyframes.begin(), keyframes.end(), isAtMost(0.0)))
+        {
+            report.warn(where, fmt::format("is 0 throughout; the note plays at {} Hz", hapsMotorFrequency));
+            return {};
+        }
+        report.warn(where, fmt::format("has no value above 1 Hz; they are read as fractions of {} to {} Hz",
+                                       hapsLowestFraction, hapsHighestFraction));
+        for (Keyframe& keyframe : keyframes)
+            keyframe.value =
+                std::lerp(hapsLowestFraction, hapsHighestFraction, std::max(keyframe.value.value_or(0.0), 0.0));
+        return curveOf(note, keyframes, 1.0, 20000.0, 1.0, where);
+    }
+
     void addWave(const Note& note, double gain, ImportLanes& lanes, const std::string& where)
     {
         Curve amplitude =
             curveOf(note, note.effect.amplitude, 0.0, 1.0, gain, where + ".m_hapticEffect.m_amplitudeModulation");
-        Curve pitch =
-            curveOf(note, note.effect.frequency, 1.0, 20000.0, 1.0, where + ".m_hapticEffect.m_frequencyModulation");
+        Curve pitch = pitchOf(note, where + ".m_hapticEffect.m_frequencyModulation");
         if (report.error)
             return;
         double end = std::max(note.start, amplitude.back().time);
