@@ -51,6 +51,10 @@ class Page(FolderTest):
         self.addCleanup(os.chdir, before)
         pacini.write_audio("door.wav", knocks(2.0), 48000)
         pacini.write_audio("rain.wav", knocks(2.0, seed=2), 48000)
+        os.mkdir("sounds")
+        os.mkdir("clips")
+        pacini.write_audio("sounds/door.wav", knocks(2.0), 48000)
+        pacini.encode("door.wav").save("clips/door.pacb")
         names = {}
         for number, text in blocks:
             said = io.StringIO()

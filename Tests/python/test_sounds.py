@@ -288,6 +288,47 @@ class Arrays(FolderTest):
             pacini.render(clip, profile=name + b".profile.json"), pacini.render(clip, profile=profile)
         )
 
+    def test_many_sounds_may_be_arrays_with_their_rates(self):
+        sound, other = knocks(0.3), np.stack([knocks(0.2), knocks(0.2)], axis=1)
+        path = self.folder / "a.wav"
+        pacini.write_audio(path, sound, RATE)
+        wanted = pacini.encode(sound, RATE).bands
+        given = [path, (sound, RATE), sound, (other, 44100), (sound.astype(np.int16), RATE)]
+        found = {id(item): clip for item, clip in pacini.encode_files(given, sample_rate=RATE, axis=0, threads=2)}
+        for item in given[:3]:
+            self.assertEqual(found[id(item)].bands, wanted)
+        self.assertEqual(found[id(given[3])].bands, pacini.encode(other, 44100, axis=0).bands)
+        self.assertIn("int16", str(found[id(given[4])]))
+        ((item, clip),) = pacini.encode_files(sound, sample_rate=RATE)
+        self.assertIs(item, sound)
+        self.assertEqual(clip.bands, wanted)
+        ((_, error),) = pacini.encode_files([sound])
+        self.assertEqual((type(error), error.where), (pacini.Error, "sample_rate"))
+
+    def test_folders_are_compared_by_the_names_in_them(self):
+        sounds, felt = self.folder / "sounds", self.folder / "felt"
+        for folder in (sounds / "deep", felt / "deep"):
+            folder.mkdir(parents=True)
+        for name in ("a", "b", "deep/c", "d"):
+            pacini.write_audio(sounds / f"{name}.wav", knocks(0.4), RATE)
+        (sounds / "notes.txt").write_text("no sound")
+        clip = pacini.encode(knocks(0.4), RATE)
+        clip.save(felt / "a.pacb")
+        pacini.write_audio(felt / "a.wav", knocks(0.4), RATE)  # what was rendered counts, not its clip
+        clip.save(felt / "deep/c.pacb")
+        pacini.write_audio(felt / "d.wav", knocks(0.4), RATE)
+        pacini.write_audio(felt / "d.flac", knocks(0.4), RATE)
+        clip.save(felt / "alone.pacb")
+        with self.assertWarnsRegex(UserWarning, "alone.pacb: has no reference"):
+            found = dict(pacini.compare_files(sounds, felt, threads=2))
+        self.assertEqual(sorted(found), ["a.wav", "b.wav", "d.wav", "deep/c.wav"])
+        self.assertEqual(found["a.wav"].lsd, 0.0)
+        self.assertEqual(found["deep/c.wav"].hts, pacini.compare(sounds / "deep/c.wav", clip).hts)
+        self.assertRegex(str(found["b.wav"]), "no counterpart b")
+        self.assertRegex(str(found["d.wav"]), "two counterparts")
+        with self.assertRaisesRegex(pacini.Error, "is no folder"):
+            pacini.compare_files(sounds / "a.wav", felt)
+
     def test_options_that_are_none_are_told_before_the_first_file(self):
         self.refuses("bandz", "invalidArgument", pacini.encode_files, ["none.wav"], bandz=3)
         self.refuses("bands", "invalidArgument", pacini.encode_files, ["none.wav"], bands=1000)

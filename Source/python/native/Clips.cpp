@@ -1,5 +1,6 @@
 // Clips: their content as arrays, edits, and files of all formats.
 
+#include "io/AudioExtensions.h"
 #include "io/ClipFile.h"
 #include "io/ClipSeal.h"
 #include "io/FileExtension.h"
@@ -515,6 +516,7 @@ void bindClip(nb::module_& module)
         },
         "extension"_a);
     module.def("formats", &formatList);
+    module.def("audio_extensions", [] { return audioExtensions(); });
     module.def(
         "simplify_rows",
         [](const Rows& rows, const std::string& method, std::optional<std::size_t> count, std::optional<double> error,

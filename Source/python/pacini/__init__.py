@@ -18,6 +18,7 @@ from . import _interpreter, _native, measure  # noqa: F401
 from ._clip import Band, Clip, NoiseBand, SimplifiedLane, Source
 from ._errors import Error, FileError, FileMissing
 from ._formats import Format, Loss, formats
+from ._many import compare_files, encode_files
 from ._profile import Profile
 from ._scene import Scene
 from ._simplify import SIMPLIFIERS, simplify
@@ -29,7 +30,6 @@ from ._sound import (
     compare,
     convert,
     encode,
-    encode_files,
     explain,
     felt,
     lint,
@@ -68,6 +68,7 @@ __all__ = [
     "Source",
     "Translator",
     "compare",
+    "compare_files",
     "convert",
     "encode",
     "encode_files",

@@ -6,8 +6,7 @@ import json
 import os
 import threading
 import warnings
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple, Optional, Union
 
@@ -22,7 +21,7 @@ from ._files import text_of
 from ._formats import formats
 from ._parameters import ENCODE, check_names, unknown, with_keywords
 from ._profile import AnyProfile, as_profile
-from ._progress import Progress, counted, shown
+from ._progress import Progress, shown
 from ._scene import Scene
 
 if TYPE_CHECKING:
@@ -273,72 +272,6 @@ def translate(
     wanted = _Wanted(method, "", {}, "", allow_nan, allow_truncated)
     signal, rate = _translated(sound, sample_rate, axis, "", "", progress, "signal", wanted)
     return signal, rate
-
-
-def encode_files(
-    paths: Union[PathLike, Iterable[PathLike]],
-    *,
-    threads: Optional[int] = None,
-    progress: Progress = None,
-    **options: Any,
-) -> Iterator[tuple[PathLike, Union[Clip, Error]]]:
-    """Encodes many files, or one, on several threads.
-
-    Parameters
-    ----------
-    paths : path or iterable of paths
-        The files.
-    threads : int, optional
-        Number of threads [number of processors].
-    progress : bool or callable, optional
-        As of :func:`encode`, over all files.
-    **options
-        As of :func:`encode`. Errors in them are raised at once.
-
-    Yields
-    ------
-    path : path
-        A path as it was given, in the order in which they are ready.
-    result : Clip or Error
-        Its clip, or what is wrong with the file; the others go on.
-    """
-    check_options(options)
-    todo: list[PathLike] = [paths] if is_path(paths) else list(paths)
-    workers = threads if threads is not None else os.cpu_count() or 1
-    over = threading.Event()
-
-    def go_on(share: float) -> None:
-        if over.is_set():
-            raise InterruptedError
-
-    def one(path: PathLike) -> Union[Clip, Error]:
-        try:
-            return encode(path, progress=go_on, **options)
-        except Error as error:
-            return error
-
-    def results() -> Iterator[tuple[PathLike, Union[Clip, Error]]]:
-        with ThreadPoolExecutor(workers) as pool:
-            running: dict[Future[Union[Clip, Error]], PathLike] = {}
-            waiting = iter(todo)
-            try:
-                while True:
-                    while len(running) < 2 * workers:
-                        try:
-                            path = next(waiting)
-                        except StopIteration:
-                            break
-                        running[pool.submit(one, path)] = path
-                    if not running:
-                        return
-                    done, _ = wait(running, return_when=FIRST_COMPLETED)
-                    for future in done:
-                        yield running.pop(future), future.result()
-            finally:
-                over.set()
-                pool.shutdown(wait=False, cancel_futures=True)
-
-    return counted(results(), len(todo), progress, "encoding")
 
 
 @dataclass(frozen=True)
