@@ -7,6 +7,8 @@
 
 #include <pacini/synthesis/RenderScene.h>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -91,6 +93,18 @@ Result<MonoSound> readDrive(const fs::path& path, bool strict, Stopwatch& work)
                      std::move(read->warnings)};
 }
 
+/// Onsets behind the sound are times of another sound, or in another unit.
+void warnOfLateOnsets(const std::vector<double>& onsets, CompareResult& result)
+{
+    constexpr double tolerance = 0.1; // s
+    const auto late =
+        std::count_if(onsets.begin(), onsets.end(), [&](double time) { return time > result.duration + tolerance; });
+    if (late > 0)
+        result.referenceWarnings.push_back(
+            fmt::format("{} of its {} onsets are after its end at {:.2f} s; onsets are in "
+                        "seconds",
+                        late, onsets.size(), result.duration));
+}
 } // namespace
 
 CompareJob::CompareJob(const CompareSettings& wanted) : settings(wanted), comparer(UnsoundFrames::silence) {}
@@ -150,6 +164,7 @@ std::variant<CompareResult, InputFailure> CompareJob::run(const ComparePair& pai
             const auto* ambiguous = settings.ambiguous.find(pair.reference);
             scoreEvents(result, *onsets, events,
                         ambiguous != nullptr ? std::span(*ambiguous) : std::span<const double>());
+            warnOfLateOnsets(*onsets, result);
         });
     result.seconds = work.seconds();
     return result;

@@ -1,5 +1,6 @@
 #include "io/CueSheet.h"
 
+#include "io/TextLines.h"
 #include "io/Utf8.h"
 
 #include <pacini/foundation/ParseNumber.h>
@@ -58,13 +59,8 @@ template <typename Visit>
 void forEachCueLine(std::string_view text, Visit visit)
 {
     for (std::size_t number = 1; !text.empty(); ++number)
-    {
-        const auto end = std::min(text.find_first_of("\r\n"), text.size());
-        if (!visit(number, text.substr(0, end)))
+        if (!visit(number, takeLine(text)))
             return;
-        const bool isPair = text.substr(end).starts_with("\r\n");
-        text.remove_prefix(std::min(text.size(), end + (isPair ? 2 : 1)));
-    }
 }
 } // namespace
 

@@ -1,6 +1,7 @@
 #include "io/NumberTable.h"
 
 #include "io/JsonText.h"
+#include "io/TextLines.h"
 #include "io/TextMark.h"
 
 #include <pacini/foundation/ParseNumber.h>
@@ -92,9 +93,7 @@ Result<std::vector<NumberRow>> readNumberTable(std::string_view bytes, const Num
     bool headingSeen = false;
     for (std::size_t number = 1; !text.empty(); ++number)
     {
-        const auto end = text.find('\n');
-        const auto line = trimmed(text.substr(0, end));
-        text = end == std::string_view::npos ? std::string_view() : text.substr(end + 1);
+        const auto line = trimmed(takeLine(text));
         if (isComment(line))
             continue;
         const Cells cells = splitLine(line, form.columns.size());

@@ -26,18 +26,15 @@ struct Onsets
     [[nodiscard]] const std::vector<double>* find(const std::filesystem::path& sound) const;
 };
 
-/// Reads `{"door.wav": [0.12, 0.8], ...}`, a list `[0.12, 0.8]`, or text with one time per line (what follows it after
-/// a blank, a tab, a comma or a semicolon is a label; empty lines and lines that begin with # or, as Audacity's
-/// frequencies do, with a backslash are passed over). A comma between digits is a decimal one in lines with tabs or
-/// semicolons, and in files without any point. Errors: invalidData for other content, with its place, for times below
-/// 0 and for UTF-16; those of parseJson.
+/// Reads `{"door.wav": [0.12, 0.8], ...}`, a list `[0.12, 0.8]`, or text with one time per line, see forEachTimeLine().
+/// Errors: invalidData for other content, with its place, for times below 0 and for UTF-16; those of parseJson.
 [[nodiscard]] Result<Onsets> readOnsetText(std::string_view text);
 
 /// The same from a file of at most 64 MB. Errors also: io.
 [[nodiscard]] Result<Onsets> readOnsets(const std::filesystem::path& path);
 
-/// The lines of such a text (not JSON) as markers, in order, each called by its label: what follows the time and, where
-/// there is one, the end of the label. One without is called by its number. A warning tells how many have an end that
+/// The lines of such a text (not JSON) as markers, in order, each called by its label; one without is called by its
+/// number. A warning tells how many have an end that
 /// is not their start, which markers have no place for. A cue sheet is one, too (see readCueSheet()). Errors: those of
 /// readOnsetText().
 [[nodiscard]] Result<FoundMarkers> readLabelText(std::string_view text);

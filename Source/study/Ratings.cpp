@@ -3,6 +3,7 @@
 #include "io/InputFile.h"
 #include "io/JsonText.h"
 #include "io/TableText.h"
+#include "io/TextLines.h"
 #include "io/TextMark.h"
 
 #include <pacini/foundation/ParseNumber.h>
@@ -38,7 +39,8 @@ public:
         for (; at < text.size(); ++at)
         {
             const char c = text[at];
-            if (c == '\n')
+            const bool isEnd = c == '\n' || (c == '\r' && (at + 1 == text.size() || text[at + 1] != '\n'));
+            if (isEnd)
                 ++nextLine;
             if (quoted && c == '"' && at + 1 < text.size() && text[at + 1] == '"')
                 fields.back() += text[at++];
@@ -46,7 +48,7 @@ public:
                 quoted = !quoted;
             else if (!quoted && c == separator)
                 fields.emplace_back();
-            else if (!quoted && c == '\n')
+            else if (!quoted && isEnd)
                 break;
             else if (quoted || c != '\r')
                 fields.back() += c;
@@ -207,7 +209,12 @@ Result<std::vector<Rating>> ratingsOfCsv(std::string_view bytes, const RatingCol
     const std::string_view text = isOld ? std::string_view(decoded) : *unmarked;
     if (isOld && warnings != nullptr)
         warnings->emplace_back("is not UTF-8, and was read as Latin-1 (Windows-1252)");
-    CsvLines lines(text, separatorOf(text.substr(0, text.find('\n'))));
+    std::string_view rest = text;
+    const std::string_view first = rest.empty() ? rest : takeLine(rest);
+    const bool tellsSeparator = first.size() == 5 && first.starts_with("sep="); // for Excel
+    CsvLines lines(text, tellsSeparator ? first.back() : separatorOf(first));
+    if (tellsSeparator)
+        (void)lines.next();
     const auto heading = lines.next().value_or(std::vector<std::string>());
     const auto places = placesIn(heading, columns);
     if (!places)

@@ -1,5 +1,6 @@
 #include "study/Words.h"
 
+#include "io/TextLines.h"
 #include "io/TextMark.h"
 #include "io/Utf8.h"
 
@@ -92,17 +93,13 @@ Result<WordCategories> WordCategories::ofCsv(std::string_view bytes)
     if (!unmarked)
         return unmarked.error();
     const std::string decoded = isUtf8(*unmarked) ? std::string(*unmarked) : utf8OfWindows1252(*unmarked);
-    const std::string_view text = decoded;
+    std::string_view text = decoded;
     WordCategories categories;
     std::size_t number = 0;
-    for (std::size_t start = 0; start < text.size();)
+    while (!text.empty())
     {
         ++number;
-        const std::size_t end = std::min(text.find('\n', start), text.size());
-        std::string_view line = text.substr(start, end - start);
-        start = end + 1;
-        if (line.ends_with('\r'))
-            line.remove_suffix(1);
+        const std::string_view line = takeLine(text);
         if (line.empty() ||
             (number == 1 && (line == "category,word" || line == "category;word" || line == "category\tword")))
             continue;

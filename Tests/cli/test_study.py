@@ -76,10 +76,11 @@ class Steps(StudyTest):
         self.put("tabs.tsv", "\n".join(["participant\tgroup\tstimulus\trating", *(c.replace(";", "\t") for c in comma)]))
         own = ["participant,group,stimulus,slider", *(f"P{p},{g},{s},{r}" for p, g, s, r in rows)]
         self.put("named.csv", "\n".join(own))
-        reports = [self.report("study", "report", *arguments) for arguments in
-                   (["semi.csv"], ["tabs.tsv"], ["named.csv", "--columns", "rating=slider"])]
-        self.assertEqual(reports[0]["ratings"], reports[1]["ratings"])
-        self.assertEqual(reports[0]["ratings"], reports[2]["ratings"])
+        self.put("excel.csv", "\r\n".join(["sep=;", "participant;group;stimulus;rating", *comma]))
+        self.put("macintosh.csv", "\r".join(["participant;group;stimulus;rating", *comma]))
+        wanted = self.report("study", "report", "semi.csv")["ratings"]
+        for arguments in (["tabs.tsv"], ["named.csv", "--columns", "rating=slider"], ["excel.csv"], ["macintosh.csv"]):
+            self.assertEqual(self.report("study", "report", *arguments)["ratings"], wanted)
         self.fails(1, ["study", "report", "named.csv"], "line 1: has no column 'rating'", "--columns rating=NAME")
         self.fails(2, ["study", "report", "named.csv", "--columns", "slider"], "--columns: 'slider' does not name a column")
         self.put("missing.csv", "\n".join([*own[:3], "P9,B,s,", "P9,B,t,NA", *own[3:]]))

@@ -55,6 +55,34 @@ TEST_CASE("A list or lines of times are the onsets of any sound", "[io]")
     CHECK(empty->find("x.wav")->empty());
 }
 
+TEST_CASE("Tables of audio editors and lines of every system are times", "[io]")
+{
+    for (const char* text :
+         {"0.12\r0.8\r", "0.12\t0.13\tknock\r0.8\t0.9\t\r",                 // of an old Macintosh
+          "#,Name,Start,End,Length\nM1,knock,0:00.120,,\nM2,,0:00.800,,\n", // REAPER
+          "Name\tStart\tDuration\tTime Format\tType\tDescription\nMarker 01\t0:00.120\t0:00.000\tdecimal\tCue\t\n"
+          "Marker 02\t0:00.800\t0:00.000\tdecimal\tCue\t\n", // Audition
+          "\"time\",\"label\"\n\"0,12\",\"a, b\"\n\"0.8\",\"c\"\n", "time;label\n0,12;x\n0,8;y\n",
+          "onset_time (s),label\n0.12,x\n0.8,y\n", "Label,Time\n1,0.12\n2,0.8", "0:00.12\n0:00:00.8"})
+    {
+        CAPTURE(text);
+        const auto onsets = readOnsetText(text);
+        REQUIRE(onsets.ok());
+        CHECK(*onsets->find("x.wav") == twoTimes);
+    }
+    CHECK(*readOnsetText("1:02.5\n1:00:00")->find("x.wav") == std::vector<double>{62.5, 3600.0});
+    CHECK(failureText("0:61") == "line 1: \"0:61\" is not a time in seconds, 0 or more");
+    CHECK(failureText("Name,Start\nM1,1.1.00") == "line 2: \"1.1.00\" is not a time in seconds, 0 or more");
+    CHECK(failureText("Name,Start\nM1") == "line 2: \"\" is not a time in seconds, 0 or more");
+    CHECK(failureText("Name,Length\nM1,2") == "line 1: \"Name\" is not a time in seconds, 0 or more");
+
+    const auto labels =
+        readLabelText("#,Name,Start,End,Length\nR1,\"a, \"\"b\",0:01.000,0:02.500,0:01.500\nM2,,3.5,,\n");
+    REQUIRE(labels);
+    CHECK(labels->markers == std::vector<Marker>{{1.0, "a, \"b"}, {3.5, "2"}});
+    CHECK(labels->warnings.size() == 1);
+}
+
 TEST_CASE("What is no list of times is refused at its place", "[io]")
 {
     CHECK(failureText("{\"a.wav\": [0.1, -1]}") == "a.wav[1]: is -1; times are 0 or more, in seconds");

@@ -37,6 +37,7 @@ TEST_CASE("Responses are read as measuring programs write them")
 {
     checkIsNumbered(readResponseTable(numbered("{},{}\n")));
     checkIsNumbered(readResponseTable("frequency,dB\r\n" + numbered("{}.0, {}\r\n")));
+    checkIsNumbered(readResponseTable("frequency,dB\r" + numbered("{}.0, {}\r"))); // an old Macintosh
     checkIsNumbered(readResponseTable("\xEF\xBB\xBF\"frequency\";\"raw\"\n" + numbered("{},0;{},00\n")));
     checkIsNumbered(readResponseTable("* Freq(Hz) SPL(dB) Phase(degrees)\n" + numbered("{}  {} 12.5\n")));
     checkIsNumbered(readResponseTable("# made by hand\n\n" + numbered("{}\t{}\t1e3\n") + "// the end"));

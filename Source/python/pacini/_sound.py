@@ -705,8 +705,20 @@ def compare(
     ------
     Error
         A file cannot be read, a rate is missing or out of its range, a sample is not finite.
+
+    Warns
+    -----
+    UserWarning
+        Onsets are after the end of the sound.
     """
     source, source_rate = _read_for_comparison(reference, sample_rate, axis, "sample_rate", allow_truncated)
+    end = source.shape[-1] / source_rate
+    late = sum(float(time) > end + 0.1 for time in onsets or ())
+    if late:
+        warnings.warn(
+            f"{late} of the {len(onsets or ())} onsets are after the end of the sound at {end:.2f} s; onsets are in seconds",
+            stacklevel=2,
+        )
     if is_path(candidate) and os.path.splitext(os.fsdecode(candidate))[1].lower() in _clip_extensions():
         candidate = read(candidate)
     if isinstance(candidate, (Clip, Scene)):

@@ -1,4 +1,5 @@
 #include "io/JsonText.h"
+#include "io/TextLines.h"
 #include "io/formats/ForeignText.h"
 #include "io/formats/ImportReport.h"
 #include "io/formats/csv/CsvFormat.h"
@@ -79,9 +80,7 @@ public:
         std::size_t number = 0;
         while (!text.empty() && !error)
         {
-            const std::size_t end = std::min(text.find('\n'), text.size());
-            const std::string_view line = text.substr(0, end);
-            text.remove_prefix(std::min(end + 1, text.size()));
+            const std::string_view line = takeLine(text);
             ++number;
             if (trimmed(line).empty() || line.starts_with('#'))
                 continue;
