@@ -42,9 +42,13 @@ public:
     {
         if (end == 0)
             return {};
-        std::optional<std::uint64_t> begin = behindTags();
+        const std::uint64_t tagged = behindTags();
+        const std::uint64_t first = behindJunk(tagged);
+        std::optional<std::uint64_t> begin = first;
         while (begin && parts.size() < mostParts)
             begin = add(*begin);
+        if (!parts.empty())
+            parts.front().skippedBytes += first - tagged;
         if (begin && !parts.empty())
             parts.back().leftOutBytes += end - *begin;
         return std::move(parts);
@@ -92,21 +96,43 @@ private:
         return begin;
     }
 
-    /// Where a sound begins in or behind a tag whose size is wrong.
-    std::uint64_t searched(std::uint64_t tag)
+    /// Where a sound begins behind a few bytes of anything else: heads of servers' answers, filling. `begin` itself
+    /// where there is none.
+    std::uint64_t behindJunk(std::uint64_t begin)
     {
-        constexpr std::uint64_t reach = 16u << 20u;
-        const auto last = std::min(end, tag + reach);
+        constexpr std::uint64_t reach = 4096, window = 65536;
+        constexpr std::size_t fewestFrames = 8; // which chance does not make
+        if (startsSound(file, begin) || hasMpegSync(file, begin))
+            return begin;
+        const auto last = std::min(end, begin + reach);
+        if (const auto first = firstSound(begin, last); first < last)
+            return first;
+        const auto runs = mpegRuns(file, begin, std::min(end, begin + window));
+        const bool found = !runs.empty() && runs.front().begin < last && runs.front().frames >= fewestFrames;
+        return found ? runs.front().begin : begin;
+    }
+
+    /// Where the first sound of a known kind begins from one place to another; the latter if there is none.
+    std::uint64_t firstSound(std::uint64_t from, std::uint64_t last)
+    {
         auto first = last;
         for (const std::string_view id :
              {"RIFF", "RIFX", "RF64", "BW64", "FORM", "caff", "riff", ".snd", "fLaC", "OggS"})
-            for (auto place = file.find(id, tag, first); place < first; place = file.find(id, place + 1, first))
+            for (auto place = file.find(id, from, first); place < first; place = file.find(id, place + 1, first))
                 if (startsSound(file, place))
                 {
                     first = place;
                     break;
                 }
-        if (first < last)
+        return first;
+    }
+
+    /// Where a sound begins in or behind a tag whose size is wrong.
+    std::uint64_t searched(std::uint64_t tag)
+    {
+        constexpr std::uint64_t reach = 16u << 20u;
+        const auto last = std::min(end, tag + reach);
+        if (const auto first = firstSound(tag, last); first < last)
             return first;
         const auto runs = mpegRuns(file, tag + 10, end);
         return runs.empty() ? tag : runs.front().begin;

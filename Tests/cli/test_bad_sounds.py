@@ -31,6 +31,25 @@ class BadSounds(CommandTest):
         self.refused("a.wav", b"RIFF", "")
         self.refused("a.wav", wav([])[:30], "")
 
+    def test_a_sound_behind_a_few_other_bytes_is_read_with_a_word(self):
+        fronts = (bytes(333), b"HTTP/1.1 200 OK\r\nContent-Type: audio/wav\r\n\r\n", random.Random(1).randbytes(1000))
+        sounds = {name: (TEST_SOUNDS / name).read_bytes()
+                  for name in ("tone.flac", "tone.mp3", "tone.ogg", "ramp.aiff", "ramp.caf", "ramp.au")}
+        sounds["sine.wav"] = wav(sine(100, 0.5))
+
+        def figures(said):
+            found = json.loads(said)
+            return [found[key] for key in ("duration", "sampleRate", "channels", "frames", "peak")]
+        for name, whole in sounds.items():
+            self.put(name, whole)
+            if b"supported format" in self.run_command("info", name).stderr:
+                continue  # this libsndfile does not read it
+            wanted = figures(self.succeeds("info", name, "--json"))
+            for front in fronts:
+                self.put(name, front + whole)
+                said = self.warns("info", name, "--json", says=f"{len(front)} bytes are no sound")
+                self.assertEqual(figures(said), wanted, (name, front[:8]))
+
     def test_headers_without_a_rate_or_channels_are_called_damaged(self):
         data = bytes(2000)
         for content in (wav_header(2000, rate=0) + data, wav_header(2000, channels=0) + data,
