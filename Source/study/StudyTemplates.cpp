@@ -13,12 +13,14 @@ namespace pacini::study
 
 namespace
 {
-constexpr std::array<StudyTemplate, 8> templates{
+constexpr std::array<StudyTemplate, 9> templates{
     {{"coherence", "how well sound and touch belong together: three groups, free words and ratings (Weber 2020)", 2},
      {"words", "free description of what is felt and heard", 1},
      {"mushra", "quality of translations beside each other, with hidden reference and anchor", 1},
      {"abx", "can a translation with fewer breakpoints be told from the full one?", 1},
      {"jnd", "just noticeable differences of level and frequency of a touch", 0},
+     {"compression", "how few bands and points are not told from the full translation, felt alone and with its sound",
+      1},
      {"threshold", "weakest touch that is felt, at eight frequencies", 0},
      {"similarity", "how alike touches are, pair by pair, for a map of them", 3},
      {"ranking", "touches in order of preference", 2}}};
@@ -213,6 +215,45 @@ Study jnd()
     return study;
 }
 
+/// Each sound is compared with its own translation of fewer bands or points, which is also how many bytes it takes.
+Study compression(const std::vector<std::string>& sounds)
+{
+    Study study = begun("compression");
+    study.description =
+        "How few bands and breakpoints of a translation are not told from the full one, felt alone and with "
+        "its sound. Bytes follow from them: pacini info tells those of a clip.";
+    for (const std::string& name : addSounds(study, sounds))
+    {
+        Stimulus coarse = study.stimuli[stimulusNamed(study, name)];
+        coarse.name = name + ", coarser";
+        study.stimuli.push_back(coarse);
+        const auto add =
+            [&](std::string kind, Variable variable, double lowest, double highest, Presentation presentation)
+        {
+            Block made = block(name + ", " + std::move(kind), Task::staircase, presentation,
+                               said("Which one is unlike the other two?", "Welche ist anders als die anderen beiden?"));
+            made.reference = name;
+            made.stimuli = {coarse.name};
+            made.intervals = 3;
+            made.pause = 0.3;
+            made.masking = presentation == Presentation::touch;
+            made.adaptive.variable = variable;
+            made.adaptive.start = 2.0 * lowest;
+            made.adaptive.lowest = lowest;
+            made.adaptive.highest = highest;
+            made.adaptive.trials = 20;
+            study.blocks.push_back(std::move(made));
+        };
+        for (const auto& [alone, presentation] :
+             {std::pair(", felt", Presentation::touch), std::pair(", felt and heard", Presentation::simultaneous)})
+        {
+            add(std::string("bands") + alone, Variable::bands, 1.0, 12.0, presentation);
+            add(std::string("breakpoints") + alone, Variable::breakpoints, 1.0, 40.0, presentation);
+        }
+    }
+    return study;
+}
+
 Study threshold()
 {
     Study study = begun("threshold");
@@ -282,6 +323,8 @@ Result<Study> makeStudy(std::string_view name, const std::vector<std::string>& s
         return abx(sounds);
     if (name == "jnd")
         return jnd();
+    if (name == "compression")
+        return compression(sounds);
     if (name == "threshold")
         return threshold();
     if (name == "similarity")

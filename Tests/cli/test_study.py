@@ -66,6 +66,14 @@ class Steps(StudyTest):
         self.put("table.csv", b"category,word\nspectral,rough\nmotion,kno*\n")
         report = self.report("study", "report", "simulated", "--categories", "table.csv")
         self.assertEqual(set(report["categories"]["A"]), {"spectral", "motion", ""})
+        self.put("other.csv", b"category,word\nspectral,rough\nspectral,kno*\nspace,far\n")
+        coders = self.report("study", "report", "simulated", "--categories", "table.csv", "--categories", "other.csv")["coders"]
+        self.assertGreater(coders["words"], 1)
+        self.assertEqual({one["first"] for one in coders["differences"]} - {"motion", ""}, set())
+        self.assertEqual(len(coders["differences"]), round(coders["words"] * (1 - coders["agreement"])))
+        self.assertLess(coders["kappa"], coders["agreement"])
+        self.assertIn("Cohen", (self.folder / "simulated/report/report.html").read_text())
+        self.fails(2, ["study", "report", "simulated", *["--categories", "table.csv"] * 3], "--categories: is given 3 times")
         self.assertNotIn("<script>", (self.folder / "simulated/report/report.html").read_text())
 
     def test_tables_of_ratings_of_other_programs(self):

@@ -96,7 +96,7 @@ TEST_CASE("Orders differ between participants and are the same each time")
 
 TEST_CASE("The right answer of choices lies everywhere equally often, and X is what it says")
 {
-    for (const char* name : {"abx", "jnd", "threshold"})
+    for (const char* name : {"abx", "jnd", "compression", "threshold"})
     {
         const auto study = makeStudy(name, {"a.wav"});
         REQUIRE(study);

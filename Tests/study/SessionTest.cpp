@@ -89,7 +89,7 @@ TEST_CASE("Each session takes the next free place, with the pseudonym and the gr
 
 TEST_CASE("A session that was killed after any byte goes on where it was, with the same trials and answers")
 {
-    for (const char* name : {"coherence", "jnd", "abx", "mushra"})
+    for (const char* name : {"coherence", "jnd", "compression", "abx", "mushra"})
     {
         INFO(name);
         const Study study = made(name);

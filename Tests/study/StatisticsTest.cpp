@@ -7,8 +7,11 @@
 
 #include <pacini/foundation/Random.h>
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <span>
+#include <utility>
 #include <vector>
 
 using namespace pacini::study;
@@ -168,6 +171,25 @@ TEST_CASE("Agreement is that of SciPy and pingouin")
     CHECK(icc.single95.low == Approx(0.44).margin(0.005));
     CHECK(icc.single95.high == Approx(0.98).margin(0.005));
     CHECK(intraclassCorrelation({{1, 1}, {1, 1}}).single == 0.0);
+}
+
+TEST_CASE("Cohen's kappa is that of Fleiss, Levin and Paik")
+{
+    // Statistical Methods for Rates and Proportions, 3rd edition (2003), table 18.1; numbers by NumPy.
+    std::vector<std::pair<std::size_t, std::size_t>> codes;
+    const std::array<std::array<int, 3>, 3> table{{{75, 1, 4}, {5, 4, 1}, {0, 0, 10}}};
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 3; ++j)
+            codes.insert(codes.end(), static_cast<std::size_t>(table[i][j]), {i, j});
+    const CohensKappa found = cohensKappa(codes);
+    CHECK(found.agreement == exactly(0.89));
+    CHECK(found.kappa == exactly(0.676470588235294));
+    CHECK(found.kappa95.low == Approx(0.5045759580860855).epsilon(1e-9));
+    CHECK(found.kappa95.high == Approx(0.8483652183845026).epsilon(1e-9));
+    CHECK(cohensKappa({{0, 0}, {1, 1}, {0, 0}}).kappa == exactly(1.0));
+    CHECK(cohensKappa({{0, 1}, {1, 0}}).kappa == exactly(-1.0));
+    CHECK(cohensKappa({{2, 2}, {2, 2}}).kappa == 0.0); // one category alone tells nothing
+    CHECK(cohensKappa({}).agreement == 0.0);
 }
 
 TEST_CASE("Distributions are those of SciPy")

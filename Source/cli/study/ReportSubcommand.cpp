@@ -31,8 +31,10 @@ struct ReportSubcommand : Command
                   "Also compare these groups, combined to one, with the others; repeat for several combinations", "A+B")
             ->allow_extra_args(false);
         addOption(*command, "--categories", categories,
-                  "Table of word categories (lines of category,word; word* matches all words with this beginning)",
-                  "CSV");
+                  "Table of word categories (lines of category,word; word* matches all words with this beginning); "
+                  "repeat for a second coder's, whose agreement with the first is reported",
+                  "CSV")
+            ->allow_extra_args(false);
         addOption(*command, "--columns", columns,
                   "Name a column of a table of ratings: its role (group, participant, block, stimulus or rating), =, "
                   "and its name; repeat for several",
@@ -79,13 +81,18 @@ struct ReportSubcommand : Command
         study::RatingColumns names;
         if (const auto wrong = takeColumns(names))
             return console.fail("", *wrong, Exit::usage);
-        if (!categories.empty())
+        if (categories.size() > 2)
+            return console.fail("",
+                                {ErrorCode::invalidArgument, "--categories",
+                                 fmt::format("is given {} times; two coders are compared", categories.size())},
+                                Exit::usage);
+        for (const std::string& file : categories)
         {
-            const auto text = readWholeFile(categories, 10'000'000);
+            const auto text = readWholeFile(file, 10'000'000);
             auto table = text ? study::WordCategories::ofCsv(*text) : Result<study::WordCategories>(text.error());
             if (!table)
-                return console.fail(categories, table.error());
-            params.categories = std::move(*table);
+                return console.fail(file, table.error());
+            (params.categories ? params.otherCategories : params.categories) = std::move(*table);
         }
         const fs::path path(named);
         const bool isTable = path.extension() == ".csv" || path.extension() == ".tsv" || path.extension() == ".txt";
@@ -171,8 +178,8 @@ struct ReportSubcommand : Command
         return Exit::ok;
     }
 
-    std::string named, output, categories;
-    std::vector<std::string> combined, columns;
+    std::string named, output;
+    std::vector<std::string> combined, columns, categories;
     bool mixed = false, unpaired = false;
     OverwriteOptions overwriting;
 };

@@ -549,6 +549,44 @@ std::vector<std::pair<std::string, std::vector<Rating>>> questionsOf(const Study
     return questions;
 }
 
+/// How far two coders' tables sort the words of all descriptions alike.
+void writeCoders(Writer& writer, Json& json, const std::set<std::string>& words, const StudyReportParams& params)
+{
+    constexpr std::size_t mostShown = 40;
+    std::map<std::string, std::size_t> numbers;
+    const auto numberOf = [&](const std::string& category)
+    {
+        return numbers.emplace(category, numbers.size()).first->second;
+    };
+    std::vector<std::pair<std::size_t, std::size_t>> codes;
+    PageTable unlike{"Words that the coders sort differently", {"Word", "First", "Second"}, {}};
+    json["coders"]["differences"] = Json::array();
+    for (const std::string& word : words)
+    {
+        const std::string first = params.categories->categoryOf(word),
+                          second = params.otherCategories->categoryOf(word);
+        if (first.empty() && second.empty())
+            continue; // sorted by neither
+        codes.emplace_back(numberOf(first), numberOf(second));
+        if (first == second)
+            continue;
+        json["coders"]["differences"].push_back({{"word", word}, {"first", first}, {"second", second}});
+        if (unlike.rows.size() < mostShown)
+            unlike.rows.push_back({word, first.empty() ? "(none)" : first, second.empty() ? "(none)" : second});
+    }
+    const CohensKappa found = cohensKappa(codes);
+    json["coders"]["words"] = codes.size();
+    json["coders"]["agreement"] = found.agreement;
+    json["coders"]["kappa"] = found.kappa;
+    json["coders"]["interval"] = {found.kappa95.low, found.kappa95.high};
+    writer.table({"Agreement of the two coders",
+                  {"Words sorted", "The same, %", "Cohen's kappa", "95 %"},
+                  {{fmt::to_string(codes.size()), decimalText(100.0 * found.agreement, 1), decimalText(found.kappa, 2),
+                    fmt::format("{} to {}", decimalText(found.kappa95.low, 2), decimalText(found.kappa95.high, 2))}}});
+    if (!unlike.rows.empty())
+        writer.table(std::move(unlike));
+}
+
 void writeWords(Writer& writer, Json& json, const StudyResults& results, const StudyReportParams& params)
 {
     if (results.descriptions.empty())
@@ -561,6 +599,7 @@ void writeWords(Writer& writer, Json& json, const StudyResults& results, const S
     PageTable categories{"Share of the words that have a category, by group", {"Category"}, {}};
     std::map<std::string, std::map<std::string, std::size_t>> counts;
     std::map<std::string, std::size_t> sums;
+    std::set<std::string> different;
     for (const std::string& group : groups)
     {
         const WordCounts found = countWords(results.descriptions, group);
@@ -573,6 +612,7 @@ void writeWords(Writer& writer, Json& json, const StudyResults& results, const S
             if (i < 12)
                 most += fmt::format("{}{} ({})", i == 0 ? "" : ", ", found[i].first, found[i].second);
             ofGroup[found[i].first] = found[i].second;
+            different.insert(found[i].first);
             if (params.categories)
             {
                 const std::string category = params.categories->categoryOf(found[i].first);
@@ -609,6 +649,8 @@ void writeWords(Writer& writer, Json& json, const StudyResults& results, const S
         addRow(category, category);
     addRow("(none)", "");
     writer.table(std::move(categories));
+    if (params.otherCategories)
+        writeCoders(writer, json, different, params);
 }
 
 std::string unitOf(Variable variable)

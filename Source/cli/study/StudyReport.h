@@ -19,8 +19,9 @@ struct StudyReportParams
 {
     std::vector<study::GroupUnion> unions;
     std::optional<study::WordCategories> categories;
-    bool mixed = false;      ///< also fit mixed models, by Python
-    bool pairStimuli = true; ///< as in RatingAnalysisParams
+    std::optional<study::WordCategories> otherCategories; ///< of a second coder, to be compared with the first
+    bool mixed = false;                                   ///< also fit mixed models, by Python
+    bool pairStimuli = true;                              ///< as in RatingAnalysisParams
 };
 
 /// Results from ratings alone, as exported by other programs.

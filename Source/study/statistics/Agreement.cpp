@@ -82,4 +82,41 @@ Friedman friedman(const RatingTable& table)
     return found;
 }
 
+CohensKappa cohensKappa(const std::vector<std::pair<std::size_t, std::size_t>>& codes)
+{
+    CohensKappa found;
+    if (codes.empty())
+        return found;
+    std::size_t categories = 0;
+    for (const auto& [first, second] : codes)
+        categories = std::max({categories, first + 1, second + 1});
+    const double one = 1.0 / static_cast<double>(codes.size());
+    std::vector<double> ofFirst(categories), ofSecond(categories);
+    for (const auto& [first, second] : codes)
+    {
+        ofFirst[first] += one;
+        ofSecond[second] += one;
+        found.agreement += first == second ? one : 0.0;
+    }
+    double chance = 0.0;
+    for (std::size_t i = 0; i < categories; ++i)
+        chance += ofFirst[i] * ofSecond[i];
+    if (!(chance < 1.0 - 1e-12))
+        return found;
+    found.kappa = (found.agreement - chance) / (1.0 - chance);
+    double sum = 0.0;
+    for (const auto& [first, second] : codes)
+    {
+        const double unlike = 1.0 - found.kappa;
+        const double term = first == second ? 1.0 - (ofFirst[first] + ofSecond[first]) * unlike
+                                            : (ofSecond[first] + ofFirst[second]) * unlike;
+        sum += one * term * term;
+    }
+    const double offset = found.kappa - chance * (1.0 - found.kappa);
+    const double error = std::sqrt(std::max(0.0, sum - offset * offset) * one) / (1.0 - chance);
+    const double reach = normalQuantile(0.975) * error;
+    found.kappa95 = {found.kappa - reach, std::min(1.0, found.kappa + reach)};
+    return found;
+}
+
 } // namespace pacini::study
