@@ -5,6 +5,7 @@
 #include "cli/Retry.h"
 #include "cli/Terminal.h"
 #include "cli/UsageText.h"
+#include "cli/Version.h"
 
 #include <exception>
 #include <memory>
@@ -61,7 +62,7 @@ Exit parseAndRun(Console& console, int argc, const char* const* argv, const Benc
         "Pacini turns sound into touch: it encodes recordings as haptic clips and renders clips as drive signals.",
         "pacini");
     app.set_help_flag("-h,--help", "Print this help");
-    app.set_version_flag("--version", "pacini " PACINI_VERSION, "Print the version");
+    app.set_version_flag("--version", "pacini " + versionAndCommit(), "Print the version");
     app.allow_windows_style_options(false); // a path may begin with a slash there, too
     app.require_subcommand(1);
     app.fallthrough(false);

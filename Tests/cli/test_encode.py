@@ -204,8 +204,11 @@ class CommandLine(CommandTest):
             self.assertIn("--quiet", text)
             self.assertNotIn("\x1b", text)
 
-    def test_the_version_is_told(self):
-        self.assertRegex(self.succeeds("--version"), r"^pacini \d+\.\d+\.\d+\n$")
+    def test_the_version_is_told_and_the_commit(self):
+        [version] = re.findall(r"project\(Pacini VERSION ([\d.]+)", (SOURCE / "CMakeLists.txt").read_text())
+        known = (SOURCE / ".git").exists() or "Format" not in (SOURCE / "cmake/commit.txt").read_text()
+        commit = r" \(commit [0-9a-f]{12}(, changed)?\)" if known else ""
+        self.assertRegex(self.succeeds("--version"), rf"^pacini {re.escape(version)}{commit}\n$")
 
     def test_wrong_usage_is_one_line_that_says_where_to_read_on(self):
         self.fails(2, [], "a command is missing", "encode, render, info, convert", "pacini --help")

@@ -80,7 +80,7 @@ def expected_files(architecture):
 def check_fields(package):
     text = run("dpkg-deb", "--field", package).decode()
     fields = dict(re.findall(r"(?m)^([\w-]+): (.*)$", text))
-    version = run(PACINI, "--version").decode().split()[-1]
+    version = run(PACINI, "--version").decode().split()[1]
     architecture = run("dpkg", "--print-architecture").decode().strip()
     check("it is named after package, version and machine", package.name == f"pacini_{version}_{architecture}.deb", package.name)
     for field, value in (("Package", "pacini"), ("Version", version), ("Architecture", architecture), ("Section", "sound"),
