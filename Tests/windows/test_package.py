@@ -1,9 +1,12 @@
 """The installer and the zip for Windows: installed in wine without a question, what is installed runs, and nothing is
 left when it is removed; packed again, both have the same bytes."""
 import hashlib
+import json
 import os
 import shutil
 import subprocess
+import sys
+import tempfile
 import time
 import unittest
 import zipfile
@@ -86,6 +89,22 @@ class Package(unittest.TestCase):
         subprocess.run(["cmake", "--build", wine.BUILD, "--target", "pacini_windows_package"], check=True,
                        capture_output=True, env={**os.environ, "TZ": "Asia/Tokyo", "LC_ALL": "C"})
         self.assertEqual(sums(), first)
+
+    def test_a_release_takes_both_and_lists_what_is_in_them(self):
+        with tempfile.TemporaryDirectory() as folder:
+            folder = Path(folder)
+            done = subprocess.run([sys.executable, "-B", SOURCE / "cmake/make_release.py", folder, "--changed", "--parts",
+                                   "windows"], capture_output=True, text=True, check=False)
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+            packages = {one("*.zip").name, one("*-setup.exe").name}
+            [listed] = folder.glob("*.spdx.json")
+            self.assertEqual({path.name for path in folder.iterdir()}, packages | {listed.name, "SHA256SUMS"})
+            for name in packages:
+                self.assertEqual((folder / name).read_bytes(), (PACKAGE / name).read_bytes())
+            document = json.loads(listed.read_text(encoding="utf-8"))
+        names = {part["name"]: part.get("versionInfo") for part in document["packages"]}
+        for start in ("libsndfile with libFLAC", "mingw-w64's runtime", "libzip", "zlib", "NSIS"):
+            self.assertEqual([bool(version) for name, version in names.items() if name.startswith(start)], [True], start)
 
 
 if __name__ == "__main__":
