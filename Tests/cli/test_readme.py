@@ -56,6 +56,7 @@ ELSEWHERE = {
     "cmake --install build/release --component core": ("Tests/examples/check_package.py", '"--install"'),
     "cmake --install build/release --component library": ("Tests/library/check_installed.py", '"--install"'),
     "ctest --preset release -L hosts": ("Tests/hosts/CMakeLists.txt", "LABELS \"hosts;slow\""),
+    "python3 Tests/portability/check_bytes.py": ("Tests/CMakeLists.txt", "portability/check_bytes.py"),
     "python3 Tests/fuzz/run.py": ("Tests/fuzz/run.py", "__main__"),
     "python3 Tests/mutate.py": (".ci/run", "Tests/mutate.py"),
     "python3 Resources/docs/make_measurements.py": ("Resources/docs/make_measurements.py", "__main__"),

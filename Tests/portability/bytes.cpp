@@ -20,6 +20,10 @@
 #include <string>
 #include <utility>
 #include <vector>
+#ifdef _WIN32
+#include <fcntl.h>
+#include <io.h>
+#endif
 
 using namespace pacini;
 
@@ -108,6 +112,9 @@ int writeGrids(char** arguments)
 
 int main(int count, char** arguments)
 {
+#ifdef _WIN32
+    _setmode(_fileno(stdin), _O_BINARY);
+#endif
     const std::string first = count > 1 ? arguments[1] : "";
     if (first == "grids" && count == 3)
         return writeGrids(arguments + 2);

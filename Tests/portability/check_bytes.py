@@ -1,8 +1,11 @@
 """A clip has the same bytes on every machine: the demo sounds encoded, packed, unpacked and rendered on this one, on
-64-bit ARM (by qemu) and on 32-bit x86, by another compiler and with other versions of mathematical functions. Clips must
-be those of the command byte for byte, and drives the same to -120 dB; by how much they differ at all is said.
+64-bit ARM and 32-bit x86 (by qemu), on Windows (in wine) and as WebAssembly (in Node.js), by several compilers and with other
+versions of mathematical functions. Prints a table. Clips must be those of the command byte for byte, and drives the same to
+-120 dB; by how much they differ at all is said.
 
-check_bytes.py SOURCE PACINI EIGEN
+check_bytes.py [SOURCE PACINI EIGEN]    of this checkout, its release build and Debian's Eigen where they are not given
+
+Exit 0, 1 if a clip or a drive is not the same, 77 if a machine cannot be tried here; in CI that is a failure.
 """
 import ctypes
 import os
@@ -16,26 +19,43 @@ from pathlib import Path
 
 from compiling import compile_program
 
-SOURCE, PACINI, EIGEN = Path(sys.argv[1]), sys.argv[2], sys.argv[3]
+HERE = Path(__file__).resolve().parent
+sys.path.append(str(HERE.parent / "windows"))
+import wine  # noqa: E402
+
+if len(sys.argv) not in (1, 4):
+    sys.exit(__doc__)
+SOURCE, PACINI, EIGEN = sys.argv[1:] or (HERE.parents[1], HERE.parents[1] / "build/release/bin/pacini", "/usr/include/eigen3")
+SOURCE = Path(SOURCE)
 DEMO = SOURCE / "Resources/demo"
 LARGEST = 1e-6  # difference of a drive's samples: -120 dB, a thirtieth of a step of 16 bits
-# machine -> compiler, its flags, what runs its programs, what it sets for them
-MACHINES = {
-    "this one": ("g++", [], [], {}),
+SSE = ["-msse2", "-mfpmath=sse"]
+WASM = ["--target=wasm32-wasi", "-Wno-deprecated", "-fno-exceptions", "-fno-rtti", "-msimd128", "-Wl,-z,stack-size=1048576"]
+FUNCTIONS = {"GLIBC_TUNABLES": "glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4"}
+# What it runs on, compiler, its flags, what runs its programs, what is set for them. The first is what others are compared with.
+MACHINES = [
+    (f"Linux, {platform.machine()}", "g++", [], [], {}),
     # glibc has versions of its functions with and without fused multiply-add, whose last bits differ.
-    "no fused multiply-add in the library": ("g++", [], [], {"GLIBC_TUNABLES": "glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4"}),
+    (f"Linux, {platform.machine()}, functions without fused multiply-add", "g++", [], [], FUNCTIONS),
     # Its library sorts and searches in other ways.
-    "Clang with libc++": ("clang++", ["-stdlib=libc++"], [], {}),
-    "64-bit ARM": ("aarch64-linux-gnu-g++", [], ["qemu-aarch64", "-L", "/usr/aarch64-linux-gnu"], {}),
-    "32-bit x86": ("i686-linux-gnu-g++", ["-msse2", "-mfpmath=sse", "-static"],
-                   [] if platform.machine() == "x86_64" else ["qemu-i386"], {}),
-}
+    (f"Linux, {platform.machine()}, libc++", "clang++", ["-stdlib=libc++"], [], {}),
+    ("Linux, 64-bit ARM", "aarch64-linux-gnu-g++", [], ["qemu-aarch64", "-L", "/usr/aarch64-linux-gnu"], {}),
+    ("Linux, 32-bit x86", "i686-linux-gnu-g++", [*SSE, "-static"], [] if platform.machine() == "x86_64" else ["qemu-i386"], {}),
+    ("Windows, x86_64, in wine", "x86_64-w64-mingw32-g++-posix", ["-static"], [wine.WINE or "wine64"], {}),
+    ("WebAssembly, in Node.js", "clang++-22", WASM, ["node", "--no-warnings", HERE / "run_wasm.mjs"], {}),
+]
+
+
+class Failed(Exception):
+    pass
 
 
 def run(*command, **options):
-    done = subprocess.run([str(part) for part in command], capture_output=True, check=False, **options)
+    done = subprocess.run([str(part) for part in command], capture_output=True, check=False, timeout=900, **options)
     if done.returncode != 0:
-        sys.exit(f"failed: {' '.join(map(str, command))}: {done.returncode}\n{done.stderr.decode(errors='replace')}")
+        raise Failed(f"{' '.join(map(str, command))} ended with {done.returncode}: "
+                     f"{(done.stdout + done.stderr).decode(errors='replace')[-2000:]}")
+    return done.stdout.decode(errors="replace")
 
 
 def samples(path):
@@ -63,58 +83,103 @@ def floats(path):
     return values
 
 
-def same(what, found, expected):
-    if found.read_bytes() != expected.read_bytes():
-        sys.exit(f"failed: {what} has other bytes")
-
-
-def difference(what, found, expected):
-    """How many samples of a drive differ, and by how much at most."""
+def difference(found, expected):
+    """The largest difference of two drives; infinite where they have not the same length."""
     found, expected = floats(found), floats(expected)
-    largest = max(abs(x - y) for x, y in zip(found, expected))
-    if len(found) != len(expected) or largest > LARGEST:
-        sys.exit(f"failed: {what} has {len(found)} samples for {len(expected)}, or differs by {largest:.2g}")
-    return sum(x != y for x, y in zip(found, expected)), largest
+    return max(abs(x - y) for x, y in zip(found, expected)) if len(found) == len(expected) else float("inf")
 
 
-missing = sorted({tool for compiler, _, runner, _ in MACHINES.values() for tool in [compiler, *runner[:1]]
-                  if shutil.which(tool) is None})
-if missing:
-    print(f"SKIPPED: {', '.join(missing)} not found")
-    sys.exit(77)
+def missing(compiler, runner):
+    """Why a machine cannot be tried here, or nothing."""
+    lacking = [tool for tool in [compiler, *map(str, runner[:1])] if shutil.which(tool) is None]
+    return f"{' and '.join(lacking)} not found" if lacking else ""
 
-# The x87 keeps more digits than a double has, and writer and reader of clips would not agree.
-refused = subprocess.run(["i686-linux-gnu-g++", "-std=c++20", "-fsyntax-only", f"-I{SOURCE}/Core", "-include",
-                          "pacini/clip/PackedClip.h", "-x", "c++", "-"], input=b"", capture_output=True, check=False)
-if refused.returncode == 0 or b"-msse2 -mfpmath=sse" not in refused.stderr:
-    sys.exit("failed: the x87 is not refused, or not in words that help")
 
-with tempfile.TemporaryDirectory() as folder:
-    folder = Path(folder)
-    sounds = [(path, *samples(path)) for path in sorted(DEMO.glob("*.flac"))]
-    if len(sounds) < 8:
-        sys.exit("failed: where are the demo sounds?")
-    for path, *_ in sounds:
-        run(PACINI, "encode", path, "-o", folder / f"{path.stem}.pacb", "--format", "packed")
-    programs, reference = {}, folder / "this one"
-    for machine, (compiler, flags, runner, environment) in MACHINES.items():
-        if compiler not in programs:
-            programs[compiler] = folder / compiler
-            compile_program(SOURCE, EIGEN, compiler, flags, "Tests/portability/bytes.cpp", programs[compiler])
-        program = [*runner, programs[compiler]]
-        environment = {**os.environ, **environment}
-        own = folder / machine
+def version(compiler):
+    return run(compiler, "-dumpversion" if compiler.startswith("clang") else "-dumpfullversion").strip()
+
+
+def check_x87():
+    """The x87 keeps more digits than a double has, and writer and reader of clips would not agree."""
+    refused = subprocess.run(["i686-linux-gnu-g++", "-std=c++20", "-fsyntax-only", f"-I{SOURCE}/Core", "-include",
+                              "pacini/clip/PackedClip.h", "-x", "c++", "-"], input=b"", capture_output=True, check=False)
+    if refused.returncode == 0 or b"-msse2 -mfpmath=sse" not in refused.stderr:
+        raise Failed("the x87 is not refused, or not in words that help")
+
+
+class Comparison:
+    def __init__(self, folder):
+        self.folder = folder
+        self.sounds = [(path, *samples(path)) for path in sorted(DEMO.glob("*.flac"))]
+        if len(self.sounds) < 8:
+            raise Failed("where are the demo sounds?")
+        for path, *_ in self.sounds:
+            run(PACINI, "encode", path, "-o", folder / f"{path.stem}.pacb", "--format", "packed")
+        self.reference = None
+
+    def on(self, number, compiler, flags, runner, environment):
+        """How many clips and drives are the same on a machine, and the largest difference of a drive."""
+        program = self.folder / f"{compiler}.exe"  # the one name that all systems take
+        if not program.exists():
+            compile_program(SOURCE, EIGEN, compiler, flags, "Tests/portability/bytes.cpp", program)
+        command, environment = [*runner, program], {**os.environ, **environment}
+        if "wine" in str(runner[:1]):
+            wine.make_drive()
+        own = self.folder / str(number)
         own.mkdir()
-        run(*program, "grids", own / "grids", env=environment)
-        same(f"{machine}: the grid of clips", own / "grids", reference / "grids")
-        differing, most = 0, 0.0
-        for path, content, rate, channels in sounds:
-            of_command = folder / f"{path.stem}.pacb"
+        self.reference = self.reference or own
+        # Paths as they are on drive Z, which is the root of this machine.
+        run(*command, "grids", own / "grids", env=environment, cwd=self.folder)
+        if (own / "grids").read_bytes() != (self.reference / "grids").read_bytes():
+            raise Failed("the grid of clips has other bytes")
+        clips, drives, largest = 0, 0, 0.0
+        for path, content, rate, channels in self.sounds:
+            of_command = self.folder / f"{path.stem}.pacb"
             clip, drive, again, unsealed = (own / f"{path.stem}.{kind}" for kind in ("pacb", "drive", "again", "unsealed"))
-            run(*program, rate, channels, path.name, clip, drive, input=content, env=environment)
-            run(*program, "again", of_command, again, unsealed, env=environment)
-            same(f"{machine}: the clip of {path.stem}, read and written,", again, of_command)
-            same(f"{machine}: the clip of {path.stem}", clip, unsealed)
-            count, largest = difference(f"{machine}: the drive of {path.stem}", drive, reference / drive.name)
-            differing, most = differing + count, max(most, largest)
-        print(f"{machine}: the same {len(sounds)} clips; {differing} samples of their drives differ, by at most {most:.2g}")
+            run(*command, rate, channels, path.name, clip, drive, input=content, env=environment, cwd=self.folder)
+            run(*command, "again", of_command, again, unsealed, env=environment, cwd=self.folder)
+            clips += again.read_bytes() == of_command.read_bytes() and clip.read_bytes() == unsealed.read_bytes()
+            most = difference(drive, self.reference / drive.name)
+            drives, largest = drives + (most == 0), max(largest, most)
+        return clips, drives, largest
+
+
+def main():
+    failed, untried = [], []
+    print("| machine | compiler | clips with the same bytes | drives with the same samples | largest difference of a sample |")
+    print("|---|---|---|---|---|")
+    with tempfile.TemporaryDirectory() as folder:
+        comparison = Comparison(Path(folder))
+        n = len(comparison.sounds)
+        for number, (machine, compiler, flags, runner, environment) in enumerate(MACHINES):
+            why = missing(compiler, runner)
+            if why:
+                untried.append(f"{machine}: {why}")
+                print(f"| {machine} | {compiler} | not tried: {why} | | |", flush=True)
+                continue
+            try:
+                clips, drives, largest = comparison.on(number, compiler, flags, runner, environment)
+            except (Failed, SystemExit) as error:  # the latter where it does not compile
+                failed.append(f"{machine}: {error}")
+                print(f"| {machine} | {compiler} | failed | | |", flush=True)
+                continue
+            print(f"| {machine} | {compiler} {version(compiler)} | {clips} of {n} | {drives} of {n} | "
+                  f"{f'{largest:.1g}' if largest else '0'} |", flush=True)
+            if clips < n or largest > LARGEST:
+                failed.append(f"{machine}: {n - clips} clips have other bytes, drives differ by up to {largest:.2g}")
+    if not missing("i686-linux-gnu-g++", []):
+        try:
+            check_x87()
+        except Failed as error:
+            failed.append(str(error))
+    for line in failed:
+        print(f"failed: {line}", file=sys.stderr)
+    for line in untried:
+        print(f"SKIPPED: {line}")
+    if failed or (untried and os.environ.get("CI") == "true"):
+        return 1
+    return 77 if untried else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

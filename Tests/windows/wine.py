@@ -30,18 +30,23 @@ def skip(why):
 
 
 def prepare():
-    """Makes drive C once, whichever test is first."""
+    """Skips the test where Windows is not built or not there, and starts it."""
     if WINE is None:
         skip("wine64 is not installed")
     if not (BIN / "pacini.exe").exists():
         skip("build/windows is not built")
-    PREFIX.mkdir(exist_ok=True)
+    make_drive()
+    stay()
+
+
+def make_drive():
+    """Drive C of this checkout, made by the first that needs it."""
+    PREFIX.mkdir(parents=True, exist_ok=True)
     with open(BUILD / "wine.lock", "w", encoding="utf-8") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
         if not (PREFIX / "ready").exists():
             subprocess.run([WINE, "wineboot", "-i"], capture_output=True, check=True, timeout=300)
             (PREFIX / "ready").touch()
-    stay()
 
 
 def compile_c(name, folder, *options):
