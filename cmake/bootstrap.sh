@@ -45,6 +45,8 @@ windows_sources=(expat hidapi libzip qr-code-generator)
 windows_module=soundfile==0.14.0
 # What runs programs in C# on Windows, for the tests: .NET, which is within a package for Python likewise.
 windows_test_module=dotnetcore2==3.1.23
+# The compiler that brings the headers of macOS, for the tests.
+macos_module=ziglang==0.17.1
 # For CI alone: other machines, which must make the same clips, another compiler with its library, and its reader of sources.
 portability_packages=(g++-aarch64-linux-gnu g++-i686-linux-gnu qemu-user clang clang-tidy
     libclang-rt-dev libc++-dev libc++abi-dev)
@@ -390,7 +392,8 @@ test)
     [ -z "$web" ] || run_tests release --tests-regex '^web-'
     ;;
 # What only CI runs, after `test`. By hand: all of them without a name; `slow-tests machines` leaves out the groups packages,
-# people and windows (Tests/CMakeLists.txt), and so on. Of the command's tests in wine `slow-tests windows` runs a third, by turns.
+# people and windows (Tests/CMakeLists.txt), and so on. Of the command's tests in wine `slow-tests windows` runs a third, by turns,
+# and `slow-tests machines` compiles half of the sources for macOS.
 slow-tests)
     install_packages "${portability_packages[@]}" "${slow_binding_packages[@]}" "${cluster_packages[@]}" \
         "${web_packages[@]}" "${web_test_packages[@]}"
@@ -404,12 +407,14 @@ slow-tests)
     done
     # Small programs for Windows are among those for other machines.
     [[ "|$others|" == *"|windows|"* && "|$others|" == *"|machines|"* ]] || install_packages "${windows_packages[@]}"
+    [[ "|$others|" == *"|machines|"* ]] || install_modules build/zig-venv "the test of what compiles for macOS" "$macos_module"
     if [[ "|$others|" != *"|windows|"* ]]; then
         # What an earlier run has built is not tested in its place.
         (install_windows_sources && install_windows_test_module && build_windows) ||
             { say "Windows cannot be built for: its tests will be SKIPPED" && rm -rf build/windows/bin; }
     fi
-    PACINI_WINDOWS_TURN=$([ -z "${2:-}" ] || git rev-list --count HEAD) \
+    turn=$([ -z "${2:-}" ] || git rev-list --count HEAD)
+    PACINI_WINDOWS_TURN=$turn PACINI_MACOS_TURN=$turn \
         run_tests release --label-regex slow --label-exclude "^($others)$" --no-tests=ignore
     ;;
 # One part for each commit, in turn: core, files, command. By hand: all of them without a name, `sanitized-tests assertions`
