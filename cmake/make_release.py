@@ -174,8 +174,8 @@ class Release:
         folder = self.work / "crate"
         shutil.copytree(self.sources / "Source/library/bindings/rust", folder)
         shutil.copy(self.sources / "LICENSE", folder)
-        run("cargo", "package", "--quiet", "--offline", "--no-verify", "--allow-dirty", "--manifest-path",
-            folder / "Cargo.toml", "--target-dir", self.work / "cargo")
+        run("cargo", "package", "--quiet", "--offline", "--allow-dirty", "--manifest-path", folder / "Cargo.toml",
+            "--target-dir", self.work / "cargo")  # which compiles what it has packed
         self.keep("crate", only(self.work / "cargo/package", f"{self.name}.crate", "the crate"))
 
     def deb(self):

@@ -63,10 +63,10 @@ nav:
 
 def linked(text):
     """Links as they are in the site, where all pages are in one folder."""
-    text = text.replace("](../../README.md)", "](index.md)").replace("](../notebooks/", "](notebooks/")
+    text = text.replace("](../notebooks/", "](notebooks/")
     text = re.sub(r"\]\(Resources/docs/", "](", text)
     for name, page in OUTSIDE.items():
-        text = text.replace(f"]({name})", f"]({page})")
+        text = re.sub(rf"\]\((\.\./\.\./)?{re.escape(name)}(?=[)#])", f"]({page}", text)
     return text
 
 
