@@ -1,16 +1,17 @@
 #!/usr/bin/env python3
-"""Makes the packages of a release from the newest commit and what is built of it, with checksums and a list of licences.
+"""Makes the packages of a release from the newest commit and what is built of it, with checksums and a list of
+licences.
 
 make_release.py FOLDER [--parts LIST] [--changed] [--check]    `bash cmake/bootstrap.sh release` builds and calls it
 
-FOLDER then holds the packages, SHA256SUMS and an SPDX list, all with the version of CMakeLists.txt. They have the same bytes
-whenever the same commit is packed with the same tools. With --parts some only, separated by commas:
+FOLDER then holds the packages, SHA256SUMS and an SPDX list, all with the version of CMakeLists.txt. They have the same
+bytes whenever the same commit is packed with the same tools. With --parts some only, separated by commas:
   source   all sources, as Git archives them          deb      what build/release has, by cpack
   sdist    the sources that the wheel is built of     npm      build/web/package
   wheel    built of that, with the libraries inside   windows  build/windows/package: an installer and a zip
   crate    the binding for Rust
-Changes that are not committed are refused, or with --changed left out of the sources and packed with the rest. --check makes
-nothing, and only says whether something is in the way.
+Changes that are not committed are refused, or with --changed left out of the sources and packed with the rest. --check
+makes nothing, and only says whether something is in the way.
 """
 import argparse
 import base64
@@ -109,15 +110,15 @@ class Release:
         folder = self.work / "sdist"
         if not folder.exists():
             folder.mkdir()
-            run(sys.executable, "-c", f"from scikit_build_core.build import build_sdist; build_sdist({str(folder)!r})",
-                cwd=self.sources)
+            script = f"from scikit_build_core.build import build_sdist; build_sdist({str(folder)!r})"
+            run(sys.executable, "-c", script, cwd=self.sources)
         return only(folder, f"{self.name}.tar.gz", "the sdist")
 
     def sdist(self):
         self.keep("sdist", self.make_sdist())
 
     def wheel(self):
-        """Of the sdist, as for those who have no wheel for their Python. At a fixed place: there ccache knows its objects."""
+        """Of the sdist, as for those who have no wheel for their Python; at a place where ccache knows its objects."""
         place = ROOT / "build/wheel-of-release"
         shutil.rmtree(place, ignore_errors=True)
         place.mkdir(parents=True)
@@ -211,7 +212,8 @@ def earlier(folder):
     if not folder.is_dir():
         fail(f"{folder}: is not a folder")
     sums = folder / "SHA256SUMS"
-    listed = {line.split("  ", 1)[1] for line in sums.read_text(encoding="utf-8").splitlines()} if sums.exists() else set()
+    lines = sums.read_text(encoding="utf-8").splitlines() if sums.exists() else []
+    listed = {line.partition("  ")[2] for line in lines}
     found = {path.name for path in folder.iterdir()}
     foreign = sorted(found - listed - {"SHA256SUMS"})
     if foreign:

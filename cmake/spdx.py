@@ -1,7 +1,8 @@
 """The list of what is in each package of a release and under which licences, as an SPDX 2.3 document.
 
-Resources/package/contents.json names what is compiled into the packages; copyright beside it says whose that is, as far as the
-Debian package has it. What lies in a package as a file of its own, such as a library that others may replace, is looked for.
+Resources/package/contents.json names what is compiled into the packages; copyright beside it says whose that is, as far
+as the Debian package has it. What lies in a package as a file of its own, such as a library that others may replace, is
+looked for.
 """
 import datetime
 import hashlib
@@ -14,7 +15,8 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
 # Debian's names of licences that have others in SPDX.
-NAMES = {"Expat": "MIT", "GPL-3+": "GPL-3.0-or-later", "GPL-3": "GPL-3.0-only", "public-domain": "LicenseRef-public-domain"}
+NAMES = {"Expat": "MIT", "GPL-3+": "GPL-3.0-or-later", "GPL-3": "GPL-3.0-only",
+         "public-domain": "LicenseRef-public-domain"}
 PUBLIC_DOMAIN = "Their authors gave up all rights: anyone may do anything with them."
 PURPOSES = {"source": "SOURCE", "sdist": "SOURCE", "crate": "SOURCE", "wheel": "LIBRARY", "npm": "LIBRARY",
             "deb": "INSTALL", "zip": "ARCHIVE", "setup": "INSTALL"}
@@ -49,8 +51,8 @@ def all_of(licences):
 def version_of(component, own, path):
     """The version of a component in the package at `path`; None where none is known."""
     if "debian" in component:
-        done = subprocess.run(["dpkg-query", "-W", "-f", "${Version}", component["debian"]], capture_output=True, text=True,
-                              check=False)
+        done = subprocess.run(["dpkg-query", "-W", "-f", "${Version}", component["debian"]], capture_output=True,
+                              text=True, check=False)
         if done.returncode != 0:
             raise Unknown(f"{component['name']}: the package {component['debian']} is not installed")
         return done.stdout
@@ -135,7 +137,8 @@ def document(packages, version, commit, epoch):
     return json.dumps({
         "spdxVersion": "SPDX-2.3", "dataLicense": "CC0-1.0", "SPDXID": "SPDXRef-DOCUMENT", "name": f"pacini-{version}",
         "documentNamespace": f"https://pacini.example/spdx/pacini-{version}-{commit}",
-        "creationInfo": {"created": created, "creators": ["Organization: The Pacini developers", "Tool: make_release.py"]},
+        "creationInfo": {"created": created,
+                         "creators": ["Organization: The Pacini developers", "Tool: make_release.py"]},
         "packages": [listed[key] for key in sorted(listed)],
         "hasExtractedLicensingInfos": [{"licenseId": "LicenseRef-public-domain", "name": "public domain",
                                         "extractedText": PUBLIC_DOMAIN}],

@@ -1,7 +1,7 @@
 """A clip has the same bytes on every machine: the demo sounds encoded, packed, unpacked and rendered on this one, on
-64-bit ARM and 32-bit x86 (by qemu), on Windows (in wine) and as WebAssembly (in Node.js), by several compilers and with other
-versions of mathematical functions. Prints a table. Clips must be those of the command byte for byte, and drives the same to
--120 dB; by how much they differ at all is said.
+64-bit ARM and 32-bit x86 (by qemu), on Windows (in wine) and as WebAssembly (in Node.js), by several compilers and with
+other versions of mathematical functions. Prints a table. Clips must be those of the command byte for byte, and drives
+the same to -120 dB; by how much they differ at all is said.
 
 check_bytes.py [SOURCE PACINI EIGEN]    of this checkout, its release build and Debian's Eigen where they are not given
 
@@ -25,14 +25,15 @@ import wine  # noqa: E402
 
 if len(sys.argv) not in (1, 4):
     sys.exit(__doc__)
-SOURCE, PACINI, EIGEN = sys.argv[1:] or (HERE.parents[1], HERE.parents[1] / "build/release/bin/pacini", "/usr/include/eigen3")
-SOURCE = Path(SOURCE)
+ROOT = HERE.parents[1]
+SOURCE, PACINI, EIGEN = map(Path, sys.argv[1:] or (ROOT, ROOT / "build/release/bin/pacini", "/usr/include/eigen3"))
 DEMO = SOURCE / "Resources/demo"
 LARGEST = 1e-6  # difference of a drive's samples: -120 dB, a thirtieth of a step of 16 bits
 SSE = ["-msse2", "-mfpmath=sse"]
-WASM = ["--target=wasm32-wasi", "-Wno-deprecated", "-fno-exceptions", "-fno-rtti", "-msimd128", "-Wl,-z,stack-size=1048576"]
+WASM = ["--target=wasm32-wasi", "-Wno-deprecated", "-fno-exceptions", "-fno-rtti", "-msimd128",
+        "-Wl,-z,stack-size=1048576"]
 FUNCTIONS = {"GLIBC_TUNABLES": "glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4"}
-# What it runs on, compiler, its flags, what runs its programs, what is set for them. The first is what others are compared with.
+# What it runs on, compiler, its flags, what runs its programs, what is set for them. The first is the reference.
 MACHINES = [
     (f"Linux, {platform.machine()}", "g++", [], [], {}),
     # glibc has versions of its functions with and without fused multiply-add, whose last bits differ.
@@ -40,7 +41,8 @@ MACHINES = [
     # Its library sorts and searches in other ways.
     (f"Linux, {platform.machine()}, libc++", "clang++", ["-stdlib=libc++"], [], {}),
     ("Linux, 64-bit ARM", "aarch64-linux-gnu-g++", [], ["qemu-aarch64", "-L", "/usr/aarch64-linux-gnu"], {}),
-    ("Linux, 32-bit x86", "i686-linux-gnu-g++", [*SSE, "-static"], [] if platform.machine() == "x86_64" else ["qemu-i386"], {}),
+    ("Linux, 32-bit x86", "i686-linux-gnu-g++", [*SSE, "-static"],
+     [] if platform.machine() == "x86_64" else ["qemu-i386"], {}),
     ("Windows, x86_64, in wine", "x86_64-w64-mingw32-g++-posix", ["-static"], [wine.WINE or "wine64"], {}),
     ("WebAssembly, in Node.js", "clang++-22", WASM, ["node", "--no-warnings", HERE / "run_wasm.mjs"], {}),
 ]
@@ -101,8 +103,9 @@ def version(compiler):
 
 def check_x87():
     """The x87 keeps more digits than a double has, and writer and reader of clips would not agree."""
-    refused = subprocess.run(["i686-linux-gnu-g++", "-std=c++20", "-fsyntax-only", f"-I{SOURCE}/Core", "-include",
-                              "pacini/clip/PackedClip.h", "-x", "c++", "-"], input=b"", capture_output=True, check=False)
+    command = ["i686-linux-gnu-g++", "-std=c++20", "-fsyntax-only", f"-I{SOURCE}/Core", "-include",
+               "pacini/clip/PackedClip.h", "-x", "c++", "-"]
+    refused = subprocess.run(command, input=b"", capture_output=True, check=False)
     if refused.returncode == 0 or b"-msse2 -mfpmath=sse" not in refused.stderr:
         raise Failed("the x87 is not refused, or not in words that help")
 
@@ -135,7 +138,8 @@ class Comparison:
         clips, drives, largest = 0, 0, 0.0
         for path, content, rate, channels in self.sounds:
             of_command = self.folder / f"{path.stem}.pacb"
-            clip, drive, again, unsealed = (own / f"{path.stem}.{kind}" for kind in ("pacb", "drive", "again", "unsealed"))
+            kinds = ("pacb", "drive", "again", "unsealed")
+            clip, drive, again, unsealed = (own / f"{path.stem}.{kind}" for kind in kinds)
             run(*command, rate, channels, path.name, clip, drive, input=content, env=environment, cwd=self.folder)
             run(*command, "again", of_command, again, unsealed, env=environment, cwd=self.folder)
             clips += again.read_bytes() == of_command.read_bytes() and clip.read_bytes() == unsealed.read_bytes()
@@ -146,7 +150,8 @@ class Comparison:
 
 def main():
     failed, untried = [], []
-    print("| machine | compiler | clips with the same bytes | drives with the same samples | largest difference of a sample |")
+    print("| machine | compiler | clips with the same bytes | drives with the same samples | "
+          "largest difference of a sample |")
     print("|---|---|---|---|---|")
     with tempfile.TemporaryDirectory() as folder:
         comparison = Comparison(Path(folder))

@@ -1,12 +1,13 @@
-"""The sources of the command and of libpacini compile for macOS as far as headers go: by the Clang within Zig, which brings the
-headers of macOS's C library and those of libc++, and for the oldest macOS that .github/workflows/build.yml asks for, of whose C++
-library nothing may be used that came later. Headers of other libraries are Debian's. Nothing is linked or run, and there are no
-headers of macOS's frameworks.
+"""The sources of the command and of libpacini compile for macOS as far as headers go: by the Clang within Zig, which
+brings the headers of macOS's C library and those of libc++, and for the oldest macOS that .github/workflows/build.yml
+asks for, of whose C++ library nothing may be used that came later. Headers of other libraries are Debian's. Nothing is
+linked or run, and there are no headers of macOS's frameworks.
 
 check_macos.py SOURCE BUILD    BUILD: a folder configured by CMake, which knows sources and definitions
 
-All sources are compiled for ARM, and one of each target for x86, for which none has lines of its own. With PACINI_MACOS_TURN, a
-number, every second one of those for ARM. Exit 0, 1 with what the compiler said, 77 where Zig is missing.
+All sources are compiled for ARM, and one of each target for x86, for which none has lines of its own. With
+PACINI_MACOS_TURN, a number, every second one of those for ARM. Exit 0, 1 with what the compiler said, 77 where Zig is
+missing.
 """
 import json
 import os
@@ -24,16 +25,16 @@ PYTHON = SOURCE / "build/zig-venv/bin/python"
 TARGETS = {"pacini_io": 15, "pacini_devices": 10, "pacini_study": 3, "pacini_phone": 1, "pacini_cli": 10, "pacini": 1,
            "pacini_benches": 1, "pacini-bench": 1, "pacini_library_control": 10, "pacini_library_render": 1}
 # Headers of libraries that Debian has in the folder of the C library of Linux.
-HEADERS = ("nlohmann", "fmt", "CLI", "boost", "sndfile.h", "expat.h", "expat_external.h", "zip.h", "zipconf.h", "hidapi",
-           "qrcodegen", "qrcodegencpp")
+HEADERS = ("nlohmann", "fmt", "CLI", "boost", "sndfile.h", "expat.h", "expat_external.h", "zip.h", "zipconf.h",
+           "hidapi", "qrcodegen", "qrcodegencpp")
 # Of Linux alone.
 LEFT_OUT = {"-DPACINI_HAS_PULSE=1", "-DPACINI_HAS_RTAUDIO=1"}
 # What stops, and at which header of a library.
 STOPPED = {"devices/HidapiList.cpp": "hidapi_darwin.h"}
 # Read once for all sources but those of libpacini, which set what {fmt} leaves out.
 COMMON = "".join(f"#include <{name}>\n" for name in (
-    "CLI/CLI.hpp", "fmt/format.h", "nlohmann/json.hpp", "algorithm", "charconv", "filesystem", "fstream", "functional", "map",
-    "span", "thread"))
+    "CLI/CLI.hpp", "fmt/format.h", "nlohmann/json.hpp", "algorithm", "charconv", "filesystem", "fstream", "functional",
+    "map", "span", "thread"))
 
 
 def fail(why):
@@ -52,8 +53,8 @@ class Compiler:
         zig = [PYTHON, "-m", "ziglang"]
         empty = Path(folder, "empty.cpp")
         empty.write_text("")
-        done = subprocess.run([*zig, "c++", "-target", f"{machine}-macos.{oldest()}", "-v", "-c", empty, "-o", f"{empty}.o"],
-                              capture_output=True, text=True, check=False)
+        command = [*zig, "c++", "-target", f"{machine}-macos.{oldest()}", "-v", "-c", empty, "-o", f"{empty}.o"]
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
         line = next((line for line in done.stderr.splitlines() if " -cc1 " in line), "")
         if done.returncode != 0 or not line:
             fail(f"Zig for {machine}: {done.stderr[-2000:]}")
@@ -61,8 +62,9 @@ class Compiler:
         pairs = [(word, following) for word, following in zip(words, words[1:]) if word in ("-isystem", "-D")]
         name = "arm64" if machine == "aarch64" else machine
         self.command = [Path(words[0]), "clang", f"--target={name}-apple-macosx{oldest()}", "-std=c++20", "-nostdinc",
-                        "-nostdinc++", "-ffp-contract=off", *(word for pair in pairs for word in pair), "-Wno-macro-redefined",
-                        "-D_LIBCPP_HAS_VENDOR_AVAILABILITY_ANNOTATIONS=1", "-isystem", Path(folder, "headers")]
+                        "-nostdinc++", "-ffp-contract=off", *(word for pair in pairs for word in pair),
+                        "-Wno-macro-redefined", "-D_LIBCPP_HAS_VENDOR_AVAILABILITY_ANNOTATIONS=1",
+                        "-isystem", Path(folder, "headers")]
         self.common = Path(folder, f"{machine}.pch")
         header = Path(folder, "common.h")
         header.write_text(COMMON)
@@ -72,8 +74,8 @@ class Compiler:
 
     def run(self, *words):
         """What it says; nothing if all is well."""
-        done = subprocess.run([str(word) for word in (*self.command, *words)], capture_output=True, check=False, text=True,
-                              cwd=SOURCE, timeout=600)
+        done = subprocess.run([str(word) for word in (*self.command, *words)], capture_output=True, check=False,
+                              text=True, cwd=SOURCE, timeout=600)
         return "" if done.returncode == 0 else done.stderr or str(done.returncode)
 
     def compile(self, target, source, flags):

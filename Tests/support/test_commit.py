@@ -1,4 +1,5 @@
-"""cmake/WriteCommit.cmake: the commit that `pacini --version` names, in a checkout, in an archive, and where nobody knows."""
+"""cmake/WriteCommit.cmake: the commit that `pacini --version` names, in a checkout, in an archive, and where nobody
+knows."""
 import re
 import subprocess
 import tempfile

@@ -93,8 +93,9 @@ class Package(unittest.TestCase):
     def test_a_release_takes_both_and_lists_what_is_in_them(self):
         with tempfile.TemporaryDirectory() as folder:
             folder = Path(folder)
-            done = subprocess.run([sys.executable, "-B", SOURCE / "cmake/make_release.py", folder, "--changed", "--parts",
-                                   "windows"], capture_output=True, text=True, check=False)
+            command = [sys.executable, "-B", SOURCE / "cmake/make_release.py", folder, "--changed",
+                       "--parts", "windows"]
+            done = subprocess.run(command, capture_output=True, text=True, check=False)
             self.assertEqual((done.returncode, done.stderr), (0, ""))
             packages = {one("*.zip").name, one("*-setup.exe").name}
             [listed] = folder.glob("*.spdx.json")
@@ -104,7 +105,8 @@ class Package(unittest.TestCase):
             document = json.loads(listed.read_text(encoding="utf-8"))
         names = {part["name"]: part.get("versionInfo") for part in document["packages"]}
         for start in ("libsndfile with libFLAC", "mingw-w64's runtime", "libzip", "zlib", "NSIS"):
-            self.assertEqual([bool(version) for name, version in names.items() if name.startswith(start)], [True], start)
+            found = [bool(version) for name, version in names.items() if name.startswith(start)]
+            self.assertEqual(found, [True], start)
 
 
 if __name__ == "__main__":
