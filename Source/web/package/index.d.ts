@@ -10,6 +10,24 @@ export class PaciniError extends Error {
 export type Sound =
   | { samples: Float32Array | Float64Array | (Float32Array | Float64Array)[], sampleRate: number }
   | { getChannelData(channel: number): Float32Array, numberOfChannels: number, sampleRate: number }
+  | SoundStream
+
+/** A sound that is read in parts: what openSound() gives, or one's own. */
+export interface SoundStream {
+  sampleRate: number
+  channels: number
+  frames: number
+  /** Begins at the start: a function that fills an array with interleaved samples and returns how many came. */
+  reader(): (into: Float32Array) => number
+}
+
+/** A WAV or AIFF file that is read in parts. */
+export interface SoundFile extends SoundStream {
+  /** Frames that the file states, where fewer are there. */
+  promised: number
+  /** Samples of each channel. */
+  read(from: number, count: number): Float32Array[]
+}
 
 /** A clip as it stands in a `.json` file: see the documentation of the format. */
 export interface Clip {
@@ -298,7 +316,15 @@ export function compare(sound: Sound, candidate: Sound, options?: CompareOptions
 export function profileNames(): string[]
 export function profileInfo(profile: ProfileInput, options?: Stoppable): Promise<{ name: string, low: number, high: number, dynamicRange: number, felt: boolean }>
 
-/** The sound in a WAV file, sample for sample as other programs have it. */
+/**
+ * A WAV or AIFF file (8 to 32 bits, floating point, mu-law, A-law, in WAV also ADPCM) that is read in parts, sample for sample as
+ * other programs have it: `bytesAt` gives bytes of the file from a place on, `size` is how many it has. Throws a PaciniError with
+ * `where: 'sound file'`.
+ */
+export function openSound(bytesAt: (at: number, length: number) => Uint8Array, size: number): SoundFile
+/** All of such a file. */
+export function readSound(bytes: Uint8Array): { samples: Float32Array | Float32Array[], sampleRate: number }
+/** The same, by its older name. */
 export function readWav(bytes: Uint8Array): { samples: Float32Array | Float32Array[], sampleRate: number }
 
 export interface SpectrogramOptions extends Stoppable {

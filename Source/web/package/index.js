@@ -6,6 +6,7 @@ import { monoOf, soundOf } from './sound.js'
 
 export { loadFrom, PaciniError } from './module.js'
 export { readWav } from './sound.js'
+export { openSound, readSound } from './sound-file.js'
 
 /** Instances by the names of their modules. */
 const instances = new Map()
@@ -30,7 +31,7 @@ const profileBytes = (profile) => {
   if (typeof profile === 'string' && !profile.trimStart().startsWith('{')) {
     if (!Object.hasOwn(profileTable, profile))
       throw new PaciniError({
-        code: 'invalidArgument', where: 'profile', message: `'${profile}' is none of ${Object.keys(profileTable).join(', ')}`
+        code: 'invalidArgument', where: 'profile', message: `'${profile}' is not one of ${Object.keys(profileTable).join(', ')}`
       })
     return bytesOf(profileTable[profile])
   }

@@ -11,6 +11,9 @@ export class PaciniError extends Error {
   }
 }
 
+/** What an error is about that names no place: the input of a call. */
+const subjects = { encode: 'sound', translate: 'sound', spectrogram: 'sound', compare: 'sound', profile: 'profile', reapply: 'edits' }
+
 const noImports = (module) => {
   // The C library closes, seeks and writes standard output when it ends, which never happens.
   const wasi = {}
@@ -71,7 +74,7 @@ export class Instance {
 
   #put(bytes) {
     const address = this.#exports.allocate(bytes.length)
-    if (address === 0) throw new PaciniError({ code: 'tooLarge', where: '', message: 'needs more memory than is available' })
+    if (address === 0) throw new PaciniError({ code: 'tooLarge', where: 'memory', message: 'the module cannot get as much as this call needs; take a shorter sound or clip' })
     this.#bytes(address, bytes.length).set(bytes)
     return address
   }
@@ -107,7 +110,7 @@ export class Instance {
         hold(new Uint8Array(table.buffer)), inputs.length, sound.channels)
       const text = JSON.parse(new TextDecoder().decode(
         this.#bytes(this.#exports.replyText(), this.#exports.replyTextLength())))
-      if (failed) throw new PaciniError(text)
+      if (failed) throw new PaciniError({ ...text, where: text.where || (subjects[name] ?? 'clip') })
       const outputs = []
       for (let i = 0; i < this.#exports.replyOutputs(); ++i)
         outputs.push(this.#bytes(this.#exports.replyOutput(i), this.#exports.replyOutputLength(i)).slice())
