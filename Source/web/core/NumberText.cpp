@@ -1,5 +1,5 @@
-// std::to_chars() of a double, which the C++ library makes with tables of 100 kB that no other call here needs. This
-// one is linked before it and gives the same text: as few digits as read back as the number, in the shorter notation.
+// std::to_chars() of a double in the forms that Pacini calls, which the C++ library makes with tables of 100 kB. These are
+// linked before it and give the same text: as few digits as read back as the number, or as many as are asked for.
 
 #include <fmt/format.h>
 
@@ -12,8 +12,9 @@
 
 namespace
 {
-/// Digits d and exponent e as 0.ddd, ddd000, d.dd or d.dde+ee: the shortest, without an exponent if that is as short.
-std::string textOf(double value)
+/// Digits d and exponent e as 0.ddd, ddd000, d.dd or d.dde+ee: the shortest, without an exponent if that is as short or
+/// `isFixed`.
+std::string textOf(double value, bool isFixed)
 {
     if (!std::isfinite(value))
         return std::isnan(value) ? "nan" : value < 0.0 ? "-inf" : "inf";
@@ -38,18 +39,35 @@ std::string textOf(double value)
                 digits.substr(static_cast<std::size_t>(exponent) + 1);
     else if (size < exactBelow)
         fixed = fmt::to_string(static_cast<std::uint64_t>(size)); // a whole number has all its digits
+    else if (isFixed)
+        fixed = fmt::format("{:.0f}", size);
     else
         return sign + scientific;
-    return sign + (fixed.size() <= scientific.size() ? fixed : scientific);
+    return sign + (isFixed || fixed.size() <= scientific.size() ? fixed : scientific);
+}
+
+std::to_chars_result put(const std::string& text, char* first, char* last)
+{
+    if (static_cast<std::size_t>(last - first) < text.size())
+        return {last, std::errc::value_too_large};
+    return {std::copy(text.begin(), text.end(), first), std::errc()};
 }
 } // namespace
 
 _LIBCPP_BEGIN_NAMESPACE_STD
 to_chars_result to_chars(char* first, char* last, double value)
 {
-    const std::string text = textOf(value);
-    if (static_cast<std::size_t>(last - first) < text.size())
-        return {last, errc::value_too_large};
-    return {std::copy(text.begin(), text.end(), first), errc()};
+    return put(textOf(value, false), first, last);
+}
+
+to_chars_result to_chars(char* first, char* last, double value, chars_format form)
+{
+    return put(textOf(value, form == chars_format::fixed), first, last);
+}
+
+to_chars_result to_chars(char* first, char* last, double value, chars_format form, int digits)
+{
+    return put(form == chars_format::fixed ? fmt::format("{:.{}f}", value, digits) : fmt::format("{:.{}g}", value, digits),
+               first, last);
 }
 _LIBCPP_END_NAMESPACE_STD
