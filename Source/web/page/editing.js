@@ -97,6 +97,25 @@ export const startEditing = ({ canvas, lanes, state, change, withdraw, look, pla
   }
   // A finger that swipes scrolls the page: it drags nothing but the point that was tapped last.
   let tap, tapped
+  // Fingers that edit nothing: one that goes along the picture scrolls it, two zoom it.
+  const fingers = new Map() // {x, y} by their pointers
+  let gesture // {range, x} or {range, x, distance}: as it began
+  const startGesture = () => {
+    const all = [...fingers.values()], x = all.reduce((sum, one) => sum + one.x, 0) / all.length
+    gesture = all.length === 0 ? undefined
+      : { range: lanes.range, x, time: lanes.timeAt(x), distance: all.length > 1 ? Math.abs(all[0].x - all[1].x) : undefined }
+    if (all.length > 1) tap = undefined
+  }
+  const goOn = () => {
+    const all = [...fingers.values()], { duration } = state.clip
+    lanes.range = gesture.range
+    if (gesture.distance > 0) lanes.zoom(gesture.distance / Math.max(1, Math.abs(all[0].x - all[1].x)), gesture.time, duration)
+    else if (!tap) lanes.scrollTo(gesture.range.from + gesture.time - lanes.timeAt(all[0].x), duration)
+    look()
+  }
+  const lift = ({ pointerId }) => {
+    if (fingers.delete(pointerId)) startGesture()
+  }
   const isTapped = (x, y) => tapped === selections && found(x, y, true).part === 'edited' && found(x, y, true).index === state.selected
   canvas.addEventListener('touchstart', (event) => {
     if (event.touches.length === 1 && state.clip && isTapped(...place(event.touches[0]))) event.preventDefault()
@@ -105,13 +124,20 @@ export const startEditing = ({ canvas, lanes, state, change, withdraw, look, pla
     tap = undefined
     if (event.button !== 0 || !state.clip) return
     const [x, y] = place(event), touch = event.pointerType === 'touch'
-    if (touch && !isTapped(x, y)) {
+    if (touch && (fingers.size > 0 || !isTapped(x, y))) {
+      if (dragged) return
+      fingers.set(event.pointerId, { x, y })
+      startGesture()
       if (event.isPrimary) tap = { id: event.pointerId, x, y }
     } else if (touch || press(x, y)) begin(event)
   })
   canvas.addEventListener('pointermove', (event) => {
     const [x, y] = place(event)
     if (tap && (tap.id !== event.pointerId || Math.hypot(x - tap.x, y - tap.y) > tapReach)) tap = undefined
+    if (gesture && fingers.has(event.pointerId)) {
+      fingers.set(event.pointerId, { x, y })
+      goOn()
+    }
     if (dragged) move({ time: lanes.timeAt(x), amplitude: lanes.amplitudeAt(y) }, dragged)
   })
   const drop = () => {
@@ -120,13 +146,15 @@ export const startEditing = ({ canvas, lanes, state, change, withdraw, look, pla
     showFields()
     look()
   }
-  canvas.addEventListener('pointerup', () => {
+  canvas.addEventListener('pointerup', (event) => {
+    lift(event)
     if (dragged) drop()
     else if (tap && press(tap.x, tap.y, true)) tapped = selections
     tap = undefined
   })
   // The browser took the pointer for something else.
-  canvas.addEventListener('pointercancel', () => {
+  canvas.addEventListener('pointercancel', (event) => {
+    lift(event)
     tap = undefined
     if (!dragged) return
     withdraw(`${dragged} ${selections}`)

@@ -18,6 +18,8 @@ export const describeFeel = () => {
   const pads = rumbling()
   if (pads.length > 0) return `On ${pads.map((pad) => pad.id.replace(/\s*\(.*$/, '')).join(', ')}.`
   if (canVibrate()) return 'On this phone.'
+  if (/iPhone|iPad/.test(navigator.userAgent))
+    return 'Browsers on iPhones cannot vibrate. Connect a game controller, or open this page in Chrome on an Android phone; files in AHAP play in apps on iPhones.'
   return 'Connect a game controller and press one of its buttons, or open this page on a phone that vibrates. ' +
     'With an actuator on a sound interface, use "Play sound and haptics together".'
 }

@@ -14,9 +14,15 @@ const show = async () => {
   const answer = await fetch(`guide/${page.name}.html`)
   element('page').innerHTML = answer.ok ? await answer.text() : '<p role="alert">This page is not there.</p>'
   document.title = `Pacini: ${page.title}`
+  const at = pages.indexOf(page)
+  element('steps').replaceChildren(...[[pages[at - 1], 'Back', 'prev'], [pages[at + 1], 'Next', 'next']].filter(([other]) => other)
+    .map(([other, word, rel]) => Object.assign(document.createElement('a'), { href: `#${other.name}`, textContent: `${word}: ${other.title}`, className: 'button', rel })),
+  ...(at === pages.length - 1 ? [Object.assign(document.createElement('a'), { href: './', textContent: 'Try it with your own sound', className: 'button primary' })] : []))
   for (const link of document.querySelectorAll('#pages a'))
-    if (link.hash === `#${page.name}`) link.setAttribute('aria-current', 'page')
-    else link.removeAttribute('aria-current')
+    if (link.hash === `#${page.name}`) {
+      link.setAttribute('aria-current', 'page')
+      link.scrollIntoView({ inline: 'center', block: 'nearest' })
+    } else link.removeAttribute('aria-current')
   for (const place of document.querySelectorAll('.figure'))
     figures[place.dataset.figure](place, leave.signal).catch((error) => {
       if (leave.signal.aborted || error?.superseded) return
@@ -34,5 +40,8 @@ element('pages').append(...pages.map(({ name, title }) => {
   item.append(link)
   return item
 }))
-addEventListener('hashchange', () => show().then(() => element('page').focus()))
+addEventListener('hashchange', () => show().then(() => {
+  scrollTo(0, 0)
+  element('page').focus({ preventScroll: true })
+}))
 show().then(() => { document.documentElement.dataset.ready = 'true' })

@@ -108,7 +108,7 @@ export class Lanes {
     }
     context.restore()
     this.#label(context, picture ? 'sound, 20 Hz to 2 kHz' : sound ? 'sound' : 'no sound with this clip', soundBox)
-    if (this.top < 1) this.#label(context, `to ${this.top}`, edited)
+    this.#label(context, `${lane === 'events' ? 'events' : lane === 'total' ? 'total amplitude' : `band ${lane + 1}`}, 0 to ${this.top}`, edited)
     this.#label(context, clip.bands.length === 1 ? '1 band' : `${clip.bands.length} bands${this.#span(clip.bands)}`, bandBox)
     this.#label(context, 'what the actuator plays', driveBox)
     this.#times(context, clip.duration)

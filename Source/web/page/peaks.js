@@ -2,24 +2,30 @@
 
 const finest = 64 // samples
 
+/** Smallest and largest of each 64 samples, `[low, high, low, high...]`, of `length` that `read(from, count)` gives. */
+export const firstLevel = (length, read, progress = () => {}) => {
+  const first = new Float32Array(2 * Math.ceil(length / finest)), part = 1024 * finest
+  for (let from = 0; from < length; from += part) {
+    const samples = read(from, Math.min(part, length - from))
+    for (let n = 0; n < samples.length; ++n) {
+      const i = 2 * Math.floor((from + n) / finest), value = samples[n]
+      if (value < first[i]) first[i] = value
+      else if (value > first[i + 1]) first[i + 1] = value
+    }
+    progress(from / length)
+  }
+  return first
+}
+
 export class Peaks {
   #samples
-  #levels = [] // [low, high, low, high...]
+  #length
+  #levels = []
 
-  constructor(samples) {
+  /** Of samples that are at hand. */
+  constructor(samples, length = samples.length, first = firstLevel(length, (from, count) => samples.subarray(from, from + count))) {
     this.#samples = samples
-    const first = new Float32Array(2 * Math.ceil(samples.length / finest))
-    for (let i = 0; i < first.length / 2; ++i) {
-      let low = 0, high = 0
-      const end = Math.min(samples.length, (i + 1) * finest)
-      for (let n = i * finest; n < end; ++n) {
-        const value = samples[n]
-        if (value < low) low = value
-        else if (value > high) high = value
-      }
-      first[2 * i] = low
-      first[2 * i + 1] = high
-    }
+    this.#length = length
     this.#levels.push(first)
     while (this.#levels.at(-1).length > 4) {
       const fine = this.#levels.at(-1), coarse = new Float32Array(2 * Math.ceil(fine.length / 4))
@@ -32,7 +38,10 @@ export class Peaks {
     }
   }
 
-  get length() { return this.#samples.length }
+  /** Of the first level of a sound whose samples are elsewhere: no finer than that. */
+  static ofLevel(first, length) { return new Peaks(undefined, length, first) }
+
+  get length() { return this.#length }
 
   /** Of the samples from `begin` to `end`, as `[low, high]`. */
   between(begin, end) {
@@ -44,9 +53,9 @@ export class Peaks {
       }
     }
     const level = Math.floor(Math.log2((end - begin) / finest))
-    if (level < 0) take(this.#samples, Math.floor(begin), Math.max(Math.floor(begin) + 1, Math.floor(end)))
+    if (level < 0 && this.#samples) take(this.#samples, Math.floor(begin), Math.max(Math.floor(begin) + 1, Math.floor(end)))
     else {
-      const index = Math.min(level, this.#levels.length - 1), width = finest * 2 ** index
+      const index = Math.max(0, Math.min(level, this.#levels.length - 1)), width = finest * 2 ** index
       take(this.#levels[index], 2 * Math.floor(begin / width), 2 * Math.max(Math.floor(begin / width) + 1, Math.floor(end / width)))
     }
     return [low, high]

@@ -24,9 +24,9 @@ export const patternAt = (touches, time) => {
   return { from, until: at, pattern }
 }
 
-/** A clock that begins now: `now()`, s, and its speed. */
-export const wallClock = () => {
-  const started = performance.now()
+/** A clock that begins now with `from`, s: `now()`, s, and its speed. */
+export const wallClock = (from = 0) => {
+  const started = performance.now() - 1000 * from
   return { now: () => (performance.now() - started) / 1000, speed: 1 }
 }
 

@@ -1,13 +1,73 @@
-// Encoding, rendering and formats, beside the page's own thread. One request after another, each with its number.
+// Encoding, rendering and formats, beside the page's own thread. One request after another, each with its number. Sounds come as
+// Blobs of WAV or AIFF files, of which parts are read: a long one needs no memory.
 
-import { compare, defaults, encode, exportParameters, felt, formats, profileInfo, read, reapply, render, reports, rumble, spectrogram, touch, write } from './pacini/index.js'
+import { compare, defaults, encode, exportParameters, felt, formats, loadFrom, openSound, profileInfo, read, reapply, render, reports, rumble, spectrogram,
+  touch, write } from './pacini/index.js'
+import { firstLevel } from './peaks.js'
 
-const calls = { compare, defaults, encode, exportParameters, felt, formats, profileInfo, read, reapply, render, reports, rumble, spectrogram, touch, write }
+let module
+/** What a visit needs is one module; those of the package hold the rest. */
+const loaded = () => module ??= (async () => {
+  const answer = await fetch('visit.wasm')
+  if (!answer.ok) throw new Error(`The page's module cannot be loaded (${answer.status}). Load the page again.`)
+  const visit = await WebAssembly.compile(await answer.arrayBuffer())
+  loadFrom({ encode: visit, render: visit, research: visit, devices: visit })
+})()
+
+const fileOf = (blob) => openSound((at, length) => {
+  try {
+    return new Uint8Array(new FileReaderSync().readAsArrayBuffer(blob.slice(at, at + length)))
+  } catch {
+    throw new Error(`${blob.name ?? 'The sound'} cannot be read any more: it was moved or changed. Open it again.`)
+  }
+}, blob.size)
+/** The mean of all channels, from one frame to another. */
+const monoOf = (file, from, count) => {
+  const [mono, ...others] = file.read(from, count)
+  for (const channel of others) for (let n = 0; n < mono.length; ++n) mono[n] += channel[n]
+  if (others.length > 0) for (let n = 0; n < mono.length; ++n) mono[n] /= file.channels
+  return mono
+}
+/** `{blob, from, count}` as the package takes sounds. */
+const partOf = (sound) => {
+  if (!sound.blob) return sound
+  const file = fileOf(sound.blob)
+  return { samples: monoOf(file, sound.from ?? 0, sound.count ?? file.frames), sampleRate: file.sampleRate }
+}
+
+const calls = {
+  defaults, exportParameters, felt, formats, profileInfo, read, reapply, render, reports, rumble, touch, write,
+  encode: (sound, options, progress) => encode(sound.blob ? fileOf(sound.blob) : sound, { ...options, progress }),
+  compare: (sound, candidate) => compare(partOf(sound), candidate),
+  spectrogram: (sound, options) => spectrogram(partOf(sound), options),
+  open: (blob) => {
+    const { sampleRate, channels, frames, promised } = fileOf(blob)
+    return { sampleRate, channels, frames, promised }
+  },
+  mono: (blob, from, count) => {
+    const mono = monoOf(fileOf(blob), from, count)
+    return mono.byteLength < mono.buffer.byteLength ? mono.slice() : mono
+  },
+  peaks: (blob, progress) => {
+    const file = fileOf(blob)
+    return firstLevel(file.frames, (from, count) => monoOf(file, from, count), progress)
+  }
+}
+const needsNoModule = new Set(['open', 'mono', 'peaks'])
+const buffersOf = (result) => [result, ...Object.values(result ?? {})].filter((one) => ArrayBuffer.isView(one)).map(({ buffer }) => buffer)
 
 self.onmessage = async ({ data: { number, name, parameters } }) => {
+  let told = 0
+  const progress = (share) => {
+    if (performance.now() < told + 100) return
+    told = performance.now()
+    self.postMessage({ number, share })
+  }
   try {
-    const result = await calls[name](...parameters)
-    self.postMessage({ number, result })
+    if (!needsNoModule.has(name)) await loaded()
+    const started = performance.now()
+    const result = await calls[name](...parameters, ...(['encode', 'peaks'].includes(name) ? [progress] : []))
+    self.postMessage({ number, result, took: performance.now() - started }, [...new Set(buffersOf(result))])
   } catch (error) {
     self.postMessage({ number, error: { message: error.message, where: error.where ?? '', code: error.code ?? '' } })
   }
