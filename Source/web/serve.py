@@ -23,7 +23,7 @@ class Handler(http.server.SimpleHTTPRequestHandler):
             file /= "index.html"
         for name, suffix in (("br", ".br"), ("gzip", ".gz")):
             copy = file.with_name(file.name + suffix)
-            if name in taken and copy.is_file() and copy.stat().st_mtime >= file.stat().st_mtime:
+            if name in taken and copy.is_file():
                 self.encoding = name
                 there = self.path
                 path, mark, query = there.partition("?")

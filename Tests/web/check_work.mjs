@@ -219,6 +219,7 @@ try {
   check('and one\'s own work can be gone on with', own !== undefined, (await works()).map(({ text }) => text).join('; '))
   if (own) {
     await theirs.tab.select('#works', own.value)
+    await theirs.tab.$eval('#open-work', (button) => button.click())
     check('with its edits and its sound', await until(async () => await theirs.name() === 'knock') && (await theirs.clip()).transients.filter(isAdded).length === 3 && await theirs.hasSound())
   }
 

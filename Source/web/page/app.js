@@ -5,7 +5,7 @@ import profiles from './pacini/profiles.js'
 import { Core } from './core.js'
 import { startEditing } from './editing.js'
 import { withEdit } from './edits.js'
-import { connectController, describeFeel, feel, feelsNow } from './feel.js'
+import { connectController, describeFeel, feel, feelsNow, prepareFeel } from './feel.js'
 import { guardNumber, guardSlider } from './fields.js'
 import { follow } from './film.js'
 import { firstPart } from './first-part.js'
@@ -19,7 +19,7 @@ import { Live } from './live.js'
 import { microphone } from './microphone.js'
 import { Peaks } from './peaks.js'
 import { channelCount, playPair, wholeSignal } from './sound-player.js'
-import { heldMono, monoOf, peaksOf, soundOf, soundOfSamples } from './sounds.js'
+import { heldMono, isHeld, monoOf, peaksOf, soundOf, soundOfSamples } from './sounds.js'
 import { wallClock } from './vibration.js'
 import { claim, keep, kept, keptWorks, newId } from './store.js'
 import { zip } from './zip.js'
@@ -42,6 +42,7 @@ let drive // {samples, sampleRate} for the chosen actuator
 let cursor = 0 // s: where playing begins
 const longestRendered = 1200 // s: of longer clips the first part is rendered, shown and played
 /** Rate of drive signals, which end below 2 kHz: that of long ones is the lowest that Web Audio plays everywhere. */
+const isLong = ({ duration }) => duration > 120 // s: its workers give their memory back when they rest
 const driveRateOf = ({ duration }) => duration > 60 ? 8000 : 48000
 
 const say = (text) => { element('status').textContent = text }
@@ -176,7 +177,9 @@ const analysed = async ({ name, source, sound }, values) => {
   core.cancel()
   const started = performance.now()
   say('Analysing...')
-  const clip = await core.call('encode', { blob: sound.blob }, { name, source, ...values })
+  const { clip, peaks } = await core.call('encode', { blob: sound.blob, peaks: true }, { name, source, ...values })
+  if (!isHeld(sound)) sound.peaks ??= peaks
+  if (isLong(clip)) core.rest()
   return { clip, said: `Analysed in ${((performance.now() - started) / 1000).toFixed(2)} s.` }
 }
 
@@ -275,7 +278,7 @@ const show = async () => {
     view.soundRate = sound?.sampleRate ?? 1
     view.picture = undefined
     pictureOf = ''
-    if (sound) showSound(sound)
+    if (sound) await showSound(sound) // before anything else: each needs memory
   }
   if (view.clip?.duration !== document.clip.duration || !sameSound) {
     lanes.showAll(document.clip.duration)
@@ -303,7 +306,7 @@ const show = async () => {
 /** Puts the waveform of a sound into the picture when it is read. */
 const showSound = guarded(async (sound) => {
   const held = await heldMono(sound)
-  const peaks = held ? new Peaks(held) : Peaks.ofLevel(await peaksOf(sound), sound.frames)
+  const peaks = held ? new Peaks(held) : Peaks.ofLevel(sound.peaks ??= await peaksOf(sound), sound.frames)
   if (sound !== soundShown) return
   mono = held
   view.sound = peaks
@@ -314,21 +317,26 @@ const showSound = guarded(async (sound) => {
 const renderDrive = newestOnly(async () => {
   const { clip } = view
   if (!clip) return
-  const rendered = await side.call('render', firstPart(clip, longestRendered), { ...profileOption(), sampleRate: driveRateOf(clip), ...strength() })
+  // A long clip goes to the worker once, as its packed bytes.
+  const { files: [{ bytes }] } = await side.call('write', clip, { format: 'packed' })
+  if (isLong(clip)) side.rest()
   if (clip !== view.clip) return // a newer one comes
+  const part = isLong(clip) ? { end: Math.min(clip.duration, longestRendered) } : {}
+  const rendered = await side.call('render', isLong(clip) ? bytes : clip, { ...part, ...profileOption(), sampleRate: driveRateOf(clip), ...strength() })
+  if (isLong(clip)) side.rest()
+  if (clip !== view.clip) return
   drive = { samples: rendered.samples, sampleRate: driveRateOf(clip) }
   view.drive = new Peaks(drive.samples)
   view.driveRate = drive.sampleRate
   look()
-  const { files } = await side.call('write', clip, { format: 'packed' })
-  if (clip !== view.clip) return
   const points = clip.bands.reduce((sum, band) => sum + band.amplitude.length, 0)
-  element('figures').textContent = `${clip.duration.toFixed(2)} s, ${files[0].bytes.length} bytes packed, ` +
+  element('figures').textContent = `${clip.duration.toFixed(2)} s, ${bytes.length} bytes packed, ` +
     `${counted(points, 'breakpoint')} in ${counted(clip.bands.length, 'band')}, ${counted(clip.transients.length, 'event')}` +
     (rendered.reduction > 0.05 ? `; the actuator's protection takes ${rendered.reduction.toFixed(1)} dB` : '') +
     (clip.duration > longestRendered ? `. This is long: what the actuator plays is rendered, shown and played of the first ${longestRendered / 60} minutes; files hold all of it` : '')
   await showLosses()
   if (element('comparison').open) await compare()
+  if (isLong(clip)) side.rest()
 })
 
 const profileOption = () => element('profile').value ? { profile: element('profile').value } : {}
@@ -458,7 +466,9 @@ const lostText = (losses) => `Lost here: ${losses.slice(0, 3).map((loss) => loss
 const showLosses = async () => {
   const format = formatNamed(element('format').value)
   if (!format || !view.clip) return
-  const { losses } = await side.call('write', firstPart(view.clip, longestRendered), await exportOptions(format))
+  const isOwn = ['json', 'packed'].includes(format.name) // which keeps everything
+  const { losses } = isOwn && isLong(view.clip) ? { losses: [] }
+    : await side.call('write', firstPart(view.clip, longestRendered), await exportOptions(format))
   element('losses').textContent = losses.length === 0 ? format.keeps : `${format.keeps} ${lostText(losses)}`
 }
 
@@ -546,12 +556,13 @@ const feelIt = () => playThat(async (how) => {
     return false
   }
   const clip = firstPart(view.clip, longestRendered)
-  const felt = (clock) => feel(clip, how.signal, (...parameters) => side.call(...parameters), clock)
+  const play = await prepareFeel(clip, (...parameters) => side.call(...parameters))
+  if (how.signal.aborted) return
   if (soundShown && element('with-sound').checked) {
     // By the clock of the sound, as it is heard.
     const part = soundPart()
     let feeling
-    await playPair(part, part, { ...how, started: (clock) => { feeling = felt(clock) } })
+    await playPair(part, part, { ...how, started: (clock) => { feeling = play(how.signal, clock) } })
     await feeling
   } else {
     const clock = wallClock(how.from)
@@ -561,7 +572,7 @@ const feelIt = () => playThat(async (how) => {
       requestAnimationFrame(tick)
     }
     tick()
-    await felt(clock)
+    await play(how.signal, clock)
   }
   element('feel-status').textContent = describeFeel()
 })

@@ -1,6 +1,6 @@
 // Example cards: each is opened, heard or felt where it stands.
 
-import { describeFeel, feel, feelsNow } from './feel.js'
+import { describeFeel, feelsNow, prepareFeel } from './feel.js'
 import { playPair, wholeSignal } from './sound-player.js'
 import { heldMono, soundOf } from './sounds.js'
 
@@ -55,19 +55,20 @@ export const startCards = ({ cards, bytesOf, open, playThat, stop, call, drive, 
       stop()
       open(file)
     })
-    const play = card.querySelector('.play'), touch = card.querySelector('.feel')
-    for (const button of [play, touch]) button.setAttribute('aria-pressed', 'false')
+    const play = card.querySelector('.play'), feeler = card.querySelector('.feel')
+    for (const button of [play, feeler]) button.setAttribute('aria-pressed', 'false')
     toggle(play, async (how) => {
       const { signal } = await load(file)
       say(`${name}: the sound.`)
       await playPair(signal, signal, { ...how, from: 0 })
     })
-    toggle(touch, async (how) => {
+    toggle(feeler, async (how) => {
       const clip = await clipOf(file), { signal } = await load(file)
       if (feelsNow()) {
         say(`${name}: sound and haptics together. ${describeFeel()}`)
+        const touch = await prepareFeel(clip, call)
         let feeling
-        await playPair(signal, signal, { ...how, from: 0, started: (clock) => { feeling = feel(clip, how.signal, call, clock) } })
+        await playPair(signal, signal, { ...how, from: 0, started: (clock) => { feeling = touch(how.signal, clock) } })
         await feeling
         return
       }

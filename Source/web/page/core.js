@@ -37,6 +37,13 @@ export class Core {
     })
   }
 
+  /** Gives the memory of the worker back, once it works for nothing: the next call starts another. */
+  rest() {
+    if (this.#waiting.size > 0) return
+    this.#worker?.terminate()
+    this.#worker = undefined
+  }
+
   cancel() {
     if (this.#waiting.size === 0) return
     this.#worker.terminate()

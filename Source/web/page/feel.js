@@ -28,44 +28,55 @@ export const describeFeel = () => {
 export const connectController = () => choose()
 
 /**
- * Plays on what is there until it ends or `signal` stops it; whether there was anything. `call` calls the core. `clock` is that of
- * a film (see film.js), or begins when it is played.
+ * Computes what the clip is on what is there, and gives `play(signal, clock)`, which plays it until it ends or `signal` stops it, and
+ * tells whether there was anything. `call` calls the core. `clock` is that of a sound or film (see film.js), or begins when it is
+ * played.
  */
-export const feel = async (clip, signal, call, clock) => {
+export const prepareFeel = async (clip, call) => {
   const controller = chosen()
   if (controller) {
     const { vendorId: vendor, productId: product } = controller
-    await playReports(controller, await call('reports', clip, { vendor, product, bluetooth: isBluetooth(controller) }), signal, clock)
-    return true
+    const reports = await call('reports', clip, { vendor, product, bluetooth: isBluetooth(controller) })
+    return async (signal, clock) => {
+      await playReports(controller, reports, signal, clock)
+      return true
+    }
   }
   const pads = rumbling()
   if (pads.length === 0) {
-    if (typeof navigator.vibrate !== 'function') return false
+    if (typeof navigator.vibrate !== 'function') return async () => false
     const { touches } = await call('touch', clip)
-    const { now, speed } = clock ?? wallClock()
-    await vibrateBy(() => now() / speed, atSpeed(touchesOf(touches), speed), signal)
-    return true
+    return async (signal, clock) => {
+      const { now, speed } = clock ?? wallClock()
+      await vibrateBy(() => now() / speed, atSpeed(touchesOf(touches), speed), signal)
+      return true
+    }
   }
   const { motors, interval } = await call('rumble', clip)
-  if (signal.aborted) return true
-  const { now } = clock ?? wallClock()
-  signal.addEventListener('abort', () => pads.forEach((pad) => pad.vibrationActuator.reset?.()), { once: true })
-  let last = -1
-  await new Promise((resolve) => {
-    const tick = () => {
-      const index = Math.floor(now() / interval)
-      if (signal.aborted || 2 * index >= motors.length) return resolve()
-      if (index !== last) {
-        last = index
-        for (const pad of pads)
-          pad.vibrationActuator.playEffect('dual-rumble', {
-            startDelay: 0, duration: 60, strongMagnitude: motors[2 * index], weakMagnitude: motors[2 * index + 1]
-          })
+  return async (signal, clock) => {
+    if (signal.aborted) return true
+    const { now } = clock ?? wallClock()
+    signal.addEventListener('abort', () => pads.forEach((pad) => pad.vibrationActuator.reset?.()), { once: true })
+    let last = -1
+    await new Promise((resolve) => {
+      const tick = () => {
+        const index = Math.floor(now() / interval)
+        if (signal.aborted || 2 * index >= motors.length) return resolve()
+        if (index !== last && index >= 0) {
+          last = index
+          for (const pad of pads)
+            pad.vibrationActuator.playEffect('dual-rumble', {
+              startDelay: 0, duration: 60, strongMagnitude: motors[2 * index], weakMagnitude: motors[2 * index + 1]
+            })
+        }
+        requestAnimationFrame(tick)
       }
-      requestAnimationFrame(tick)
-    }
-    tick()
-  })
-  pads.forEach((pad) => pad.vibrationActuator.reset?.())
-  return true
+      tick()
+    })
+    pads.forEach((pad) => pad.vibrationActuator.reset?.())
+    return true
+  }
 }
+
+/** Both at once. */
+export const feel = async (clip, signal, call, clock) => (await prepareFeel(clip, call))(signal, clock)

@@ -3,7 +3,7 @@
 
 import profiles from './pacini/profiles.js'
 import { Core } from './core.js'
-import { describeFeel, feel, feelsNow } from './feel.js'
+import { describeFeel, feelsNow, prepareFeel } from './feel.js'
 import { valueAt } from './curve.js'
 import { guardSlider } from './fields.js'
 import { Peaks } from './peaks.js'
@@ -98,10 +98,10 @@ const ways = (place, signal, all) => {
         if (own.signal.aborted) return
         if (clip) words.textContent = describeFeel()
         if (clip && !feelsNow()) return
-        const heard = wholeSignal(samples, rate)
+        const heard = wholeSignal(samples, rate), touch = clip && await prepareFeel(clip, (...parameters) => core.call(...parameters))
         let feeling
         await playPair(heard, heard, { signal: own.signal, started: (clock) => {
-          if (clip) feeling = feel(clip, own.signal, (...parameters) => core.call(...parameters), clock)
+          feeling = touch?.(own.signal, clock)
         } })
         await feeling
       } catch (error) {
@@ -267,19 +267,19 @@ const actuators = async (place, signal) => {
 
 const scenes = async (place, signal) => {
   const knock = await core.call('encode', await soundOf('knock_wood_bridge'))
-  const heart = await core.call('encode', await soundOf('heartbeat'))
+  const button = await core.call('encode', await soundOf('ui_click'))
   const count = knob(place, 'Parts', { min: 10, max: 200, step: 10, value: 100 }, () => update())
   const view = picture(place, 'The parts of a scene, those that are left out pale')
   let all, few
   ways(place, signal, [['Listen to all parts', () => loud(all.samples)], ['Listen without those left out', () => loud(few.samples)]])
   const update = async () => {
-    const parts = Number(count.value), duration = 8
+    const parts = Number(count.value), duration = 6
     // One in ten is near by; the others are far away, in a fixed disorder.
     const plays = Array.from({ length: parts }, (_, i) => ({
-      clip: i % 2, start: (i * 2.399) % (duration - 4.1), gain: i % 10 === 0 ? -2 * (i % 7) : -88 - 25 * ((i * 7) % parts) / parts, name: `part ${i + 1}`
+      clip: i % 2, start: (i * 2.399) % (duration - 0.6), gain: i % 10 === 0 ? -2 * (i % 7) : -88 - 25 * ((i * 7) % parts) / parts, name: `part ${i + 1}`
     }))
     const scene = { format: 'pacini.scene', version: 1, duration, clips: [{ file: '0' }, { file: '1' }], plays }
-    const options = { clips: [knock, heart], profile: 'l5-wristband', sampleRate: 8000 }
+    const options = { clips: [knock, button], profile: 'l5-wristband', sampleRate: 8000 }
     const timed = async (leaveOut) => { // the best of three
       let best
       for (let run = 0; run < 3; ++run) {
@@ -299,7 +299,7 @@ const scenes = async (place, signal) => {
       const row = height / parts
       plays.forEach(({ start, clip }, i) => {
         context.fillStyle = colour(out.has(i) ? 'line' : 'accent')
-        context.fillRect(start / duration * width, i * row, (clip === 0 ? knock : heart).duration / duration * width, Math.max(1, row - 1))
+        context.fillRect(start / duration * width, i * row, (clip === 0 ? knock : button).duration / duration * width, Math.max(1, row - 1))
       })
     })
     let difference = 0, energy = 0

@@ -45,13 +45,16 @@ const send = (controller, { bytes, feature }) => {
   return feature ? controller.sendFeatureReport(bytes[0], content) : controller.sendReport(bytes[0], content)
 }
 
+/** Whether a report of Nintendo's controllers prepares them: it is sent whenever playing begins. */
+const prepares = ({ vendorId }, { bytes }) => vendorId === 0x057e && bytes[0] !== 0x10
+
 /** Sends `reports` at their times, until `signal` stops it; silences the controller whatever happens. */
 export const playReports = async (controller, { reports, stops }, signal, clock) => {
   if (!controller.opened) await controller.open()
   const { now, speed } = clock ?? wallClock()
   let counter = 0, done = false
   try {
-    for (const report of clock ? reports.filter(({ time }) => time >= now()) : reports) {
+    for (const report of clock ? reports.filter((report) => report.time >= now() || prepares(controller, report)) : reports) {
       const wait = 1000 * (report.time - now()) / speed
       if (wait > 1)
         await new Promise((resolve) => {

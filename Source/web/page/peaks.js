@@ -1,20 +1,29 @@
 // Smallest and largest samples of a sound, halved level by level, so that any stretch is drawn as fast as any other.
 
-const finest = 64 // samples
+/** How many samples the finest level takes together: of a long sound more. */
+const finestOf = (length) => length > 1e7 ? 256 : 64
 
-/** Smallest and largest of each 64 samples, `[low, high, low, high...]`, of `length` that `read(from, count)` gives. */
-export const firstLevel = (length, read, progress = () => {}) => {
-  const first = new Float32Array(2 * Math.ceil(length / finest)), part = 1024 * finest
-  for (let from = 0; from < length; from += part) {
-    const samples = read(from, Math.min(part, length - from))
-    for (let n = 0; n < samples.length; ++n) {
-      const i = 2 * Math.floor((from + n) / finest), value = samples[n]
-      if (value < first[i]) first[i] = value
-      else if (value > first[i + 1]) first[i + 1] = value
-    }
-    progress(from / length)
+/** Smallest and largest of a few samples at a time, `[low, high, low, high...]`, of `length` that are added one after another. */
+export class FirstLevel {
+  values
+  #finest
+  #at = 0
+
+  constructor(length) {
+    this.#finest = finestOf(length)
+    this.values = new Float32Array(2 * Math.ceil(length / this.#finest))
   }
-  return first
+
+  add(samples) {
+    const { values } = this
+    for (let n = 0; n < samples.length; ++n) {
+      const i = 2 * Math.floor((this.#at + n) / this.#finest), value = samples[n]
+      if (value < values[i]) values[i] = value
+      else if (value > values[i + 1]) values[i + 1] = value
+    }
+    this.#at += samples.length
+    return this
+  }
 }
 
 export class Peaks {
@@ -23,7 +32,7 @@ export class Peaks {
   #levels = []
 
   /** Of samples that are at hand. */
-  constructor(samples, length = samples.length, first = firstLevel(length, (from, count) => samples.subarray(from, from + count))) {
+  constructor(samples, length = samples.length, first = new FirstLevel(length).add(samples).values) {
     this.#samples = samples
     this.#length = length
     this.#levels.push(first)
@@ -52,7 +61,7 @@ export class Peaks {
         if (values[i] > high) high = values[i]
       }
     }
-    const level = Math.floor(Math.log2((end - begin) / finest))
+    const finest = finestOf(this.#length), level = Math.floor(Math.log2((end - begin) / finest))
     if (level < 0 && this.#samples) take(this.#samples, Math.floor(begin), Math.max(Math.floor(begin) + 1, Math.floor(end)))
     else {
       const index = Math.max(0, Math.min(level, this.#levels.length - 1)), width = finest * 2 ** index

@@ -54,11 +54,11 @@ export const soundOfSamples = ({ samples, sampleRate }) => opened(wavOf(Array.is
 /** Samples of a sound, the mean of its channels. */
 export const monoOf = ({ blob }, from, count) => reader.call('mono', blob, from, count)
 
-/** Samples of all of it, where the page may have them at hand; nothing of a long one. */
-export const heldMono = (sound) => sound.frames <= heldFrames ? monoOf(sound, 0, sound.frames) : undefined
+/** Whether the page may have all samples of it at hand. */
+export const isHeld = ({ frames }) => frames <= heldFrames
+
+/** Samples of all of it then; nothing of a long one. */
+export const heldMono = (sound) => isHeld(sound) ? monoOf(sound, 0, sound.frames) : undefined
 
 /** Smallest and largest samples of a long sound: see Peaks. */
-export const peaksOf = ({ blob }, progress) => {
-  reader.progress = progress
-  return reader.call('peaks', blob)
-}
+export const peaksOf = ({ blob }) => reader.call('peaks', blob).finally(() => reader.rest())

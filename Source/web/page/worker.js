@@ -3,7 +3,7 @@
 
 import { compare, defaults, encode, exportParameters, felt, formats, loadFrom, openSound, profileInfo, read, reapply, render, reports, rumble, spectrogram,
   touch, write } from './pacini/index.js'
-import { firstLevel } from './peaks.js'
+import { FirstLevel } from './peaks.js'
 
 let module
 /** What a visit needs is one module; those of the package hold the rest. */
@@ -35,9 +35,41 @@ const partOf = (sound) => {
   return { samples: monoOf(file, sound.from ?? 0, sound.count ?? file.frames), sampleRate: file.sampleRate }
 }
 
+/** A sound that notes its smallest and largest samples while it is read, so that a long one is read once. */
+const notedPeaks = (file) => {
+  const { channels, frames } = file, peaks = new FirstLevel(frames)
+  return {
+    peaks: peaks.values,
+    sound: {
+      sampleRate: file.sampleRate, channels, frames,
+      reader: () => {
+        const read = file.reader()
+        let mono = new Float32Array(0)
+        return (into) => {
+          const count = read(into) / channels
+          if (mono.length < count) mono = new Float32Array(count)
+          for (let n = 0; n < count; ++n) {
+            let sum = 0
+            for (let c = 0; c < channels; ++c) sum += into[n * channels + c]
+            mono[n] = sum / channels
+          }
+          peaks.add(mono.subarray(0, count))
+          return count * channels
+        }
+      }
+    }
+  }
+}
+
 const calls = {
   defaults, exportParameters, felt, formats, profileInfo, read, reapply, render, reports, rumble, touch, write,
-  encode: (sound, options, progress) => encode(sound.blob ? fileOf(sound.blob) : sound, { ...options, progress }),
+  encode: async (sound, options, progress) => {
+    if (!sound.blob) return encode(sound, { ...options, progress })
+    const file = fileOf(sound.blob)
+    if (!sound.peaks) return encode(file, { ...options, progress })
+    const noted = notedPeaks(file)
+    return { clip: await encode(noted.sound, { ...options, progress }), peaks: noted.peaks }
+  },
   compare: (sound, candidate) => compare(partOf(sound), candidate),
   spectrogram: (sound, options) => spectrogram(partOf(sound), options),
   open: (blob) => {
@@ -50,7 +82,12 @@ const calls = {
   },
   peaks: (blob, progress) => {
     const file = fileOf(blob)
-    return firstLevel(file.frames, (from, count) => monoOf(file, from, count), progress)
+    const peaks = new FirstLevel(file.frames)
+    for (let from = 0; from < file.frames; from += 65536) {
+      peaks.add(monoOf(file, from, 65536))
+      progress(from / file.frames)
+    }
+    return peaks.values
   }
 }
 const needsNoModule = new Set(['open', 'mono', 'peaks'])
