@@ -2,11 +2,13 @@
 //
 // check_package.mjs PACKAGE MODULES PACINI SOUNDS    PACKAGE: the built folder; MODULES: where TypeScript is; SOUNDS: a
 // folder of WAV files. Exit 0, 1 on a failed check.
-import { execFileSync } from 'node:child_process'
-import { cpSync, mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs'
+import { execFileSync, spawn } from 'node:child_process'
+import { cpSync, existsSync, mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs'
 import { tmpdir } from 'node:os'
 import { basename, join } from 'node:path'
 import { gzipSync } from 'node:zlib'
+
+import { launch, until } from './browser.mjs'
 
 const [packageFolder, modules, program, sounds] = process.argv.slice(2)
 const folder = mkdtempSync(join(tmpdir(), 'pacini-web-'))
@@ -177,17 +179,25 @@ try {
     ['an export option of Pacini\'s own format', () => write(clip, { points: 4 }), 'points'],
     ['a sample rate that the writer does not take', () => write(clip, { format: 'openxr', sampleRate: 100000 }), 'sampleRate'],
     ['no points', () => write(clip, { format: 'haptic', points: 0 }), 'points'],
-    ['garbage', () => read(new Uint8Array([1, 2, 3])), ''],
+    ['garbage', () => read(new Uint8Array([1, 2, 3])), 'clip'],
+    ['nothing', () => encode(), 'sound'],
+    ['a number for a sound', () => encode(4), 'sound'],
+    ['an unknown option of render', () => render(clip, { gian: 3 }), 'gian'],
+    ['an unknown option of write', () => write(clip, { format: 'ahap', pionts: 3 }), 'pionts'],
+    ['a render option out of range', () => render(clip, { strength: 2 }), 'strength'],
+    ['an unknown choice of render', () => render(clip, { mapping: 'flod' }), 'mapping'],
+    ['samples that are no samples', () => compare(sound, { samples: [1, 2], sampleRate: 48000 }), 'samples'],
     ['an unknown format', () => write(clip, { format: 'x' }), 'format'],
     ['an edit of an unknown kind', () => pacini.reapply(clip, clip, [{ kind: 'x' }]), 'edits[0].kind'],
     ['an edit that is no number', () => pacini.reapply(clip, clip, [{ kind: 'points', lane: 'envelope', from: 0, to: 'x', points: [], frequencies: [], clipDuration: 1 }]), 'edits[0].to'],
     ['an unknown profile', () => render(clip, { profile: 'x' }), 'profile'],
     ['reports of an unknown controller', () => reports(clip, { vendor: 1, product: 2 }), '0001:0002'],
-    ['no WAV', async () => readWav(new Uint8Array(50)), '']
+    ['no WAV', async () => readWav(new Uint8Array(50)), 'sound file'],
+    ['a WAV without samples', async () => readWav(new TextEncoder().encode('RIFF....WAVE')), 'sound file']
   ]
   for (const [what, work, where] of wrong) {
     const error = await fails(work)
-    check(`error: ${what}`, error instanceof PaciniError && error.where.startsWith(where) && error.code.length > 0, error?.message)
+    check(`error: ${what}`, error instanceof PaciniError && error.where !== '' && error.where.startsWith(where) && error.message.startsWith(`${error.where}: `) && error.code.length > 0, error?.message)
   }
   const stopped = new AbortController()
   const long = { samples: new Float32Array(480000), sampleRate: 48000 }
@@ -222,11 +232,81 @@ try {
     check(`types, modules found as ${resolution} does`, said === '', said)
   }
 
+  // In browsers: by bundlers as their users set them up, and by an import map. What comes out must run, with its modules beside it.
+  const site = join(folder, 'site')
+  mkdirSync(site)
+  const readme = readFileSync(join(installed, 'README.md'), 'utf8')
+  const said = (language, mark) => [...readme.matchAll(/```(\w+)\n(.*?)```/gs)].find(([, name, text]) => name === language && text.includes(mark))?.[2] ?? ''
+  const script = "import { encode, felt } from 'pacini'\nimport { createTranslator } from 'pacini/translator'\n" +
+    "const samples = Float32Array.from({ length: 24000 }, (_, n) => Math.sin(n / 30) * Math.exp(-n / 4000))\n" +
+    "const clip = await encode({ samples, sampleRate: 48000 })\nconst skin = await felt(clip, { profile: 'lra-175' })\n" +
+    "const node = await createTranslator(new OfflineAudioContext(1, 480, 48000), { profile: 'lra-175' })\n" +
+    "globalThis.done = { duration: clip.duration, felt: skin.samples.some((value) => value !== 0), late: node.latency }\n"
+  const page = (head) => `<!doctype html><meta charset="utf-8"><link rel="icon" href="data:,">${head}`
+  const tools = join(modules, 'node_modules'), run = (tool, ...words) => execFileSync('node', [join(tools, tool), ...words], { cwd: site, encoding: 'utf8', stdio: ['ignore', 'pipe', 'pipe'] })
+  mkdirSync(join(site, 'node_modules'))
+  cpSync(installed, join(site, 'node_modules/pacini'), { recursive: true })
+  writeFileSync(join(site, 'package.json'), '{"type": "module", "private": true}')
+  writeFileSync(join(site, 'main.js'), script)
+  writeFileSync(join(site, 'index.html'), page('<script type="module" src="./main.js"></script>'))
+  const ways = {
+    vite: () => {
+      writeFileSync(join(site, 'vite.config.js'), said('js', 'optimizeDeps'))
+      run('vite/bin/vite.js', 'build', '--outDir', 'vite', '--base', './', '--logLevel', 'error')
+      return 'vite/index.html'
+    },
+    esbuild: () => {
+      const [, ...words] = said('sh', 'esbuild').match(/esbuild ([^\n]*)/)[1].split(' ')
+      execFileSync(join(tools, '.bin/esbuild'), ['main.js', ...words, '--log-level=error'], { cwd: site })
+      mkdirSync(join(site, 'out'), { recursive: true })
+      for (const command of said('sh', 'esbuild').trim().split('\n').slice(1)) execFileSync('sh', ['-c', command], { cwd: site })
+      writeFileSync(join(site, 'out/index.html'), page('<script type="module" src="./main.js"></script>'))
+      return 'out/index.html'
+    },
+    rollup: () => {
+      writeFileSync(join(site, 'rollup.config.js'), said('js', 'nodeResolve').replaceAll("'@rollup/plugin-node-resolve'", JSON.stringify(join(tools, '@rollup/plugin-node-resolve/dist/es/index.js'))))
+      run('rollup/dist/bin/rollup', '--config', '--silent')
+      for (const command of said('sh', 'rollup').trim().split('\n').slice(1)) execFileSync('sh', ['-c', command], { cwd: site })
+      writeFileSync(join(site, 'rolled/index.html'), page('<script type="module" src="./main.js"></script>'))
+      return 'rolled/index.html'
+    },
+    'an import map': () => {
+      writeFileSync(join(site, 'map.html'), page(`${said('html', 'importmap')}<script type="module" src="./main.js"></script>`))
+      return 'map.html'
+    }
+  }
+  if (existsSync(join(modules, 'node_modules/puppeteer-core'))) {
+    const port = 20000 + process.pid % 20000
+    const server = spawn('python3', ['-m', 'http.server', '--bind', '127.0.0.1', String(port)], { cwd: site, stdio: 'ignore' })
+    const browser = await launch(modules)
+    try {
+      await until(async () => (await fetch(`http://127.0.0.1:${port}/`).catch(() => undefined))?.ok)
+      for (const [name, build] of Object.entries(ways)) {
+        const path = await fails(async () => { ways[name].path = build() }) ?? ways[name].path
+        if (path instanceof Error) {
+          check(`${name} as the README shows it`, false, path.stderr ?? path.message)
+          continue
+        }
+        const tab = await browser.newPage(), problems = []
+        tab.on('pageerror', (error) => problems.push(error.message))
+        tab.on('response', (response) => { if (response.status() >= 400) problems.push(`${response.status()} ${response.url()}`) })
+        await tab.goto(`http://127.0.0.1:${port}/${path}`)
+        await until(() => tab.evaluate(() => globalThis.done !== undefined))
+        const done = await tab.evaluate(() => globalThis.done)
+        check(`${name} as the README shows it`, done?.duration === 0.5 && done.felt && done.late > 0, problems.join(' '))
+        await tab.close()
+      }
+    } finally {
+      await browser.close()
+      server.kill()
+    }
+  }
+
   // The README, as printed.
   const work = join(folder, 'readme')
   mkdirSync(work)
   cpSync(join(sounds, names[0]), join(work, 'knock.wav'))
-  const examples = [...readFileSync(join(installed, 'README.md'), 'utf8').matchAll(/```js\n(.*?)```/gs)].map((match) => match[1])
+  const examples = [...readme.matchAll(/```js\n(.*?)```/gs)].map((match) => match[1]).filter((text) => text.includes("from 'pacini'"))
   check('the README has examples', examples.length >= 4)
   examples.forEach((example, i) => {
     writeFileSync(join(work, 'example.mjs'), example)

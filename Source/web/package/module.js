@@ -31,15 +31,26 @@ export const loadFrom = (from) => {
   loading.clear()
 }
 
+/** Where the modules are: beside this file. Each is written out, as that is what bundlers find and take along. */
+const beside = {
+  devices: () => new URL('./devices.wasm', import.meta.url),
+  encode: () => new URL('./encode.wasm', import.meta.url),
+  formats: () => new URL('./formats.wasm', import.meta.url),
+  render: () => new URL('./render.wasm', import.meta.url),
+  research: () => new URL('./research.wasm', import.meta.url),
+  translator: () => new URL('./translator.wasm', import.meta.url)
+}
+
 const load = async (name) => {
   if (place?.[name] instanceof WebAssembly.Module) return place[name]
-  const url = new URL(`./${name}.wasm`, place instanceof URL ? place : import.meta.url)
+  const url = place instanceof URL ? new URL(`./${name}.wasm`, place) : beside[name]()
   if (url.protocol === 'file:') {
-    const { readFile } = await import('node:fs/promises')
+    const files = 'node:fs/promises' // of Node.js alone, which bundlers need not know
+    const { readFile } = await import(/* @vite-ignore */ /* webpackIgnore: true */ files)
     return WebAssembly.compile(await readFile(url))
   }
   const answer = await fetch(url)
-  if (!answer.ok) throw new PaciniError({ code: 'io', where: String(url), message: `cannot be loaded (${answer.status})` })
+  if (!answer.ok) throw new PaciniError({ code: 'io', where: String(url), message: `cannot be loaded (${answer.status}); it must lie beside the script, or where loadFrom() says` })
   return WebAssembly.compile(await answer.arrayBuffer())
 }
 

@@ -153,14 +153,14 @@ let progressShown // timer
 /** Shows, if it takes long, how much is done, and that it can be cancelled. */
 const showProgress = () => {
   clearTimeout(progressShown)
-  element('share').removeAttribute('value')
+  element('done').removeAttribute('value')
   progressShown = setTimeout(() => { element('progress').hidden = false }, 400)
 }
 const hideProgress = () => {
   clearTimeout(progressShown)
   element('progress').hidden = true
 }
-core.progress = (share) => { element('share').value = share }
+core.progress = (share) => { element('done').value = share }
 /** Leaves what is read or analysed: what was there stays. */
 const cancel = () => {
   ++opened

@@ -54,7 +54,7 @@ export const playReports = async (controller, { reports, stops }, signal, clock)
   const { now, speed } = clock ?? wallClock()
   let counter = 0, done = false
   try {
-    for (const report of clock ? reports.filter((report) => report.time >= now() || prepares(controller, report)) : reports) {
+    for (const report of clock ? reports.filter((report) => report.time >= now() - 0.03 || prepares(controller, report)) : reports) {
       const wait = 1000 * (report.time - now()) / speed
       if (wait > 1)
         await new Promise((resolve) => {
