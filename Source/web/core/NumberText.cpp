@@ -1,5 +1,5 @@
-// std::to_chars() of a double in the forms that Pacini calls, which the C++ library makes with tables of 100 kB. These are
-// linked before it and give the same text: as few digits as read back as the number, or as many as are asked for.
+// std::to_chars() of a double in the forms that Pacini calls, which the C++ library makes with tables of 100 kB. These
+// are linked before it and give the same text: as few digits as read back as the number, or as many as are asked for.
 
 #include <fmt/format.h>
 
@@ -67,7 +67,8 @@ to_chars_result to_chars(char* first, char* last, double value, chars_format for
 
 to_chars_result to_chars(char* first, char* last, double value, chars_format form, int digits)
 {
-    return put(form == chars_format::fixed ? fmt::format("{:.{}f}", value, digits) : fmt::format("{:.{}g}", value, digits),
+    return put(form == chars_format::fixed ? fmt::format("{:.{}f}", value, digits)
+                                           : fmt::format("{:.{}g}", value, digits),
                first, last);
 }
 _LIBCPP_END_NAMESPACE_STD

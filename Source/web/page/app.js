@@ -138,6 +138,7 @@ const open = async (file, reading) => {
     if (document.sound) showFilm() // a clip is put to the film that is shown
     await take(`Open ${file}`, { id: newId(), name, source: file, sound: document.sound, analysis: document.clip, edits: [], clip: document.clip })
     if (own === opened && !turned) say(said)
+    if (innerWidth <= 600) element('clip').scrollIntoView({ block: 'start' }) // which lies below what a phone shows
   } catch (error) {
     if (own === opened) throw error
   } finally {
@@ -897,3 +898,4 @@ const keepTheRest = () => {
 if ('serviceWorker' in navigator && !new URLSearchParams(location.search).has('fresh'))
   navigator.serviceWorker.register('service-worker.js').catch(() => {})
 document.documentElement.dataset.ready = 'true'
+performance.mark('ready')

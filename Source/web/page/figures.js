@@ -20,6 +20,16 @@ const soundOf = async (name) => {
   const buffer = await new OfflineAudioContext(1, 1, rate).decodeAudioData(await answer.arrayBuffer())
   return { samples: buffer.getChannelData(0).slice(), sampleRate: rate }
 }
+/** A low blow: a tone that falls from 110 to 45 Hz and fades. Made here, so that nobody loads it. */
+const boom = () => {
+  const samples = new Float32Array(rate)
+  for (let n = 0, phase = 0; n < samples.length; ++n) {
+    const t = n / rate
+    phase += 2 * Math.PI * (45 + 65 * Math.exp(-18 * t)) / rate
+    samples[n] = 0.95 * Math.min(1, t / 0.004) * Math.exp(-4 * t) * Math.sin(phase) * Math.min(1, (1 - t) / 0.1)
+  }
+  return { samples, sampleRate: rate }
+}
 /** A sound over and over, `seconds` long. */
 const repeated = ({ samples, sampleRate }, seconds) =>
   ({ samples: Float32Array.from({ length: seconds * sampleRate }, (_, n) => samples[n % samples.length]), sampleRate })
@@ -64,7 +74,11 @@ const picture = (place, label) => {
   }
   new ResizeObserver(paint).observe(canvas)
   return {
-    say: (text) => { words.textContent = text },
+    /** Says what was computed, which can be heard from then on. */
+    say: (text) => {
+      words.textContent = text
+      for (const button of place.querySelectorAll('.ways button')) button.disabled = false
+    },
     draw: (given) => {
       work = given
       paint()
@@ -85,7 +99,7 @@ const ways = (place, signal, all) => {
   }
   signal.addEventListener('abort', stop)
   for (const [text, work] of all) {
-    const button = made(row, 'button', { type: 'button', 'aria-pressed': 'false', text })
+    const button = made(row, 'button', { type: 'button', 'aria-pressed': 'false', disabled: '', text })
     button.addEventListener('click', async () => {
       const wasOn = button.getAttribute('aria-pressed') === 'true'
       stop()
@@ -315,7 +329,7 @@ const scenes = async (place, signal) => {
 }
 
 const protection = async (place, signal) => {
-  const sound = await soundOf('impact_boom')
+  const sound = boom()
   const clip = await core.call('encode', sound)
   const gain = knob(place, 'Gain', { min: -12, max: 24, step: 1, value: 12, shown: (value) => `${value} dB` }, () => update())
   const view = picture(place, 'The drive signal without and with protection')

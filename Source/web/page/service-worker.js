@@ -7,7 +7,7 @@ const first = ['./', 'style.css', 'app.js', 'cards.js', 'core.js', 'curve.js', '
   'microphone.js', 'peaks.js', 'sound-player.js', 'sounds.js', 'store.js', 'vibration.js', 'words.js', 'worker.js', 'zip.js', 'visit.wasm',
   'gallery/list.js', 'pacini/index.js', 'pacini/module.js', 'pacini/sound.js', 'pacini/sound-file.js', 'pacini/presets.js', 'pacini/profiles.js', 'pacini/translator.js',
   ...['bands', 'breakpoints', 'actuators', 'scenes', 'protection', 'time'].map((name) => `guide/${name}.html`),
-  ...['knock_wood_bridge', 'ui_click', 'impact_boom'].map((name) => `guide/${name}.flac`)]
+  ...['knock_wood_bridge', 'ui_click'].map((name) => `guide/${name}.flac`)]
 // What it keeps once something was opened: formats of other programs, live translation, the sounds of the cards.
 const rest = ['pacini/formats.wasm', 'pacini/translator.wasm', 'pacini/translator-worklet.js', 'gallery/licences.txt',
   ...['heartbeat', 'knock_wood_bridge', 'footsteps', 'drums_tabla_pattern', 'engine_loop', 'explosion', 'rain', 'ui_click'].map((name) => `gallery/${name}.flac`)]
