@@ -105,7 +105,7 @@ void ServeCommand::serve(Console& console, phone::PhoneServer& server, Interrupt
 {
     constexpr Seconds glance(0.05);
     std::string shown = server.url();
-    std::size_t phones = 0;
+    std::vector<phone::ConnectedPhone> phones;
     std::pair<phone::Refusal, std::size_t> refusals[] = {
         {phone::Refusal::usedCode, 0}, {phone::Refusal::wrongCode, 0}, {phone::Refusal::full, 0}};
     EnterKey enter;
@@ -116,15 +116,15 @@ void ServeCommand::serve(Console& console, phone::PhoneServer& server, Interrupt
         {
             plays.push_back(wallClock());
             server.play(Seconds(0.0));
-            console.note(fmt::format("played on {} phone{}", phones, phones == 1 ? "" : "s"));
+            console.note(fmt::format("played on {} phone{}", phones.size(), phones.size() == 1 ? "" : "s"));
         }
         for (auto& [reason, count] : refusals)
             if (const std::size_t now = server.refused(reason); now != std::exchange(count, now))
                 console.note(fmt::format("a phone was refused: {}", phone::refusalText(reason)));
-        if (const std::size_t now = server.phones(); now != phones)
+        if (auto now = server.connectedPhones(); now != phones)
         {
-            phones = now;
-            console.note(fmt::format("{} phone{} connected; Enter plays", phones, phones == 1 ? "" : "s"));
+            phones = std::move(now);
+            console.note(phone::phonesText(phones) + "; Enter plays");
         }
         if (const std::string url = server.url(); url != shown)
         {

@@ -145,6 +145,8 @@ public:
     template <typename Request, typename Ready>
     void accept(const Request& request, Ready ready)
     {
+        const auto browser = request[http::field::user_agent];
+        about.kind = kindOf({browser.data(), browser.size()});
         constexpr std::size_t longestMessage = 200;
         stream.set_option(beast::websocket::stream_base::timeout::suggested(beast::role_type::server));
         stream.read_message_max(longestMessage);
@@ -182,7 +184,8 @@ public:
     }
 
     [[nodiscard]] bool isOpen() const noexcept { return open; }
-    std::function<void()> ended;
+    [[nodiscard]] const ConnectedPhone& what() const noexcept { return about; }
+    std::function<void()> ended, changed;
 
 private:
     void read()
@@ -196,15 +199,23 @@ private:
                           });
     }
 
-    /// A phone asks what time it is here, and nothing else.
+    /// A phone asks what time it is here, and may say whether it feels; nothing else.
     [[nodiscard]] bool answer()
     {
         const std::string text = beast::buffers_to_string(buffer.data());
         buffer.consume(buffer.size());
         const auto asked = readJsonTree(text, text.size());
-        if (!asked || !asked->is_object() || asked->size() != 1 || !asked->contains("ping") ||
-            !(*asked)["ping"].is_number())
+        if (!asked || !asked->is_object() || !asked->contains("ping") || !(*asked)["ping"].is_number())
             return false;
+        if (asked->size() != 1)
+        {
+            const auto state =
+                asked->size() == 2 && asked->contains("state") ? stateNamed((*asked)["state"]) : std::nullopt;
+            if (!state)
+                return false;
+            if (std::exchange(about.state, *state) != *state && changed)
+                changed();
+        }
         const Json reply{{"kind", "pong"}, {"ping", (*asked)["ping"].get<double>()}, {"now", clockNow()}};
         send(std::make_shared<const std::string>(reply.dump()));
         return true;
@@ -233,9 +244,27 @@ private:
             std::exchange(ended, {})();
     }
 
+    static std::optional<PhoneState> stateNamed(const Json& name)
+    {
+        return name == "feels"    ? std::optional(PhoneState::feels)
+               : name == "waits"  ? std::optional(PhoneState::waits)
+               : name == "cannot" ? std::optional(PhoneState::cannotVibrate)
+                                  : std::nullopt;
+    }
+
+    /// What a browser says it runs on: one of a few words, as it is shown to people.
+    static std::string kindOf(std::string_view browser)
+    {
+        for (const char* kind : {"Android", "iPhone", "iPad"})
+            if (browser.find(kind) != std::string_view::npos)
+                return kind;
+        return "computer";
+    }
+
     beast::websocket::stream<beast::tcp_stream> stream;
     beast::flat_buffer buffer;
     std::deque<Text> waiting;
+    ConnectedPhone about;
     bool open = false;
     bool isLast = false; ///< what is waiting: then it is closed
 };
@@ -304,7 +333,7 @@ private:
         if (std::find(std::begin(ofPairing), std::end(ofPairing), target) != std::end(ofPairing))
             return sendFile(target);
         if (!isKnown)
-            return refuse(http::status::forbidden, "Scan the picture that the program shows.");
+            return refuse(http::status::forbidden, "Scan the code that the program shows.");
         if (target == "/events" && beast::websocket::is_upgrade(request))
         {
             if (std::string(request[http::field::origin]) != "http://" + host.place())
@@ -466,6 +495,12 @@ public:
 
     [[nodiscard]] std::size_t phones() const override { return phoneCount; }
 
+    [[nodiscard]] std::vector<ConnectedPhone> connectedPhones() const override
+    {
+        const std::lock_guard lock(mutex);
+        return known;
+    }
+
     [[nodiscard]] std::size_t refused(Refusal reason) const override { return refusals[index(reason)]; }
 
     void show(const Clip& clip) override { showWith(clip, {}); }
@@ -616,17 +651,31 @@ private:
             connected.erase(
                 std::remove_if(connected.begin(), connected.end(), [raw](const auto& one) { return one.get() == raw; }),
                 connected.end());
-            phoneCount = connected.size();
+            note();
+        };
+        phone->changed = [this]
+        {
+            note();
         };
         connected.push_back(phone);
         phone->accept(request,
                       [this, raw]
                       {
-                          phoneCount = connected.size();
+                          note();
                           for (const Text& text : {clipText, playText})
                               if (text)
                                   raw->send(text);
                       });
+    }
+
+    /// Takes down who is connected, for other threads.
+    void note()
+    {
+        const std::lock_guard lock(mutex);
+        known.clear();
+        for (const auto& phone : connected)
+            known.push_back(phone->what());
+        phoneCount = known.size();
     }
 
     template <typename Keep>
@@ -648,7 +697,8 @@ private:
     std::string address;
     std::uint16_t port = 0;
     mutable std::mutex mutex;
-    std::string code; ///< guarded by the mutex
+    std::string code;                  ///< guarded by the mutex
+    std::vector<ConnectedPhone> known; ///< likewise
     std::atomic<std::size_t> phoneCount{0};
     std::array<std::atomic<std::size_t>, 3> refusals{}; ///< by their reasons
     // Of the thread.
@@ -660,14 +710,34 @@ private:
 };
 } // namespace
 
+std::string phonesText(const std::vector<ConnectedPhone>& phones)
+{
+    std::string text = fmt::format("{} phone{} connected", phones.size(), phones.size() == 1 ? "" : "s");
+    std::vector<ConnectedPhone> told;
+    for (const ConnectedPhone& phone : phones)
+    {
+        if (std::find(told.begin(), told.end(), phone) != told.end())
+            continue;
+        const auto count = std::count(phones.begin(), phones.end(), phone);
+        const bool isOne = count == 1;
+        const char* what = phone.state == PhoneState::cannotVibrate ? "cannot vibrate"
+                           : phone.state == PhoneState::feels       ? isOne ? "feels" : "feel"
+                           : isOne                                  ? "waits for a touch of its button"
+                                                                    : "wait for a touch of their buttons";
+        text += fmt::format("{} {} {} {}", told.empty() ? ":" : ",", count, phone.kind, what);
+        told.push_back(phone);
+    }
+    return text;
+}
+
 std::string refusalText(Refusal refusal)
 {
     switch (refusal)
     {
     case Refusal::usedCode:
-        return "this code let another phone in; scan the picture that is shown now";
+        return "this code let another phone in; scan the code that is shown now";
     case Refusal::wrongCode:
-        return "this code is not one of this session; scan the picture that is shown now";
+        return "this code is not one of this session; scan the code that is shown now";
     case Refusal::full:
         break;
     }

@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace pacini::phone
 {
@@ -29,6 +30,26 @@ enum class Refusal
     full       ///< as many phones as there may be are connected
 };
 
+/// What a connected phone does with a clip.
+enum class PhoneState
+{
+    waits, ///< nobody has touched its button yet, and browsers vibrate only then
+    feels,
+    cannotVibrate
+};
+
+/// A connected phone.
+struct ConnectedPhone
+{
+    std::string kind; ///< by its browser: Android, iPhone, iPad or computer
+    PhoneState state = PhoneState::waits;
+
+    bool operator==(const ConnectedPhone&) const = default;
+};
+
+/// Those phones for people, such as "2 phones connected: 1 Android feels, 1 iPhone cannot vibrate".
+[[nodiscard]] std::string phonesText(const std::vector<ConnectedPhone>& phones);
+
 /// The most phones that may be connected at once.
 inline constexpr std::size_t mostPhones = 64;
 
@@ -37,9 +58,9 @@ inline constexpr std::size_t mostPhones = 64;
 
 /// A page that vibrates, for browsers that have the pairing code: it is in the address, works once, and is then
 /// another. It is used up by a tap on the page that it opens, not by a preview of the link. Nothing else is served but
-/// the film that is shown, and only the time of the phone's clock is accepted; unpaired phones are refused. The server
-/// runs on its own thread and ends with the object. Protocol: HTTP and WebSocket (RFC 9110, RFC 6455), not encrypted,
-/// so for networks that are trusted.
+/// the film that is shown, and only the time of the phone's clock and whether it feels are accepted; unpaired phones
+/// are refused. The server runs on its own thread and ends with the object. Protocol: HTTP and WebSocket (RFC 9110, RFC
+/// 6455), not encrypted, so for networks that are trusted.
 class PhoneServer
 {
 public:
@@ -53,6 +74,9 @@ public:
 
     /// How many phones are connected. [any]
     [[nodiscard]] virtual std::size_t phones() const = 0;
+
+    /// Which they are, in the order in which they came. [any]
+    [[nodiscard]] virtual std::vector<ConnectedPhone> connectedPhones() const = 0;
 
     /// How many phones were refused for this reason. [any]
     [[nodiscard]] virtual std::size_t refused(Refusal reason) const = 0;

@@ -48,6 +48,16 @@ try {
   const elsewhere = []
   phone.on('request', (request) => { if (!request.url().startsWith(place) && !/^(data|ws):/.test(request.url())) elsewhere.push(request.url()) })
   await noteVibrations(phone)
+  await phone.evaluateOnNewDocument(() => {
+    const Own = WebSocket
+    globalThis.sockets = []
+    globalThis.WebSocket = class extends Own {
+      constructor(...parameters) {
+        super(...parameters)
+        globalThis.sockets.push(this)
+      }
+    }
+  })
   // What looks at the address before a person does, as previews of links do, uses nothing up.
   const own = new URL(url).pathname + new URL(url).search
   check('a preview is shown the way in', await status(own) === 200 && await status(own) === 200 && await status(own, { method: 'HEAD' }) === 405)
@@ -66,7 +76,12 @@ try {
   await phone.goto(url)
   check('a phone that is known needs no other', await until(async () => (await text('status')).startsWith('Connected')) && !phone.url().includes('code'))
   check('the program knows', await until(() => said.includes('1 phone connected')))
+  check('and that its button was not touched', await until(() => said.includes('1 phone connected: 1 computer waits for a touch of its button')), said)
   await phone.click('#ready')
+  check('until it is', await until(() => said.includes('1 phone connected: 1 computer feels')))
+  await phone.evaluate(() => globalThis.sockets.at(-1).close())
+  check('a phone that loses its connection comes back, and feels', await until(async () => (await text('status')).startsWith('Connected again')) &&
+    await until(() => /0 phones connected[^]*1 computer feels/.test(said)), await text('status'))
   await wait(800) // the clocks are compared
 
   // What is played here is felt there, when it is.

@@ -23,21 +23,31 @@ const play = async (now) => {
   if (playing === own) playing = undefined
 }
 
+const stateNow = () => !canVibrate ? 'cannot' : ready ? 'feels' : 'waits'
+let ping = () => {} // asks for the time at the other end, and says whether this phone feels
+let lost = 0 // tries since the connection was there
+
 const connect = () => {
   const socket = new WebSocket(`ws://${location.host}/events`)
   let timer
-  const ping = () => { if (socket.readyState === WebSocket.OPEN) socket.send(JSON.stringify({ ping: performance.now() })) }
+  ping = () => { if (socket.readyState === WebSocket.OPEN) socket.send(JSON.stringify({ ping: performance.now(), state: stateNow() })) }
   socket.onopen = () => {
-    say(canVibrate ? 'Connected. Touch the button once; browsers vibrate only then.'
-      : 'Connected, but this browser cannot vibrate: those of iPhones and Firefox cannot. Chrome on Android can.')
+    lost = 0
+    bestDelay = Infinity
+    say(!canVibrate ? 'Connected, but this browser cannot vibrate: those of iPhones and Firefox cannot. Chrome on Android can.'
+      : ready ? 'Connected again. Feels what is played.' : 'Connected. Touch the button once; browsers vibrate only then.')
     for (let i = 0; i < 5; ++i) setTimeout(ping, 100 * i)
     timer = setInterval(ping, 5000)
   }
-  let goodbye = 'The session has ended. Scan the picture again for another one.'
+  let goodbye
   socket.onclose = () => {
     clearInterval(timer)
     stop()
-    say(goodbye)
+    if (goodbye) return say(goodbye)
+    ++lost
+    say(lost < 2 ? 'The connection is lost. Trying again...'
+      : 'The session has ended, or the network is away. Trying again... Scan the new code for another session.')
+    if (lost < 60) setTimeout(connect, Math.min(1000 * 2 ** Math.min(lost - 1, 4), 15000))
   }
   socket.onmessage = ({ data }) => {
     const message = JSON.parse(data)
@@ -81,6 +91,7 @@ element('ready').addEventListener('click', () => {
   ready = !ready
   element('ready').setAttribute('aria-pressed', String(ready))
   if (!ready) stop()
+  ping()
   if (canVibrate) {
     navigator.vibrate(30)
     say(ready ? 'Feels what is played.' : 'Feels nothing until you touch the button again.')
