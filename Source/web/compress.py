@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Puts compressed copies beside the texts and modules of a folder, as servers of static files look for them: compress.py FOLDER
+"""Puts compressed copies beside the texts and modules of a folder, where servers of static files look: compress.py FOLDER
 
 FILE.gz by Python, FILE.br by the program brotli where it is there. What has a copy of the same content is passed over.
 """

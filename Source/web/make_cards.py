@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 """Example cards of the web page, written into page/index.html: name, picture and buttons of eight sounds.
 
-make_cards.py [--check]    Needs numpy and soundfile. With --check nothing is written, and the exit code is 1 where the page differs.
+make_cards.py [--check]    Needs numpy and soundfile. With --check nothing is written, and the exit code is 1 where the
+page differs.
 
-The picture has the sound above, and below it what touch has of it: the level between 20 Hz and 1 kHz in 20 ms, with a tick at
-each onset. It is drawn with the page, before any sound is loaded.
+The picture has the sound above, and below it what touch has of it: the level between 20 Hz and 1 kHz in 20 ms, with a
+tick at each onset. It is drawn with the page, before any sound is loaded.
 """
 import re
 import sys
@@ -45,7 +46,7 @@ def felt(samples, rate):
 
 
 def onsets(level, rate):
-    """Where the level is a quarter of the loudest at least and three times that of 30 ms before, as shares of the whole."""
+    """Where the level is at least a quarter of the loudest and three times that of 30 ms before: shares of the whole."""
     hop, back = int(.005 * rate), int(.03 * rate)
     found, last = [], -1.0
     for n in range(0, len(level), hop):
@@ -69,8 +70,9 @@ def picture(samples, rate):
     bars = "".join(f"M{x} {number(MIDDLE - max(h, .3))}v{number(2 * max(h, .3))}" for x, h in enumerate(sound))
     top = "".join(f"L{x} {number(FLOOR - h)}" for x, h in enumerate(touch))
     ticks = "".join(f"M{number(share * WIDTH)} {number(FLOOR)}v-{TOUCH}" for share in onsets(level, rate))
-    return (f'<svg viewBox="0 0 {WIDTH} {int(FLOOR) + 1}" preserveAspectRatio="none" aria-hidden="true"><path class="sound" d="{bars}"/>'
-            f'<path class="touch" d="M0 {number(FLOOR)}{top}V{number(FLOOR)}z"/><path class="event" d="{ticks}"/></svg>')
+    return (f'<svg viewBox="0 0 {WIDTH} {int(FLOOR) + 1}" preserveAspectRatio="none" aria-hidden="true">'
+            f'<path class="sound" d="{bars}"/><path class="touch" d="M0 {number(FLOOR)}{top}V{number(FLOOR)}z"/>'
+            f'<path class="event" d="{ticks}"/></svg>')
 
 
 def card(path, name, about):

@@ -78,6 +78,20 @@ try {
   check('a first visit takes at most 500 kB, with all that it keeps', cost > 100000 && cost <= 500000, `${(cost / 1000).toFixed(0)} kB`)
   check('nothing moves while it loads', await first.tab.evaluate(() => globalThis.shift) < 0.01, `${await first.tab.evaluate(() => globalThis.shift)}`)
 
+  const looked = await visit(`${place}?fresh`)
+  await looked.tab.evaluate(readFileSync(join(modules, 'node_modules/axe-core/axe.min.js'), 'utf8'))
+  for (const scheme of ['dark', 'light']) {
+    await looked.tab.emulateMediaFeatures([{ name: 'prefers-color-scheme', value: scheme }])
+    const found = await looked.tab.evaluate(async () => (await globalThis.axe.run()).violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ html }) => html.slice(0, 80)).join(' ')}`))
+    check(`axe finds nothing on a first visit (${scheme})`, found.length === 0, found.join('\n'))
+    for (const width of [320, 360, 768, 1440, 1920]) {
+      await looked.tab.setViewport({ width, height: 900 })
+      check(`nothing is wider than ${width}, or cut`, await looked.tab.evaluate(() => document.documentElement.scrollWidth <= innerWidth &&
+        [...document.querySelectorAll('#source button, #source .button, #source strong')].every((one) => one.scrollWidth <= one.clientWidth + 1)))
+      if (pictures) await looked.tab.screenshot({ path: join(pictures, `first-${width}-${scheme}.png`), fullPage: true })
+    }
+  }
+  await looked.context.close()
   const slow = await visit('about:blank')
   const throttled = await slow.tab.createCDPSession()
   await throttled.send('Emulation.setCPUThrottlingRate', { rate: 6 })
@@ -154,6 +168,11 @@ try {
   await key.tab.keyboard.press('Tab')
   await key.tab.keyboard.press('Enter')
   check('its button opens what is chosen', await key.shown())
+  const card = await visit()
+  await card.tab.focus('.card[data-file="ui_click.flac"] .open')
+  await card.tab.keyboard.press('Enter')
+  check('the keyboard opens a card and is not lost', await card.shown() && await until(() => card.tab.evaluate(() => document.activeElement.id === 'feel')))
+  await card.context.close()
   await key.context.close()
 
   // ---- phones: fingers that do not edit
@@ -208,6 +227,9 @@ try {
   writeFileSync(join(folder, 'notes.aiff'), 'these are notes')
   await kinds.choose(join(folder, 'notes.aiff'))
   check('what is no sound is told by its name', await until(async () => await kinds.text('error') === 'notes.aiff cannot be opened. Try WAV, FLAC or MP3.'), await kinds.text('error'))
+  await kinds.tab.evaluate(() => { navigator.mediaDevices.getUserMedia = async () => { throw new DOMException('Permission denied', 'NotAllowedError') } })
+  await click(kinds, '#record')
+  check('what a browser refuses is told in plain words', await until(async () => (await kinds.text('error')).includes('Allow the microphone')), await kinds.text('error'))
   await kinds.context.close()
 
   // ---- thirty minutes: progress, cancel, memory

@@ -1,5 +1,7 @@
 #!/usr/bin/env python3
-"""The npm package in Node.js, the page and a phone in Chromium: check_web.py package|page|work|visit|phone PACINI LIVE_REFERENCE
+"""The npm package in Node.js, the page and a phone in Chromium.
+
+check_web.py package|page|work|visit|phone PACINI LIVE_REFERENCE
 
 Exit 0, 1 on a failed check, 77 when build/web, Node.js, Chromium or their modules are not there; `bash cmake/bootstrap.sh
 slow-tests` brings them all.
@@ -24,8 +26,8 @@ def write_kinds(sound, place):
     """One sound in every encoding of WAV and AIFF that the page reads by itself."""
     place.mkdir()
     samples, rate = soundfile.read(sound)
-    kinds = {"WAV": ["PCM_U8", "PCM_16", "PCM_24", "PCM_32", "FLOAT", "DOUBLE", "ULAW", "ALAW", "IMA_ADPCM", "MS_ADPCM"], "RF64": ["PCM_16"],
-             "AIFF": ["PCM_S8", "PCM_U8", "PCM_16", "PCM_24", "PCM_32", "FLOAT", "DOUBLE", "ULAW", "ALAW"]}
+    common = ["PCM_U8", "PCM_16", "PCM_24", "PCM_32", "FLOAT", "DOUBLE", "ULAW", "ALAW"]
+    kinds = {"WAV": [*common, "IMA_ADPCM", "MS_ADPCM"], "RF64": ["PCM_16"], "AIFF": [*common, "PCM_S8"]}
     for container, subtypes in kinds.items():
         for subtype in subtypes:
             name = f"{container}_{subtype}.{'aiff' if container == 'AIFF' else 'wav'}"

@@ -180,7 +180,7 @@ export const openSound = (bytesAt, size) => {
   // Writers that do not know how long a stream gets state no length, or the largest.
   const isStated = layout.bytes > 0 && layout.bytes < 0xfffffff0
   const promised = isStated ? Math.max(frames, block ? frames : framesIn(layout.bytes)) : frames
-  const read = (from, count) => {
+  const read = (from, count, parts) => {
     const first = Math.min(frames, Math.max(0, from)), last = Math.min(frames, first + Math.max(0, count))
     if (block) {
       const begin = Math.floor(first / blockFrames), end = Math.ceil(last / blockFrames)
@@ -195,7 +195,7 @@ export const openSound = (bytesAt, size) => {
     }
     const view = viewAt(layout.start + first * width * channels, (last - first) * width * channels)
     return Array.from({ length: channels }, (_, c) => {
-      const into = new Float32Array(last - first)
+      const into = parts?.[c].length === last - first ? parts[c] : new Float32Array(last - first)
       for (let n = 0, at = c * width; n < into.length; ++n, at += width * channels) into[n] = sample(view, at, little)
       return into
     })
@@ -209,7 +209,7 @@ export const openSound = (bytesAt, size) => {
         for (let n = 0; n < wanted;) {
           if (!part || done - begin >= part[0].length) {
             begin = done
-            part = read(begin, 65536)
+            part = read(begin, 65536, part) // in the same memory
           }
           const at = done - begin, count = Math.min(wanted - n, part[0].length - at)
           if (channels === 1) into.set(part[0].subarray(at, at + count), n)

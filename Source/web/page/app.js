@@ -159,6 +159,7 @@ const showProgress = () => {
 }
 const hideProgress = () => {
   clearTimeout(progressShown)
+  if (document.activeElement === element('cancel')) element('file').focus()
   element('progress').hidden = true
 }
 core.progress = (share) => { element('done').value = share }
@@ -268,8 +269,15 @@ const take = async (what, document, burst) => {
   await show()
 }
 
+/** The channels of the sound device, which is asked for when there is something to play. */
+const listChannels = () => {
+  if (element('channel').length > 0) return
+  for (let channel = 1; channel < channelCount(); ++channel) element('channel').add(new Option(channel === 1 ? '2, right' : String(channel + 1), String(channel)))
+}
+
 /** The document that history has now. */
 const show = async () => {
+  listChannels()
   const document = history.now
   const { sound } = document, sameSound = document.sound !== undefined && sound === soundShown
   soundShown = sound
@@ -697,7 +705,6 @@ for (const input of document.querySelectorAll('input[type=number]')) guardNumber
 for (const [key, profile] of Object.entries(profiles)) element('profile').add(new Option(profile.name ?? key, key))
 element('profile').add(new Option('none: plain drive', ''))
 element('profile').value = 'l5-wristband'
-for (let channel = 1; channel < channelCount(); ++channel) element('channel').add(new Option(channel === 1 ? '2, right' : String(channel + 1), String(channel)))
 for (const { name, purpose } of presets) {
   const option = new Option(`${name[0].toUpperCase()}${name.slice(1).replaceAll('-', ' ')}`, name)
   option.title = purpose
@@ -786,7 +793,10 @@ const exampleBytes = async (file) => {
 const openExample = (file) => open(file, exampleBytes(file))
 startCards({
   cards: document.querySelectorAll('.card'), say: (text) => { element('examples-status').textContent = text },
-  open: guarded(openExample), bytesOf: exampleBytes, complain, stop, playThat,
+  open: guarded(async (file) => {
+    await openExample(file)
+    element('feel').focus({ preventScroll: true }) // the card is not there any more
+  }), bytesOf: exampleBytes, complain, stop, playThat,
   call: (...parameters) => side.call(...parameters), drive: () => ({ ...profileOption(), ...strength() })
 })
 // What is chosen is opened by its button: with the arrows of the keyboard, one goes through a list and opens nothing.
