@@ -65,6 +65,7 @@ void visitFields(AnyProfile& profile, Visitor& visitor)
 {
     using enum Need;
     visitor.text("name", profile.name);
+    visitor.optionalText("shortName", profile.shortName);
     visitor.choice("technology", profile.technology, technologies, required);
     visitor.object("resonance", profile.resonance, required,
                    [&](auto& resonance)

@@ -56,6 +56,8 @@ Result<Profile> personalProfile(const Profile& profile, const StudyResults& resu
                                  participant, profile.range.lowFrequency, profile.range.highFrequency)};
     Profile personal = profile;
     personal.name = fmt::format("{}, {}", profile.name, participant);
+    if (!profile.shortName.empty())
+        personal.shortName = fmt::format("{}, {}", profile.shortName, participant);
     personal.range.dynamicRange = std::clamp(meanOf(ranges), 1.0, 140.0);
     std::erase_if(personal.sources, [](const ProfileSource& source) { return source.path == "range.dynamicRange"; });
     personal.sources.push_back(

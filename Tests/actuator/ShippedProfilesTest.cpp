@@ -193,3 +193,16 @@ TEST_CASE("A source counts for its path and all below, the nearest first", "[act
     CHECK(validate(ProfileSources{{"b", "x"}, {"a", "x"}}).error().where == "sources.a");
     CHECK(validate(ProfileSources{{"a", "x"}, {"a", "x"}}).error().where == "sources.a");
 }
+
+TEST_CASE("Every shipped profile has a short name of its own, which fits a box")
+{
+    std::vector<std::string> names;
+    forEachProfile(
+        [&](const ShippedProfile&, const Profile& profile)
+        {
+            CHECK(shortNameOf(profile).size() <= 21);
+            names.push_back(shortNameOf(profile));
+        });
+    std::sort(names.begin(), names.end());
+    CHECK(std::adjacent_find(names.begin(), names.end()) == names.end());
+}

@@ -175,3 +175,20 @@ TEST_CASE("A profile goes to a file and back; an invalid one leaves no file", "[
     CHECK_FALSE(isProfile(folder.path() / "bad.json"));
     CHECK_FALSE(isProfile(folder.path()));
 }
+
+TEST_CASE("A profile without a short name is called by its name, and a new name takes the short one away")
+{
+    auto read = readProfileJson(smallest().dump());
+    REQUIRE(read.ok());
+    CHECK(shortNameOf(*read) == "x");
+    CHECK_FALSE(nlohmann::json::parse(profileJson(*read)).contains("shortName"));
+    auto named = smallest();
+    named["shortName"] = "short";
+    read = readProfileJson(named.dump());
+    REQUIRE(read.ok());
+    CHECK(shortNameOf(*read) == "short");
+    CHECK(nlohmann::json::parse(profileJson(*read))["shortName"] == "short");
+    renameProfile(*read, "another");
+    CHECK(shortNameOf(*read) == "another");
+    CHECK(profileErrorAfter([](nlohmann::json& j) { j["shortName"] = 3; }) == "shortName: must be a text in quotes");
+}

@@ -36,6 +36,8 @@ inline Profile randomProfile(std::uint64_t seed)
 
     Profile profile;
     profile.name = "Zwölf \"Spulen\" \\ 触覚 \n\t\x01 " + std::to_string(seed);
+    if (seed % 2 == 0)
+        profile.shortName = "Spule \"触\" " + std::to_string(seed);
     profile.technology = static_cast<Technology>(whole(0, 5));
     profile.resonance = {wide(1.0, 20000.0), wide(0.01, 100.0)};
     profile.range.lowFrequency = wide(1.0, 10000.0);

@@ -49,7 +49,7 @@ LITERALS = {
         "Pacini", "Pacini Editor", "PaciniEditor", "pacini-editor", " - Pacini Editor", "Noto Sans CJK JP",
         "Noto Sans JP", "Source Han Sans JP", "Hiragino Sans", "Yu Gothic UI", "Meiryo", "IPAexGothic", "IPAPGothic",
         "IPAGothic", "TakaoPGothic", "VL PGothic", "/usr/share/fonts/opentype/noto/NotoSansCJK-", "DualSense",
-        "Joy-Con", "LRA 175 Hz", "LRA 235 Hz", "L5 wristband", "L5 test jig", "ERM coin", "English", "A Framework for Audio-Tactile Signal Translation"],
+        "Joy-Con", "LRA 175 Hz", "LRA 235 Hz", "L5 wristband", "L5 test jig", "Coin ERM", "iPhone (Taptic)", "English", "A Framework for Audio-Tactile Signal Translation"],
     "names of threads, folders, settings and functions of libraries": [
         "XESetWireToError", "Pacini capture", "Pacini joysticks", "js", "/dev/input", "/dev/snd/seq", "joycon-hd-rumble", "erm-coin", "Pacini set-up", "Pacini clips", "Application Support", "~/.config", "quiet", "primary", "origin", "dark", "true", "GTK_THEME", "gtk-theme-name",
         "gtk-application-prefer-dark-theme", "max ", "fs ", "devices",

@@ -163,6 +163,7 @@ struct Profile
     static constexpr int unlimitedPolyphony = 64; ///< more than a clip has bands
 
     std::string name;
+    std::string shortName; ///< for boxes and rows of windows; empty: the name, see shortNameOf()
     Technology technology = Technology::pcm;
     Resonance resonance;
     ActuatorRange range;
@@ -177,6 +178,19 @@ struct Profile
     ProfileSources sources;
     bool operator==(const Profile&) const = default;
 };
+
+/// The short name of an actuator, or its name where the profile has no short one.
+[[nodiscard]] inline const std::string& shortNameOf(const Profile& profile) noexcept
+{
+    return profile.shortName.empty() ? profile.name : profile.shortName;
+}
+
+/// Gives a profile another name. The short one belonged to the old name and goes.
+inline void renameProfile(Profile& profile, std::string name)
+{
+    profile.name = std::move(name);
+    profile.shortName.clear();
+}
 
 /// Checks every number of a profile. Errors name the path as in the file, such as `body.skinMass`. Frequencies are 1 to
 /// 20000 Hz (transients 1 to 2000), low below high; q 0.01 to 1000; the rest as the messages say.

@@ -222,7 +222,7 @@ Exit AnalyseSubcommand::run(Console& console)
         profile = std::move(*opened);
     }
     if (!name.empty())
-        profile.name = name;
+        renameProfile(profile, name);
 
     const auto analysed = analyseRecordings(console, options);
     if (!analysed)

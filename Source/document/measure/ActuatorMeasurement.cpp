@@ -215,7 +215,7 @@ std::string ActuatorMeasurement::whyLocked(MeasureStep step) const
 Profile ActuatorMeasurement::profile(const std::string& name) const
 {
     Profile profile = *known;
-    profile.name = name;
+    renameProfile(profile, name);
     double drive = -200.0;
     for (const auto& placement : taken)
         drive = std::max(drive, placement->level);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/clip/StatusBar.h"
 
+#include "editor/ActuatorItem.h"
 #include "editor/Controls.h"
 #include "editor/Icons.h"
 #include "editor/Text.h"
@@ -62,7 +63,7 @@ juce::String StatusBar::playsOn() const
         return tr(session.outputs.canPlay() ? "No audio device: only controllers and phones play"
                                             : "No audio device: nothing plays");
     const auto profile = session.actuators.profile();
-    const juce::String what = profile ? toText(profile->name) : tr("no actuator");
+    const juce::String what = profile ? actuatorText(*profile) : tr("no actuator");
     if (session.transport.heard() == Heard::sound)
         return tr("Plays the sound only");
     const auto number = [](std::size_t count)

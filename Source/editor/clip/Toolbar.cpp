@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/clip/Toolbar.h"
 
+#include "editor/ActuatorItem.h"
 #include "editor/Controls.h"
 #include "editor/Text.h"
 #include "editor/Theme.h"
@@ -142,7 +143,7 @@ void Toolbar::fillProfiles()
     for (std::size_t i = 0; i < actuators.profiles().size(); ++i)
     {
         const NamedProfile& entry = actuators.profiles()[i];
-        profile.addItem(toText(entry.profile->name), plainDrive + 1 + static_cast<int>(i));
+        addActuator(profile, *entry.profile, plainDrive + 1 + static_cast<int>(i));
     }
     profile.addSeparator();
     profile.addItem(tr("Load profile...").replace("...", toText("…")), fromFile);

@@ -2,6 +2,7 @@
 #include "editor/measure/MeasurementController.h"
 
 #include "document/measure/SimulatedMeasureRig.h"
+#include "editor/ActuatorItem.h"
 #include "editor/Text.h"
 #include "editor/Translation.h"
 #include "io/AudioFile.h"
@@ -98,7 +99,7 @@ std::vector<std::string> MeasurementController::rigNames() const
     if (around.device)
         names.push_back(tr("Audio device").toStdString());
     for (const std::size_t i : simulated)
-        names.push_back(tr("Simulated: {0}", {toText(actuators.profiles()[i].profile->name)}).toStdString());
+        names.push_back(tr("Simulated: {0}", {actuatorText(*actuators.profiles()[i].profile)}).toStdString());
     if (names.empty())
         names.push_back(tr("Simulated wristband").toStdString());
     return names;
@@ -190,7 +191,7 @@ std::vector<std::string> MeasurementController::profileNames() const
 {
     std::vector<std::string> names;
     for (const NamedProfile& entry : actuators.profiles())
-        names.push_back(entry.profile->name);
+        names.push_back(actuatorText(*entry.profile).toStdString());
     return names;
 }
 

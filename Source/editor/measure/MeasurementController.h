@@ -59,7 +59,7 @@ public:
     [[nodiscard]] const RigWiring& wiring() const noexcept { return wiredNow; }
     void setWiring(RigWiring wiring);
     void setSettings(const MeasureSettings& settings);
-    [[nodiscard]] std::vector<std::string> profileNames() const; ///< of the session's profiles
+    [[nodiscard]] std::vector<std::string> profileNames() const; ///< short ones of the session's profiles
     /// One of them, to take limits from; nothing: an unknown actuator.
     void setBase(std::optional<std::size_t> profile);
     [[nodiscard]] std::optional<std::size_t> base() const noexcept { return baseNow; }

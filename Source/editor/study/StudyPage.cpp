@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/study/StudyPage.h"
 
+#include "editor/ActuatorItem.h"
 #include "editor/Text.h"
 #include "editor/Translation.h"
 #include "io/ProfileFile.h"
@@ -268,7 +269,7 @@ void StudyPage::buildSetUp()
     int chosen = 0;
     for (const NamedProfile& one : services.profiles)
     {
-        actuators.add(toText(one.name));
+        actuators.add(actuatorText(*one.profile));
         if (one.name == actuator)
             chosen = actuators.size() - 1;
     }

@@ -125,13 +125,14 @@ inline constexpr std::string_view noActuator = "No actuator (flat)";
     return choice.starts_with(noActuator);
 }
 
+/// The short names of the shipped profiles, for hosts that ask before any profile is read (a test compares them).
 // clang-format off
 inline constexpr std::array<std::string_view, profileSlots> profileChoices{
     "Flat drive", "L5 wristband", "L5 test jig", "LRA 175 Hz",
-    "LRA 235 Hz", "ERM coin", "Piezo", "Phone",
+    "LRA 235 Hz", "Coin ERM", "Piezo", "iPhone (Taptic)",
     "Quest controller", "DualSense", "Joy-Con", "Wideband exciter",
-    "Electroactive polymer", "Phone, ERM", "Phone, coin LRA", "Phone, bar LRA",
-    "Phone, voice coil", "Phone, piezo", "No actuator (flat) 18", "No actuator (flat) 19",
+    "Electroactive polymer", "Phone (ERM)", "Phone (coin LRA)", "Phone (bar LRA)",
+    "Phone (voice coil)", "Phone (piezo)", "No actuator (flat) 18", "No actuator (flat) 19",
     "No actuator (flat) 20", "No actuator (flat) 21", "No actuator (flat) 22", "No actuator (flat) 23",
     "No actuator (flat) 24", "No actuator (flat) 25", "No actuator (flat) 26", "No actuator (flat) 27",
     "No actuator (flat) 28", "No actuator (flat) 29", "No actuator (flat) 30", "From file"};

@@ -209,7 +209,7 @@ std::pair<nb::dict, ProfileHandle> findings(const std::vector<RecordingHandle>& 
     if (base != nullptr)
         profile = base->profile();
     if (!name.empty())
-        profile.name = name;
+        renameProfile(profile, name);
     setMeasurement(profile, average.response, found, recordings.size(),
                    *std::max_element(file.sweep.levels.begin(), file.sweep.levels.end()));
     nb::dict result = responseOf(average.response);

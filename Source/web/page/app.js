@@ -702,7 +702,7 @@ for (const input of document.querySelectorAll('input[type=range]')) {
   showValue(input)
 }
 for (const input of document.querySelectorAll('input[type=number]')) guardNumber(input)
-for (const [key, profile] of Object.entries(profiles)) element('profile').add(new Option(profile.name ?? key, key))
+for (const [key, profile] of Object.entries(profiles)) element('profile').add(new Option(profile.shortName ?? profile.name ?? key, key))
 element('profile').add(new Option('none: plain drive', ''))
 element('profile').value = 'l5-wristband'
 for (const { name, purpose } of presets) {

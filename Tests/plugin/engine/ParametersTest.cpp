@@ -86,6 +86,16 @@ TEST_CASE("What is no value of a parameter, or beyond its range, is refused: the
         }
 }
 
+TEST_CASE("Lists of hosts have the short names of the profiles")
+{
+    const auto& names = rowOf(ParameterId::profile).choices;
+    for (std::size_t slot = 0; !profileNameOf(slot).empty(); ++slot)
+    {
+        CAPTURE(slot);
+        CHECK(names[slot] == shortNameOf(*builtInProfile(slot)));
+    }
+}
+
 TEST_CASE("Lists of hosts say where a slot has no actuator")
 {
     for (std::size_t slot = 0; slot < profileSlots; ++slot)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/clip/lanes/ActuatorRow.h"
 
+#include "editor/ActuatorItem.h"
 #include "editor/Text.h"
 #include "editor/Theme.h"
 #include "editor/Translation.h"
@@ -308,7 +309,7 @@ void ActuatorRow::paintHead(juce::Graphics& g)
         return;
     g.setColour(p.dim);
     g.setFont(smallFont());
-    g.drawFittedText(toText(profile->name), top.removeFromTop(15), juce::Justification::centredLeft, 1);
+    g.drawFittedText(actuatorText(*profile), top.removeFromTop(15), juce::Justification::centredLeft, 1);
     g.drawFittedText(waiting ? tr(toText("Rendering…")) : summary, top.removeFromTop(15),
                      juce::Justification::centredLeft, 1);
     // What the colours of the lower plot mean.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/clip/sheets/OutputsSheet.h"
 
+#include "editor/ActuatorItem.h"
 #include "editor/Controls.h"
 #include "editor/Text.h"
 #include "editor/Theme.h"
@@ -153,7 +154,7 @@ void OutputsSheet::show()
         for (std::size_t k = 0; k < actuators.profiles().size(); ++k)
         {
             const int item = plain + 1 + static_cast<int>(k);
-            row.actuator.addItem(toText(actuators.profiles()[k].profile->name), item);
+            addActuator(row.actuator, *actuators.profiles()[k].profile, item);
             if (actuators.profiles()[k].name == output.actuator)
                 chosen = item;
         }
