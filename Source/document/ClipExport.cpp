@@ -97,6 +97,8 @@ std::vector<std::filesystem::path> placesOf(const std::vector<std::shared_ptr<co
         auto name = exportName(*clip, format);
         if (clips.size() == 1 && !choice.file.empty())
             name = choice.file.string();
+        if (!choice.mark.empty() && name.ends_with(format.extension))
+            name.insert(name.size() - format.extension.size(), "-" + choice.mark);
         const auto first = std::filesystem::path(name);
         for (int number = 2; !taken.insert(name).second; ++number)
             name = first.stem().string() + "-" + std::to_string(number).append(format.extension);
@@ -137,6 +139,31 @@ std::string exportName(const Clip& clip, const ClipFormat& format)
     if (name.empty())
         name = "clip";
     return name.append(format.extension == ".wav" ? ".haptic" : "").append(format.extension);
+}
+
+std::vector<ExportChoice> choicesFor(const ExportChoice& first, const std::vector<std::string>& further)
+{
+    std::vector<ExportChoice> choices{first};
+    std::set<std::string> names{first.format}, extensions;
+    if (const auto known = formatOf(first))
+        extensions.emplace((*known)->extension);
+    for (const std::string& name : further)
+    {
+        ExportChoice choice = first;
+        choice.format = name;
+        const auto format = formatOf(choice);
+        if (!format || !names.insert(name).second)
+            continue;
+        choice.params.events = ExportParams().events;
+        if (!(*format)->isSamples)
+            choice.params.sampleRate = ExportParams().sampleRate;
+        if (!choice.file.empty())
+            choice.file = choice.file.stem().string().append((*format)->extension);
+        if (!extensions.emplace((*format)->extension).second)
+            choice.mark = name;
+        choices.push_back(std::move(choice));
+    }
+    return choices;
 }
 
 Result<std::vector<FormatLoss>> exportLosses(const Clip& clip, const ExportChoice& choice)

@@ -24,6 +24,7 @@ struct ExportChoice
     ExportParams params; ///< the rate of the drive signal is that of the clip's sound where none is given, or 8 kHz
     std::filesystem::path folder;               ///< existing
     std::filesystem::path file;                 ///< of a single clip, in `folder`; empty: the clip's name
+    std::string mark; ///< stands behind each name, before the extension; empty: nothing does
     ProjectFileSet needed;                      ///< never replaced
     Replaceable replaceable = Replaceable::own; ///< `named` once the user has been asked
 };
@@ -38,6 +39,10 @@ struct ExportReport
 /// The file name that a clip gets: its name without what file systems refuse, and the extension; of a drive signal not
 /// that of the recording, which the clip has its name from.
 [[nodiscard]] std::string exportName(const Clip& clip, const ClipFormat& format);
+
+/// The same export in further formats: events as each has them, and the name of the format as a mark where another has
+/// the same extension. Formats that are named twice, or not known, are passed over.
+[[nodiscard]] std::vector<ExportChoice> choicesFor(const ExportChoice& first, const std::vector<std::string>& further);
 
 /// What exporting would lose, without writing anything. Errors: those of the format. [worker]
 [[nodiscard]] Result<std::vector<FormatLoss>> exportLosses(const Clip& clip, const ExportChoice& choice);

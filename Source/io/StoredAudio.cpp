@@ -44,7 +44,7 @@ StoredAudio::StoredAudio(const AudioData& audio) : StoredAudio(audio.sampleRate,
 
 Result<StoredAudio> StoredAudio::read(const std::filesystem::path& path)
 {
-    auto opened = AudioReader::open(path);
+    auto opened = AudioReader::open(path, {.allowTruncated = true});
     if (!opened)
         return opened.error();
     StoredAudio sound(opened->sampleRate(), opened->channels());

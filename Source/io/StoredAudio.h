@@ -30,7 +30,7 @@ public:
     /// All samples of `audio`.
     explicit StoredAudio(const AudioData& audio);
 
-    /// Reads a whole file. Errors: those of readAudio().
+    /// Reads a whole file, or what is there of one that was cut off, with a warning. Errors: those of readAudio().
     [[nodiscard]] static Result<StoredAudio> read(const std::filesystem::path& path);
 
     [[nodiscard]] int rate() const noexcept { return sampleRate; } ///< Hz

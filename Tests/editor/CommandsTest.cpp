@@ -191,3 +191,61 @@ TEST_CASE("Next and previous clip go round the project")
     REQUIRE(bench.view.doCommand(editor::previousClip));
     CHECK(bench.session.model.activeId() != first);
 }
+
+TEST_CASE("Keys can be changed: in the list of shortcuts, for menus and search, and kept for the next start")
+{
+    using Key = juce::KeyPress;
+    const auto ctrlJ = Key('j', juce::ModifierKeys::commandModifier, 0);
+    EditorBench bench;
+    auto& menus = bench.view.menus();
+    CHECK(menus.changedKeys() == nullptr);
+    REQUIRE(bench.view.doCommand(editor::shortcuts));
+    auto& table = get<juce::Component>(*bench.view.sheet(), "Keyboard and mouse");
+    auto& list = *dynamic_cast<juce::Viewport*>(bench.view.sheet()->getChildComponent(0))->getViewedComponent();
+    juce::ignoreUnused(table);
+    CHECK(list.keyPressed(Key(Key::downKey)));   // the first command: new project
+    CHECK(list.keyPressed(Key(Key::returnKey))); // waits
+    CHECK(list.keyPressed(Key(Key::leftKey)));   // lanes need it
+    CHECK(menus.commandOf(Key(Key::leftKey)) == std::nullopt);
+    CHECK(list.keyPressed(ctrlJ));
+    CHECK(menus.commandOf(ctrlJ) == editor::newProject);
+    CHECK(menus.keyTextOf(editor::newProject) == editor::keyText(ctrlJ));
+    CHECK(menus.commandOf(Key('n', juce::ModifierKeys::commandModifier, 0)) == std::nullopt);
+    CHECK_FALSE(list.keyPressed(Key('x')));
+    // A key has one command.
+    menus.setKey(editor::openFile, ctrlJ);
+    CHECK(menus.commandOf(ctrlJ) == editor::openFile);
+    CHECK(menus.keysOf(editor::newProject).empty());
+    const auto changed = menus.changedKeys();
+    REQUIRE(changed != nullptr);
+    EditorBench next;
+    next.view.menus().restoreKeys(*changed);
+    CHECK(next.view.menus().commandOf(ctrlJ) == editor::openFile);
+    CHECK(next.view.menus().keysOf(editor::newProject).empty());
+    CHECK_FALSE(next.view.menus().keysOf(editor::save).empty());
+    next.view.menus().resetKeys();
+    CHECK(next.view.menus().changedKeys() == nullptr);
+    CHECK(next.view.menus().keyTextOf(editor::newProject) ==
+          editor::keyText(Key('n', juce::ModifierKeys::commandModifier, 0)));
+}
+
+TEST_CASE("Preferences are in the Edit menu and lead to the audio devices")
+{
+    EditorBench bench;
+    bool isInEdit = false;
+    for (const auto& menu : bench.view.menus().all())
+        for (const auto& action : menu.actions)
+            isInEdit = isInEdit || (action.id == editor::preferences && juce::String(menu.name) == "Edit");
+    CHECK(isInEdit);
+    editor::HostServices around;
+    int shown = 0;
+    around.showDevices = [&shown]
+    {
+        ++shown;
+    };
+    editor::EditorView view(bench.session, around);
+    view.setBounds(0, 0, 1280, 800);
+    REQUIRE(view.doCommand(editor::preferences));
+    get<juce::TextButton>(*view.sheet(), "Audio").onClick();
+    CHECK(pumpUntil([&] { return shown == 1; }));
+}

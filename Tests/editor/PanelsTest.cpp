@@ -461,3 +461,50 @@ TEST_CASE("No control of the pages is cut off or lies on another, at any size")
             }
         }
 }
+
+TEST_CASE("Own presets are settings files, which the menu offers, asks before it replaces, and the command reads")
+{
+    const TempFolder folder;
+    EditorBench bench;
+    editor::HostServices around;
+    around.presetFolder = folder / "presets";
+    editor::EditorView view(bench.session, around);
+    view.setBounds(0, 0, 1280, 800);
+    editor::AnalysisPanel panel(view);
+    panel.setSize(240, 640);
+    bench.openDemo("knock_wood_bridge");
+    auto& preset = get<juce::ComboBox>(panel, "Preset");
+    get<juce::Slider>(panel, "Bands").setValue(7.0, juce::sendNotificationSync);
+    const EncoderParams wanted = panel.params();
+    panel.saveAs("doors");
+    CHECK(preset.getText() == "doors");
+    const auto read = readAnalysisSettings(folder / "presets" / "doors.json");
+    REQUIRE(read);
+    CHECK(read->bands == 7);
+    CHECK(presetOf(*read) == presetOf(wanted));
+    preset.setSelectedId(1, juce::sendNotificationSync);
+    CHECK(panel.params().bands != 7);
+    const auto find = [&]
+    {
+        for (int i = 0; i < preset.getNumItems(); ++i)
+            if (preset.getItemText(i) == "doors")
+                return preset.getItemId(i);
+        return 0;
+    };
+    REQUIRE(find() != 0);
+    preset.setSelectedId(find(), juce::sendNotificationSync);
+    CHECK(panel.params().bands == 7);
+    CHECK(preset.getText() == "doors");
+    // One of this name is replaced after a question only; names that are no files are refused.
+    get<juce::Slider>(panel, "Bands").setValue(9.0, juce::sendNotificationSync);
+    panel.saveAs("doors");
+    REQUIRE(view.sheet() != nullptr);
+    CHECK(readAnalysisSettings(folder / "presets" / "doors.json")->bands == 7);
+    answer(*view.sheet(), "Replace");
+    CHECK(readAnalysisSettings(folder / "presets" / "doors.json")->bands == 9);
+    view.showSheet(nullptr);
+    panel.saveAs("../doors");
+    REQUIRE(view.sheet() != nullptr);
+    CHECK(view.sheet()->getTitle() == "Preset not saved");
+    CHECK_FALSE(std::filesystem::exists(folder / "doors.json"));
+}

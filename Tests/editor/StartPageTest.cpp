@@ -85,7 +85,7 @@ TEST_CASE("A sound of the library opens with the actuator that was chosen, and a
     REQUIRE(bench.opens("Heartbeat"));
     CHECK(bench.session.actuators.profileName() == "phone-taptic");
     CHECK(bench.session.model.clip()->transients.size() >= 6);
-    CHECK(bench.view.statusBar().playsOn().contains(juce::String(bench.session.actuators.profile()->name)));
+    CHECK(bench.view.statusBar().playsOn().contains("iPhone (Taptic)"));
     // Nor does a project lose it that is empty for a while.
     bench.session.actuators.setProfile("l5-wristband");
     editor::removeClips(bench.session.model, {bench.session.model.activeId()});
@@ -141,7 +141,7 @@ TEST_CASE("The first steps are shown until each was done once")
     CHECK_FALSE(bench.view.statusBar().steps().shaped);
     REQUIRE(bench.view.doCommand(editor::tapEvent));
     CHECK(bench.view.statusBar().steps().shaped);
-    bench.view.lastExport.format = "json";
+    bench.view.lastExport.written = true;
     bench.view.showSheet(nullptr);
     CHECK(bench.view.statusBar().steps().all());
 }
@@ -211,4 +211,18 @@ TEST_CASE("A device is offered a moment after it is connected, from the first st
     CHECK(pumpUntil([&] { return find<juce::Button>(view.startPage(), "Pad (connected)") != nullptr; }, 5.0));
     plugged = false;
     CHECK(pumpUntil([&] { return find<juce::Button>(view.startPage(), "Pad (connected)") == nullptr; }, 5.0));
+}
+
+TEST_CASE("The pointer plays no sound unless that is switched on; the triangle of a sound does")
+{
+    StartBench bench;
+    auto& page = bench.view.startPage();
+    auto& tile = get<juce::Button>(page, "Heartbeat");
+    auto& preview = bench.session.filePreview;
+    CHECK_FALSE(get<juce::Button>(page, "Play on hover").getToggleState());
+    Mouse(tile).press({8.0f, 20.0f});
+    CHECK(preview.file().filename() == "heartbeat.flac");
+    Mouse(tile).press({8.0f, 20.0f});
+    CHECK(preview.file().empty());
+    CHECK(bench.session.model.isEmpty());
 }

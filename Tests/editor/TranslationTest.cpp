@@ -99,6 +99,7 @@ TEST_CASE("No page, sheet or menu of the editor has a text that bypasses the tab
     // What things are called, units, and keys as the system calls them.
     const juce::StringArray names{"lra-175",
                                   "10 mm coin LRA, 175 Hz",
+                                  "LRA 175 Hz",
                                   "knock_wood_bridge",
                                   "kHz",
                                   "bit",

@@ -288,3 +288,50 @@ TEST_CASE("Lanes of noise are named by their frequencies")
     editor::setClip(bench.session.model, "Edit", edited);
     CHECK(title(0) == juce::String::fromUTF8("Noise 40–130 Hz"));
 }
+
+TEST_CASE("Lanes fill a tall window, keep their height in a low one, and grow on from where they are")
+{
+    EditorBench bench;
+    bench.openDemo("knock_wood_bridge");
+    auto& lanes = bench.view.clipView();
+    const auto bottom = [&]
+    {
+        int most = 0;
+        for (auto* child : bench.row(envelope).getParentComponent()->getChildren())
+            most = std::max(most, child->getBottom());
+        return most;
+    };
+    bench.view.setSize(1280, 700);
+    CHECK(lanes.shownLaneHeight() == bench.session.viewState.laneHeight());
+    bench.view.setSize(1280, 3000);
+    CHECK(lanes.shownLaneHeight() > 60);
+    const auto* viewport = bench.row(envelope).findParentComponentOfClass<juce::Viewport>();
+    REQUIRE(viewport != nullptr);
+    CHECK(bottom() == viewport->getHeight());
+    const int before = lanes.shownLaneHeight();
+    REQUIRE(bench.view.doCommand(editor::tallerLanes));
+    CHECK(lanes.shownLaneHeight() > before);
+    CHECK(bottom() > viewport->getHeight());
+}
+
+TEST_CASE("The side panel is as wide as it was drawn, at most half the window, and can be put away")
+{
+    EditorBench bench;
+    bench.openDemo("knock_wood_bridge");
+    auto& side = bench.view.sidePanel();
+    auto& divider = get<editor::SideDivider>(bench.view, "Width of the side panel");
+    CHECK(side.getWidth() == editor::EditorView::usualSideWidth);
+    Mouse(divider).dragFromTo({3.0f, 300.0f}, {-97.0f, 300.0f}, 1);
+    CHECK(side.getWidth() == editor::EditorView::usualSideWidth + 100);
+    CHECK(bench.view.clipView().getRight() == side.getX());
+    bench.view.setSideWidth(5000);
+    CHECK(side.getWidth() == 640);
+    Mouse(divider).doubleClick({3.0f, 300.0f});
+    CHECK(side.getWidth() == editor::EditorView::usualSideWidth);
+    REQUIRE(bench.view.doCommand(editor::showSidePanel));
+    CHECK_FALSE(side.isVisible());
+    CHECK_FALSE(divider.isVisible());
+    CHECK(bench.view.clipView().getWidth() == 1280);
+    REQUIRE(bench.view.doCommand(editor::showSidePanel));
+    CHECK(side.isVisible());
+}

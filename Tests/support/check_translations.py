@@ -24,6 +24,7 @@ LOSSES = re.compile(r"Source/io/formats/(.*Writer|.*/?LossList|VoiceReduction|Cl
 PRESETS = Path("Core/pacini/realtime/TranslatorPresets.h")
 ENCODER_PRESETS = Path("Source/io/EncoderPresets.cpp")
 ERRORS = Path("Core/pacini/foundation/Result.h")  # of the core, which windows show
+FILE_NAMES = Path("Source/io/FileNames.h")  # why a preset cannot be called so
 
 # Files without a text for users of windows.
 FILES = {
@@ -54,7 +55,8 @@ LITERALS = {
         "XESetWireToError", "Pacini capture", "Pacini joysticks", "js", "/dev/input", "/dev/snd/seq", "joycon-hd-rumble", "erm-coin", "Pacini set-up", "Pacini clips", "Application Support", "~/.config", "quiet", "primary", "origin", "dark", "true", "GTK_THEME", "gtk-theme-name",
         "gtk-application-prefer-dark-theme", "max ", "fs ", "devices",
         "state", "recovery", "profiles", "Resources/demo", "share/pacini/demo", "pacini", "json", "wav", "pacb",
-        "files", "clip", "Presets", "scale", ".sound-", "md", "demo", "pacini-demo", "flac", "plain drive"],
+        "files", "clip", "Presets", "scale", ".sound-", "md", "demo", "pacini-demo", "flac", "plain drive",
+        "analysis presets"],
     "names that Windows keeps for devices": ["CON", "PRN", "AUX", "NUL", "COM", "LPT"],
     "records of studies, which are the same file in every language": [
         "agreed: ", "the touch starts {:.3f} ms earlier", "stopped by the participant", "comfortable at ", "Pacini "],
@@ -173,9 +175,10 @@ def check(root, tables):
         for line, text in literals(root / presets):
             if re.match(r"[A-Z0-9]", text):
                 wanted.setdefault(text, f"{presets.as_posix()}:{line}")
-    for line, text in literals(root / ERRORS):
-        if is_text(text, "Source/io"):
-            wanted.setdefault(text, f"{ERRORS.as_posix()}:{line}")
+    for source in (ERRORS, FILE_NAMES):
+        for line, text in literals(root / source):
+            if is_text(text, "Source/io"):
+                wanted.setdefault(text, f"{source.as_posix()}:{line}")
     problems = []
     for code, pairs in tables.items():
         keys = {numbered(key) for key in pairs}

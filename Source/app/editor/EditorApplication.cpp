@@ -246,7 +246,9 @@ private:
         if (settings)
         {
             around.profileFolder = pathOf(profileFolder(home));
-            around.language = settings->language();
+            around.presetFolder = pathOf(home.getChildFile("analysis presets"));
+            around.language =
+                options.language.empty() ? settings->language() : editor::toText(options.language); // as it is shown
             around.chooseLanguage = [this](const juce::String& code)
             {
                 settings->keepLanguage(code);

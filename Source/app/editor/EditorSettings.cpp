@@ -71,9 +71,17 @@ void EditorSettings::apply(editor::EditorView& view) const
                                file.getBoolValue("hasExported", false)});
     view.setDark(file.getBoolValue("dark", editor::systemIsDark()));
     view.setScale(file.getDoubleValue("scale", 1.0));
+    if (const auto keys = file.getXmlValue("keys"))
+        view.menus().restoreKeys(*keys);
+    view.setSideWidth(file.getIntValue("sideWidth", editor::EditorView::usualSideWidth));
+    view.showSide(file.getBoolValue("sidePanel", true));
     viewState.setAmplitudesInDecibels(file.getBoolValue("decibels", true));
     view.lastExport = {file.getValue("exportFormat").toStdString(), file.getIntValue("exportRate", 0),
-                       editor::pathOf(file.getValue("exportFolder"))};
+                       editor::pathOf(file.getValue("exportFolder")),
+                       {},
+                       false};
+    for (const auto& name : juce::StringArray::fromTokens(file.getValue("exportAlso"), " ", {}))
+        view.lastExport.also.push_back(name.toStdString());
     viewState.setLaneHeight(file.getIntValue("laneHeight", viewState.laneHeight()));
     editor::ViewOptions options = viewState.viewOptions();
     SnapTargets snap = viewState.snapTargets();
@@ -96,9 +104,19 @@ void EditorSettings::keep(PreviewDevices& rig, editor::EditorView& view, const j
     if (file.containsKey("dark") || view.isDark() != editor::systemIsDark()) // else the system's theme is followed
         file.setValue("dark", view.isDark());
     file.setValue("scale", view.scale());
+    if (const auto keys = view.menus().changedKeys())
+        file.setValue("keys", keys.get());
+    else
+        file.removeValue("keys");
+    file.setValue("sideWidth", view.sideWidth());
+    file.setValue("sidePanel", view.isSideShown());
     file.setValue("decibels", viewState.amplitudesInDecibels());
     file.setValue("laneHeight", viewState.laneHeight());
     file.setValue("exportFormat", editor::toText(view.lastExport.format));
+    juce::StringArray also;
+    for (const auto& name : view.lastExport.also)
+        also.add(editor::toText(name));
+    file.setValue("exportAlso", also.joinIntoString(" "));
     file.setValue("exportRate", view.lastExport.sampleRate);
     file.setValue("exportFolder", editor::pathText(view.lastExport.folder));
     editor::ViewOptions options = viewState.viewOptions();

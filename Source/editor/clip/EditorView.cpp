@@ -16,7 +16,6 @@ namespace
 {
 constexpr int menuHeight = 26;
 constexpr int toolbarHeight = 42;
-constexpr int sideWidth = 248;
 
 /// Sliders make their boxes, and text editors colour their text, before they have a look or when they had another.
 void takeLook(juce::Component& part)
@@ -54,7 +53,7 @@ EditorView::EditorView(Session& shared, HostServices around)
     setFocusContainerType(FocusContainerType::keyboardFocusContainer);
     addAndMakeVisible(body);
     for (juce::Component* child :
-         std::initializer_list<juce::Component*>{&menuBar, &toolbar, &clipPart, &side, &meters, &start, &status})
+         std::initializer_list<juce::Component*>{&menuBar, &toolbar, &clipPart, &side, &meters, &start, &status, &divider})
         body.addAndMakeVisible(child);
     body.addChildComponent(workBar);
     body.addChildComponent(notice);
@@ -67,6 +66,14 @@ EditorView::EditorView(Session& shared, HostServices around)
     clipPart.onCommand = [this](Command command)
     {
         doCommand(command);
+    };
+    divider.widthNow = [this]
+    {
+        return side.getWidth();
+    };
+    divider.onWidth = [this](int wanted)
+    {
+        setSideWidth(wanted < 1 ? usualSideWidth : wanted);
     };
     start.onOpen = [this]
     {
@@ -167,12 +174,25 @@ void EditorView::setScale(double wanted)
     resized();
 }
 
+void EditorView::setSideWidth(int wanted)
+{
+    sideWidthNow = std::max(usualSideWidth, wanted);
+    resized();
+}
+
+void EditorView::showSide(bool wanted)
+{
+    sideShown = wanted;
+    arrange();
+    resized();
+}
+
 void EditorView::arrange()
 {
     const bool any = open.model.clip() != nullptr || open.model.isShowingUnanalysed();
     clipPart.setVisible(any);
-    side.setVisible(any);
-    meters.setVisible(any);
+    for (juce::Component* part : std::initializer_list<juce::Component*>{&side, &divider, &meters})
+        part->setVisible(any && sideShown);
     start.setVisible(!any);
 }
 
@@ -192,7 +212,9 @@ void EditorView::resized()
     toolbar.setBounds(area.removeFromTop(toolbarHeight));
     status.setBounds(area.removeFromBottom(StatusBar::height));
     start.setBounds(area);
-    auto beside = area.removeFromRight(sideWidth);
+    auto beside = area.removeFromRight(
+        sideShown ? std::clamp(sideWidthNow, usualSideWidth, std::max(usualSideWidth, area.getWidth() / 2)) : 0);
+    divider.setBounds(beside.withWidth(SideDivider::width).translated(-SideDivider::width / 2, 0));
     meters.setBounds(beside.removeFromBottom(meters.wantedHeight()));
     side.setBounds(beside);
     clipPart.setBounds(area);
@@ -316,7 +338,7 @@ void EditorView::showSheet(std::unique_ptr<Sheet> wanted)
     if (!sheetNow && wanted)
         focusedBefore = getCurrentlyFocusedComponent();
     sheetNow = std::move(wanted);
-    if (!lastExport.format.empty())
+    if (lastExport.written)
         status.setExported();
     if (!sheetNow && !messages.empty())
     {

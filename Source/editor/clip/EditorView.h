@@ -7,6 +7,7 @@
 #include "editor/Theme.h"
 #include "editor/clip/NoticeBar.h"
 #include "editor/clip/ProjectFiles.h"
+#include "editor/clip/SideDivider.h"
 #include "editor/clip/StartPage.h"
 #include "editor/clip/StatusBar.h"
 #include "editor/clip/Toolbar.h"
@@ -43,6 +44,7 @@ struct HostServices
     std::function<std::vector<FoundDevice>()> foundDevices = {};  ///< for the start page; null: nobody looks
     std::shared_ptr<MeasureRig> measureRig = {};                  ///< null: only simulated actuators can be measured
     std::filesystem::path profileFolder = {};                     ///< where measured profiles are written at first
+    std::filesystem::path presetFolder = {};                      ///< of the user's analysis presets; empty: none are kept
     juce::String language = {};                                   ///< code of the chosen one; empty: that of the system
     std::function<void(const juce::String&)> chooseLanguage = {}; ///< from the next start on; null: not here
     std::function<void(const std::filesystem::path&)> runStudy = {}; ///< of that file; null: not here
@@ -69,6 +71,13 @@ public:
     /// 0.75 to 2.
     void setScale(double wanted);
     [[nodiscard]] double scale() const noexcept { return scaleNow; }
+
+    static constexpr int usualSideWidth = 248; ///< also the least
+    /// Points; at most half the window, less than the least: the usual width.
+    void setSideWidth(int wanted);
+    [[nodiscard]] int sideWidth() const noexcept { return sideWidthNow; }
+    void showSide(bool wanted);
+    [[nodiscard]] bool isSideShown() const noexcept { return sideShown; }
 
     void showSheet(std::unique_ptr<Sheet> wanted);
     /// Shows it when the sheets before it are closed: no question is lost behind another.
@@ -127,6 +136,8 @@ private:
     const HostServices host;
     Look look;
     double scaleNow = 1.0;
+    int sideWidthNow = usualSideWidth;
+    bool sideShown = true;
     ProjectFiles fileQuestions{*this};
     Menus menuList{*this};
     juce::Component body; ///< everything, scaled
@@ -134,6 +145,7 @@ private:
     Toolbar toolbar;
     ClipView clipPart;
     SidePanel side;
+    SideDivider divider;
     MeterPanel meters;
     StartPage start;
     StatusBar status;

@@ -276,6 +276,16 @@ void ProjectFiles::askForStudy()
            });
 }
 
+void ProjectFiles::askForSettings(std::function<void(const std::filesystem::path&)> chosen)
+{
+    choose(tr("Load settings"), Purpose::openingJson,
+           [chosen = std::move(chosen)](const juce::Array<juce::File>& files)
+           {
+               if (!files.isEmpty())
+                   chosen(pathOf(files[0]));
+           });
+}
+
 void ProjectFiles::offerRecovery()
 {
     Session& session = view.session();

@@ -37,6 +37,8 @@ public:
     /// A profile of an actuator, which the project has from then on.
     void askForProfile();
     void askForStudy();
+    /// A settings file (pacini.settings).
+    void askForSettings(std::function<void(const std::filesystem::path&)> chosen);
     /// Says which sounds are missing, and offers to find them.
     void tellMissing(const std::vector<AudioReference>& missing);
 

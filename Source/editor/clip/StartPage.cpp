@@ -20,7 +20,9 @@ constexpr int startRowHeight = 4 * grid;
 constexpr int tileHeight = 7 * grid;
 constexpr int tileWidth = 200; // at least
 constexpr int leftWidth = 34 * grid;
-constexpr int hoverDelay = 250; // ms
+constexpr int dropHeight = 19 * grid;
+constexpr int signWidth = 4 * grid; // of a tile: a click there plays it
+constexpr int hoverDelay = 250;     // ms
 
 /// A sound of the library: its file in Resources/library without the ending, and words to find it by.
 struct LibraryEntry
@@ -69,7 +71,7 @@ public:
     {
         setTitle(title);
         setDescription(tags);
-        setTooltip(tr("Click: opens it; Space: plays it"));
+        setTooltip(tr("Click: opens it; triangle or Space: plays it"));
         setWantsKeyboardFocus(true);
     }
 
@@ -128,9 +130,23 @@ private:
     {
         if (key != juce::KeyPress::spaceKey)
             return juce::Button::keyPressed(key);
-        preview.file() == file ? preview.stop() : preview.play(file);
+        hear();
         return true;
     }
+    void mouseDown(const juce::MouseEvent& event) override
+    {
+        if (event.x < signWidth)
+            hear();
+        else
+            juce::Button::mouseDown(event);
+    }
+    void mouseUp(const juce::MouseEvent& event) override
+    {
+        if (event.getMouseDownX() >= signWidth)
+            juce::Button::mouseUp(event);
+    }
+    void hear() { preview.file() == file ? preview.stop() : preview.play(file); }
+
     void timerCallback() override
     {
         stopTimer();
@@ -186,8 +202,8 @@ StartPage::StartPage(EditorModel& project, Actuators& profiles, FilePreview& pla
         words.clear();
     };
     addAndMakeVisible(words);
+    hoverButton.setTitle("Play on hover");
     hoverButton.setClickingTogglesState(true);
-    hoverButton.setToggleState(true, juce::dontSendNotification);
     prepareButton(hoverButton, "Plays sounds under the pointer", [this] { preview.stop(); });
     addAndMakeVisible(hoverButton);
     viewport.setViewedComponent(&tileArea, false);
@@ -333,6 +349,11 @@ juce::Rectangle<int> StartPage::left() const
     return tiles.empty() ? area.withSizeKeepingCentre(leftWidth, area.getHeight()) : area.removeFromLeft(leftWidth);
 }
 
+juce::Rectangle<int> StartPage::dropArea() const
+{
+    return left().withHeight(dropHeight);
+}
+
 juce::Rectangle<int> StartPage::right() const
 {
     return getLocalBounds().reduced(3 * grid, 3 * grid).withTrimmedLeft(leftWidth + 4 * grid);
@@ -354,7 +375,7 @@ void StartPage::paint(juce::Graphics& g)
     if (!recentButtons.empty())
         heading(*recentButtons.front(), tr("Recent projects"));
 
-    const auto drop = openButton.getBounds().expanded(2 * grid, 0).withHeight(16 * grid).translated(0, -10 * grid);
+    const auto drop = dropArea();
     g.setColour(dropNow ? p.accent.withAlpha(0.15f) : p.card);
     g.fillRoundedRectangle(drop.toFloat(), 10.0f);
     juce::Path outline, dashes;
@@ -389,9 +410,8 @@ void StartPage::paint(juce::Graphics& g)
 void StartPage::resized()
 {
     auto area = left();
-    area.removeFromTop(10 * grid);
-    openButton.setBounds(area.removeFromTop(startRowHeight).reduced(2 * grid, 0));
-    area.removeFromTop(8 * grid);
+    openButton.setBounds(dropArea().reduced(2 * grid).removeFromBottom(startRowHeight));
+    area.removeFromTop(dropHeight + 6 * grid);
     for (const auto& button : feltBy)
     {
         button->setBounds(area.removeFromTop(startRowHeight));

@@ -56,6 +56,7 @@ private:
     void followActuator();
     void chooseDevice(std::size_t index);
     [[nodiscard]] juce::Rectangle<int> left() const;
+    [[nodiscard]] juce::Rectangle<int> dropArea() const; ///< with the button that opens
     [[nodiscard]] juce::Rectangle<int> right() const;
     void layOutTiles();
 

@@ -2,13 +2,11 @@
 #include "plugin/engine/UserPresets.h"
 
 #include "io/AtomicFile.h"
+#include "io/FileNames.h"
 #include "io/InputFile.h"
 #include "plugin/engine/PluginState.h"
 
 #include <algorithm>
-#include <array>
-#include <cctype>
-#include <optional>
 #include <system_error>
 #include <utility>
 
@@ -23,40 +21,6 @@ std::string textOf(const std::filesystem::path& path)
 {
     const std::u8string text = path.u8string();
     return {text.begin(), text.end()};
-}
-
-/// Names that are devices in Windows, whatever their ending.
-bool isDevice(std::string_view name)
-{
-    std::string upper(name.substr(0, name.find('.')));
-    std::transform(upper.begin(), upper.end(), upper.begin(),
-                   [](char c) { return static_cast<char>(std::toupper(static_cast<unsigned char>(c))); });
-    constexpr std::array<std::string_view, 4> names{"CON", "PRN", "AUX", "NUL"};
-    const bool numbered = upper.size() == 4 && (upper.starts_with("COM") || upper.starts_with("LPT"));
-    return numbered || std::find(names.begin(), names.end(), upper) != names.end();
-}
-
-std::optional<Error> defectOf(std::string_view name)
-{
-    const auto defect = [&name](const char* what)
-    {
-        return Error{ErrorCode::invalidArgument, std::string(name), what};
-    };
-    if (name.empty())
-        return defect("is no name for a preset");
-    if (name.size() > UserPresets::longestName)
-        return defect("is too long for a preset's name");
-    const bool hasOthers = std::any_of(name.begin(), name.end(),
-                                       [](char c)
-                                       {
-                                           constexpr std::string_view reserved = "<>:\"/\\|?*";
-                                           return static_cast<unsigned char>(c) < 0x20 || c == 0x7f ||
-                                                  reserved.find(c) != std::string_view::npos;
-                                       });
-    if (hasOthers || name.front() == '.' || name.front() == ' ' || name.back() == '.' || name.back() == ' ' ||
-        isDevice(name))
-        return defect("cannot be the name of a file");
-    return std::nullopt;
 }
 } // namespace
 
@@ -94,12 +58,12 @@ UserPresets::Listing UserPresets::list() const
 bool UserPresets::exists(std::string_view name) const
 {
     std::error_code unknown;
-    return !defectOf(name) && std::filesystem::exists(pathOf(name), unknown);
+    return !presetNameDefect(name, longestName) && std::filesystem::exists(pathOf(name), unknown);
 }
 
 Result<void> UserPresets::save(std::string_view name, const TranslatorParams& params, bool replace) const
 {
-    if (auto defect = defectOf(name))
+    if (auto defect = presetNameDefect(name, longestName))
         return *std::move(defect);
     std::error_code failed;
     std::filesystem::create_directories(home, failed);
@@ -114,7 +78,7 @@ Result<void> UserPresets::save(std::string_view name, const TranslatorParams& pa
 
 Result<void> UserPresets::remove(std::string_view name) const
 {
-    if (auto defect = defectOf(name))
+    if (auto defect = presetNameDefect(name, longestName))
         return *std::move(defect);
     std::error_code failed;
     if (!std::filesystem::remove(pathOf(name), failed))

@@ -95,6 +95,7 @@ enum Command : int
     showBoth,
     wholeSpectrum,
     showActuator,
+    showSidePanel,
     followOff,
     followPage,
     followSmooth,

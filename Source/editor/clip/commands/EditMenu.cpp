@@ -5,6 +5,7 @@
 #include "editor/clip/lanes/CurveLane.h"
 #include "editor/clip/session/StepText.h"
 #include "editor/clip/sheets/HistorySheet.h"
+#include "editor/clip/sheets/PreferencesSheet.h"
 
 #include <optional>
 
@@ -82,6 +83,9 @@ Menu editMenu(EditorView& view)
         {Key('a', juce::ModifierKeys::commandModifier | juce::ModifierKeys::altModifier, 0)});
     menu.add(selectNone, "Deselect all", "Clears the selection", [&session] { session.clipSelection.select({}); },
              anySelected, {ctrlShift('a')});
+    menu.addLine();
+    menu.add(preferences, "Preferences...", "Appearance and behaviour of the editor",
+             [&view] { view.showSheet(std::make_unique<PreferencesSheet>(view)); }, {}, {ctrl(',')});
     return menu;
 }
 

@@ -5,6 +5,10 @@
 #include "editor/clip/commands/Action.h"
 #include "editor/clip/sheets/ExportSheet.h"
 
+#include <algorithm>
+#include <memory>
+#include <utility>
+
 namespace pacini::editor
 {
 
@@ -19,6 +23,15 @@ juce::PopupMenu recentProjects(EditorView& view)
     menu.addSeparator();
     menu.addItem(tr("Clear list"), [&recent] { (void)recent.clear(); });
     return menu;
+}
+
+/// A place with some room on both sides, and the playhead at it.
+void showPlace(Session& session, double time, double duration)
+{
+    constexpr double room = 0.25; // s
+    const double end = session.model.duration();
+    session.transport.setPlayhead(std::clamp(time, 0.0, end));
+    session.viewState.showRange({std::max(0.0, time - room), std::min(end, time + duration + room)});
 }
 
 juce::PopupMenu demoSounds(EditorView& view)
@@ -57,9 +70,15 @@ Menu fileMenu(EditorView& view)
              anyClip, {ctrlShift('s')});
     menu.addLine();
     menu.add(exportClips, "Export...", "Exports clips to any supported format",
-             [&view] {
-                 view.showSheet(
-                     std::make_unique<ExportSheet>(view.session().model, view.session().actuators, view.lastExport));
+             [&view]
+             {
+                 auto sheet =
+                     std::make_unique<ExportSheet>(view.session().model, view.session().actuators, view.lastExport);
+                 sheet->onPlace = [&session = view.session()](double time, double duration)
+                 {
+                     showPlace(session, time, duration);
+                 };
+                 view.showSheet(std::move(sheet));
              },
              anyClip, {ctrl('e')});
     menu.addLine();

@@ -18,8 +18,8 @@ Menu helpMenu(EditorView& view)
     menu.add(manual, "Manual", "Explains the editor step by step",
              [&view] { view.showSheet(std::make_unique<HelpSheet>()); }, {},
              {juce::KeyPress(juce::KeyPress::F1Key, juce::ModifierKeys::shiftModifier, 0)});
-    menu.add(shortcuts, "Keyboard and mouse", "Lists shortcuts and mouse actions",
-             [&view] { view.showSheet(std::make_unique<ShortcutsSheet>(view.menus().all())); }, {},
+    menu.add(shortcuts, "Keyboard and mouse", "Lists shortcuts, which can be changed, and mouse actions",
+             [&view] { view.showSheet(std::make_unique<ShortcutsSheet>(view.menus())); }, {},
              {juce::KeyPress(juce::KeyPress::F1Key)});
     menu.addLine();
     menu.add(about, "About Pacini", "Version, licence and sources of Pacini",

@@ -94,6 +94,54 @@ std::optional<Command> Menus::commandOf(const juce::KeyPress& key) const
     return found != 0 ? std::optional(static_cast<Command>(found)) : std::nullopt;
 }
 
+std::vector<juce::KeyPress> Menus::keysOf(Command command) const
+{
+    const auto keys = manager.getKeyMappings()->getKeyPressesAssignedToCommand(command);
+    return {keys.begin(), keys.end()};
+}
+
+juce::String Menus::keyTextOf(Command command) const
+{
+    const auto keys = keysOf(command);
+    return keys.empty() ? juce::String() : keyText(keys.front());
+}
+
+void Menus::setKey(Command command, const juce::KeyPress& key)
+{
+    auto& mappings = *manager.getKeyMappings();
+    mappings.clearAllKeyPresses(command);
+    if (!key.isValid())
+        return;
+    mappings.removeKeyPress(key);
+    mappings.addKeyPress(command, key);
+}
+
+bool Menus::isFree(const juce::KeyPress& key)
+{
+    using Key = juce::KeyPress;
+    for (const int code : {Key::tabKey, Key::returnKey, Key::escapeKey, Key::leftKey, Key::rightKey, Key::upKey,
+                           Key::downKey, Key::deleteKey, Key::backspaceKey})
+        if (key.getKeyCode() == code)
+            return false;
+    return key.isValid();
+}
+
+void Menus::resetKeys()
+{
+    manager.getKeyMappings()->resetToDefaultMappings();
+}
+
+std::unique_ptr<juce::XmlElement> Menus::changedKeys() const
+{
+    auto changed = manager.getKeyMappings()->createXml(true);
+    return changed && changed->getNumChildElements() > 0 ? std::move(changed) : nullptr;
+}
+
+void Menus::restoreKeys(const juce::XmlElement& changed)
+{
+    manager.getKeyMappings()->restoreFromXml(changed);
+}
+
 bool Menus::perform(const InvocationInfo& info)
 {
     return perform(static_cast<Command>(info.commandID));
@@ -128,7 +176,7 @@ void Menus::addItem(juce::PopupMenu& popup, const Action& action)
     item.itemID = action.id;
     item.isEnabled = canDo(action);
     item.isTicked = action.on && action.on();
-    item.shortcutKeyDescription = action.keys.empty() ? juce::String() : keyText(action.keys.front());
+    item.shortcutKeyDescription = keyTextOf(action.id);
     item.action = [this, id = action.id]
     {
         perform(id);

@@ -7,6 +7,7 @@
 
 #include <juce_gui_basics/juce_gui_basics.h>
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -32,6 +33,18 @@ public:
 
     /// False when it cannot be done now.
     bool perform(Command command);
+    /// The keys of a command, as the user has them; the first is the one that is shown.
+    [[nodiscard]] std::vector<juce::KeyPress> keysOf(Command command) const;
+    /// As it is shown; empty: it has none.
+    [[nodiscard]] juce::String keyTextOf(Command command) const;
+    /// The only key of a command from now on, which no other command has then; one that is not valid: none.
+    void setKey(Command command, const juce::KeyPress& key);
+    /// Whether a command may have this key: those that lanes and dialogs need are not free.
+    [[nodiscard]] static bool isFree(const juce::KeyPress& key);
+    void resetKeys();
+    /// What differs from the keys that the program comes with; null: nothing.
+    [[nodiscard]] std::unique_ptr<juce::XmlElement> changedKeys() const;
+    void restoreKeys(const juce::XmlElement& changed);
     /// What a key does; null: nothing.
     [[nodiscard]] std::optional<Command> commandOf(const juce::KeyPress& key) const;
     /// What can be done may have changed.

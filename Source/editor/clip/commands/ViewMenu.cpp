@@ -3,7 +3,6 @@
 #include "editor/clip/EditorView.h"
 #include "editor/clip/commands/Action.h"
 #include "editor/clip/sheets/OutputsSheet.h"
-#include "editor/clip/sheets/PreferencesSheet.h"
 
 namespace pacini::editor
 {
@@ -90,9 +89,11 @@ Menu viewMenu(EditorView& view)
 {
     Session& session = view.session();
     const auto anyClip = hasClip(session);
-    const auto taller = [&session](int pixels)
+    // Lanes that have grown with the window grow on from there.
+    const auto taller = [&view, &session](int pixels)
     {
-        session.viewState.setLaneHeight(session.viewState.laneHeight() + pixels);
+        session.viewState.setLaneHeight(
+            (pixels > 0 ? view.clipView().shownLaneHeight() : session.viewState.laneHeight()) + pixels);
     };
     using Key = juce::KeyPress;
     Menu menu("View");
@@ -139,6 +140,9 @@ Menu viewMenu(EditorView& view)
         [&session] { return session.viewState.snapTargets().on; });
     menu.addLine();
     addViewOptions(menu, session);
+    menu.addSwitch(
+        showSidePanel, "Side panel", "Shows the pages and meters beside the lanes",
+        [&view] { view.showSide(!view.isSideShown()); }, [&view] { return view.isSideShown(); }, {alt('5')});
     menu.addLine();
     menu.add(nextPanel, "Next panel", "Gives the keyboard to the next part of the window",
              [&view] { view.focusPart(1); }, {}, {Key(Key::F6Key)});
@@ -154,11 +158,8 @@ Menu viewMenu(EditorView& view)
     menu.add(smallerInterface, "Smaller interface", "Shrinks the interface, down to 75 %",
              [&view] { view.setScale(view.scale() - scaleStep); }, {}, {ctrlShift('-'), ctrlShift('_')});
     menu.addLine();
-    menu.add(preferences, "Preferences...", "Appearance and behaviour of the editor",
-             [&view] { view.showSheet(std::make_unique<PreferencesSheet>(view)); }, {}, {ctrl(',')});
     if (view.hostServices().showDevices)
     {
-        menu.addLine();
         menu.add(soundDevices, "Audio devices...", "Chooses the audio device and its outputs",
                  [&view] { view.hostServices().showDevices(); });
     }

@@ -263,17 +263,28 @@ void ClipView::resized()
 
 void ClipView::layOut()
 {
-    const int unit = viewState.laneHeight();
     const int width = getWidth() - scrollBarWidth;
-    int y = 0;
-    for (std::size_t i = 0; i < lanes.size(); ++i)
+    // In halves of a band's height.
+    const auto halvesOf = [this](std::size_t i)
     {
         const auto* curve = dynamic_cast<const CurveLane*>(lanes[i].get());
-        const bool small =
+        const bool low =
             curve != nullptr && curve->lane().kind != LaneKind::envelope && curve->lane().kind != LaneKind::centroid;
-        const int height = i == 1 || small ? unit : unit + unit / 2;
-        lanes[i]->setBounds(0, y, width, height);
-        y += height;
+        return i == 1 || low ? 2 : 3;
+    };
+    int halves = 0;
+    for (std::size_t i = 0; i < lanes.size(); ++i)
+        halves += halvesOf(i);
+    // Lanes grow until no room is left below them.
+    const int total = std::max(halves * viewState.laneHeight() / 2, lanes.empty() ? 0 : viewport.getHeight());
+    shownUnit = halves > 0 ? 2 * total / halves : viewState.laneHeight();
+    int y = 0, before = 0;
+    for (std::size_t i = 0; i < lanes.size(); ++i)
+    {
+        before += halvesOf(i);
+        const int bottom = total * before / halves;
+        lanes[i]->setBounds(0, y, width, bottom - y);
+        y = bottom;
     }
     rows.setSize(width, y);
 }
@@ -311,7 +322,7 @@ void ClipView::mouseWheelMove(const juce::MouseEvent& event, const juce::MouseWh
         heightWheel += details.deltaY;
         if (std::abs(heightWheel) < wheelForHeight)
             return;
-        viewState.setLaneHeight(viewState.laneHeight() + (heightWheel > 0.0f ? 8 : -8));
+        viewState.setLaneHeight(heightWheel > 0.0f ? shownUnit + 8 : viewState.laneHeight() - 8);
         heightWheel = 0.0f;
         return;
     }

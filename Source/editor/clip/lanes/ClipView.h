@@ -45,6 +45,8 @@ public:
     /// The row of a lane, or null.
     [[nodiscard]] PlotLane* rowOf(Lane lane) const;
     [[nodiscard]] PlotLane* eventRow() const;
+    /// Pixels of a band: as chosen, or more where all lanes together would leave room below them.
+    [[nodiscard]] int shownLaneHeight() const noexcept { return shownUnit; }
     [[nodiscard]] WaveformRow& soundRow() noexcept { return waveform; }
     [[nodiscard]] ActuatorRow& actuatorRow() noexcept { return actuator; }
 
@@ -96,6 +98,7 @@ private:
     std::vector<Lane> built; ///< the lanes that there are rows for
     std::unique_ptr<Overlay> overlay;
     Selection beforeMarquee;
+    int shownUnit = 0;
     float heightWheel = 0.0f; ///< of the wheel since the lanes' height changed
     Subscriptions subscriptions;
 };

@@ -3,6 +3,7 @@
 
 // Analysis panel: encoder parameters of the clip, and the hand edits that found no place over the analysis.
 
+#include "document/AnalysisPresets.h"
 #include "editor/Controls.h"
 #include "editor/clip/panels/UnfittingList.h"
 #include "editor/clip/session/ProjectSounds.h"
@@ -10,7 +11,10 @@
 #include <juce_gui_basics/juce_gui_basics.h>
 
 #include <array>
+#include <filesystem>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace pacini::editor
 {
@@ -27,6 +31,11 @@ public:
     [[nodiscard]] EncoderParams params() const;
     /// Does at once what waits for the end of the pause.
     void carryOut();
+
+    /// The controls take what a settings file says; `name` is that of a preset of the user.
+    void load(const std::filesystem::path& settings, const juce::String& name = {});
+    /// Writes what the controls say as a preset of the user, after a question where there is one of this name.
+    void saveAs(const juce::String& name);
 
     void paint(juce::Graphics& g) override;
     void resized() override;
@@ -55,6 +64,8 @@ private:
     void prepareKnobs();
     void prepare(Which which, const juce::String& name, const juce::String& unit, const juce::String& help);
     void set(const EncoderParams& wanted);
+    void fillPresets();
+    void choosePreset();
     void showPreset(const EncoderParams& wanted);
     void show();
     void edited();
@@ -69,6 +80,14 @@ private:
     juce::TextButton replaceButton, findButton, resetButton;
     juce::Label presetLabel, spacingLabel;
     juce::ComboBox preset, spacing;
+    AnalysisPresets ownPresets;
+    std::vector<std::string> ownNames; ///< in the menu
+    struct OwnPreset
+    {
+        juce::String name;
+        EncoderParams params;
+    };
+    std::optional<OwnPreset> lastOwn; ///< that was saved or chosen
     std::array<Knob, knobCount> knobs;
     juce::ToggleButton normalise;
     UnfittingList edits;

@@ -42,6 +42,7 @@ Result<Imported> readFile(const std::filesystem::path& path)
     }
     if (!described)
         return described.error();
+    result.warnings = described->audio.warnings();
     result.reference = std::move(described->reference);
     result.sound = std::make_shared<const Sound>(std::move(described->audio));
     return result;

@@ -22,29 +22,10 @@ int itemOf(EventExport events)
 {
     return 1 + static_cast<int>(events);
 }
-
-juce::String lossText(const FormatLoss& loss)
-{
-    juce::String text =
-        loss.duration > 0.0
-            ? tr("{0} to {1} s", {juce::String(loss.time, 2), juce::String(loss.time + loss.duration, 2)})
-            : juce::String(loss.time, 2) + " s";
-    text << ": " << translateMessage(toText(loss.message));
-    if (loss.error > 0.0)
-    {
-        if (loss.kind == LossKind::frequency)
-            text << " " << tr("(up to {0} octaves)", {juce::String(loss.error, 2)});
-        else if (loss.kind == LossKind::timeStep)
-            text << " " << tr("(up to {0} ms)", {juce::String(1000.0 * loss.error, 1)});
-        else
-            text << " " << tr("(up to {0} % of full drive)", {juce::String(100.0 * loss.error, 1)});
-    }
-    return text;
-}
 } // namespace
 
 ExportSheet::ExportSheet(const EditorModel& project, const Actuators& profiles, ExportMemory& last)
-    : Sheet("Export", 680, 520), model(project), actuators(profiles), memory(last), browseButton(toText("Browse…"))
+    : Sheet("Export", 680, 520), model(project), actuators(profiles), memory(last), browseButton(toText("Browse…")), also(last.also)
 {
     const auto label = [this](juce::Label& one, const juce::String& text)
     {
@@ -70,6 +51,8 @@ ExportSheet::ExportSheet(const EditorModel& project, const Actuators& profiles, 
         chooseUsualEvents();
         formatChanged();
     };
+    alsoButton.setTitle("Further formats");
+    prepareButton(alsoButton, "Writes the clips in further formats beside this one", [this] { chooseAlso(); });
     rate.setTitle("Sample rate");
     rate.setTooltip("Sample rate of formats that contain samples, in Hz");
     rate.addItem("Same as sound", sourceRate);
@@ -121,10 +104,18 @@ ExportSheet::ExportSheet(const EditorModel& project, const Actuators& profiles, 
     losses.setCaretVisible(false);
     losses.setTitle("What is kept and what is lost");
     losses.setFont(smallFont());
-    addAll(*this, {&format, &rate, &all, &events, &target, &browseButton, &losses});
+    table.onPlace = [this](double time, double duration)
+    {
+        remember();
+        const auto place = onPlace;
+        close();
+        if (place)
+            place(time, duration);
+    };
+    addAll(*this, {&format, &alsoButton, &rate, &all, &events, &target, &browseButton, &losses, &table});
     int order = 1;
     for (juce::Component* child :
-         std::initializer_list<juce::Component*>{&target, &format, &rate, &all, &events, &browseButton, &losses})
+         std::initializer_list<juce::Component*>{&target, &format, &alsoButton, &rate, &all, &events, &browseButton, &losses, &table})
         child->setExplicitFocusOrder(order++);
     setAnswers({{"Export", {}}, {"Cancel", {}}});
     setUsualAnswer([this] { run(); });
@@ -141,6 +132,7 @@ ExportSheet::ExportSheet(const EditorModel& project, const Actuators& profiles, 
     target.setText(folder.getFullPathName(), false);
     chooseUsualEvents();
     formatChanged();
+    showAlso();
 }
 
 const ClipFormat& ExportSheet::chosenFormat() const
@@ -152,7 +144,7 @@ ExportChoice ExportSheet::choice() const
 {
     ExportChoice result;
     result.format = chosenFormat().name;
-    if (chosenFormat().isSamples && rate.getSelectedId() != sourceRate)
+    if (anySamples() && rate.getSelectedId() != sourceRate)
         result.params.sampleRate = rate.getSelectedId();
     if (events.getSelectedId() > 0)
         result.params.events = static_cast<EventExport>(events.getSelectedId() - 1);
@@ -160,6 +152,61 @@ ExportChoice ExportSheet::choice() const
         result.params.profile = *profile;
     result.params.strength = actuators.strength();
     return result;
+}
+
+std::vector<ExportChoice> ExportSheet::choices() const
+{
+    return choicesFor(choice(), also);
+}
+
+/// Whether a rate matters.
+bool ExportSheet::anySamples() const
+{
+    const auto& formats = exportFormats();
+    return chosenFormat().isSamples ||
+           std::any_of(formats.begin(), formats.end(),
+                       [this](const ClipFormat& one)
+                       { return one.isSamples && std::find(also.begin(), also.end(), one.name) != also.end(); });
+}
+
+void ExportSheet::setAlso(const std::string& name, bool wanted)
+{
+    std::vector<std::string> now;
+    for (const ClipFormat& one : exportFormats())
+        if (one.name == name ? wanted : std::find(also.begin(), also.end(), one.name) != also.end())
+            now.emplace_back(one.name);
+    also = std::move(now);
+    showAlso();
+    showLosses();
+}
+
+/// A menu in which formats are ticked; it comes back until a click beside it.
+void ExportSheet::chooseAlso()
+{
+    juce::PopupMenu menu;
+    menu.setLookAndFeel(&getLookAndFeel());
+    for (const ClipFormat& one : exportFormats())
+    {
+        const bool ticked = std::find(also.begin(), also.end(), one.name) != also.end();
+        const bool chosen = one.name == chosenFormat().name;
+        menu.addItem(tr(toText(one.title)) + "  " + toText(one.extension), !chosen, chosen || ticked,
+                     [this, name = std::string(one.name), ticked]
+                     {
+                         setAlso(name, !ticked);
+                         chooseAlso();
+                     });
+    }
+    menu.showMenuAsync(
+        juce::PopupMenu::Options().withTargetComponent(alsoButton).withDeletionCheck(*this).withParentComponent(this));
+}
+
+void ExportSheet::showAlso()
+{
+    const std::size_t count = choicesFor(choice(), also).size() - 1;
+    alsoButton.setButtonText(count == 0 ? tr(toText("More formats…"))
+                                        : counted(count, toText("+ {0} format…"), toText("+ {0} formats…")));
+    rate.setEnabled(anySamples());
+    rateLabel.setEnabled(anySamples());
 }
 
 /// As the command has them for each format.
@@ -182,8 +229,7 @@ void ExportSheet::formatChanged()
                        ? folder.getFullPathName()
                        : folder.getChildFile(toText(exportName(*clip, chosenFormat()))).getFullPathName(),
                    false);
-    rate.setEnabled(chosenFormat().isSamples);
-    rateLabel.setEnabled(chosenFormat().isSamples);
+    showAlso();
     showLosses();
 }
 
@@ -201,8 +247,7 @@ void ExportSheet::followExtension()
         return;
     format.setSelectedId(1 + static_cast<int>(found - formats.begin()), juce::dontSendNotification);
     chooseUsualEvents();
-    rate.setEnabled(chosenFormat().isSamples);
-    rateLabel.setEnabled(chosenFormat().isSamples);
+    showAlso();
     showLosses();
 }
 
@@ -210,29 +255,46 @@ void ExportSheet::showLosses()
 {
     const juce::String kept = tr(toText(chosenFormat().keeps));
     losses.setText(kept + "\n", false);
+    table.show({});
     const int number = ++asked;
-    jobs.run([clip = model.clip(), wanted = choice()] { return exportLosses(*clip, wanted); },
-             [this, kept, number](Result<std::vector<FormatLoss>> found)
-             {
-                 if (number != asked)
-                     return;
-                 juce::StringArray lines;
-                 lines.add(kept);
-                 lines.add(juce::String());
-                 if (!found)
-                     lines.add(tr("Cannot be exported: {0}", {translateMessage(toText(found.error().text()))}));
-                 else if (found->empty())
-                     lines.add(tr("No losses."));
-                 else
-                 {
-                     lines.add(counted(found->size(), "{0} loss:", "{0} losses:"));
-                     for (const FormatLoss& loss : *found)
-                         lines.add(lossText(loss));
-                 }
-                 losses.setText(lines.joinIntoString("\n"), false);
-                 losses.applyColourToAllText(paletteFor(*this).text);
-                 setAnswerEnabled(found.ok());
-             });
+    using Found = std::vector<std::pair<std::string, std::vector<FormatLoss>>>; // by format
+    jobs.run(
+        [clip = model.clip(), wanted = choices()]() -> Result<Found>
+        {
+            Found found;
+            for (const ExportChoice& one : wanted)
+            {
+                auto lost = exportLosses(*clip, one);
+                if (!lost)
+                    return Error{lost.error().code,
+                                 wanted.size() > 1 && lost.error().where.empty() ? one.format : lost.error().where,
+                                 lost.error().message};
+                found.emplace_back(one.format, std::move(*lost));
+            }
+            return found;
+        },
+        [this, kept, number](const Result<Found>& found)
+        {
+            if (number != asked)
+                return;
+            juce::String text = kept + "\n\n";
+            std::vector<LossTable::Part> parts;
+            if (!found)
+                text << tr("Cannot be exported: {0}", {translateMessage(toText(found.error().text()))});
+            else
+                for (const auto& [name, lost] : *found)
+                    for (const ClipFormat& one : exportFormats())
+                        if (one.name == name)
+                            parts.push_back(
+                                {found->size() > 1 ? tr(toText(one.title)) : juce::String(), lost});
+            table.show(parts);
+            if (found && table.isEmpty())
+                text << tr("No losses.");
+            losses.setText(text.trimEnd(), false);
+            losses.applyColourToAllText(paletteFor(*this).text);
+            setAnswerEnabled(found.ok());
+            resized();
+        });
 }
 
 void ExportSheet::browse()
@@ -254,8 +316,8 @@ void ExportSheet::browse()
 
 void ExportSheet::run()
 {
-    ExportChoice wanted = choice();
-    wanted.needed = filesOf(model.document());
+    ExportChoice first = choice();
+    first.needed = filesOf(model.document());
     Clips clips;
     const juce::File place = juce::File::getCurrentWorkingDirectory().getChildFile(target.getText());
     if (all.getToggleState())
@@ -264,36 +326,52 @@ void ExportSheet::run()
         for (const auto& item : model.document().project().clips)
             if (selected.size() < 2 || std::find(selected.begin(), selected.end(), item->id) != selected.end())
                 clips.push_back(item->clip);
-        wanted.folder = pathOf(place);
+        first.folder = pathOf(place);
     }
     else
     {
         clips.push_back(model.clip());
-        wanted.folder = pathOf(place.getParentDirectory());
-        wanted.file = place.getFileName().toStdString();
+        first.folder = pathOf(place.getParentDirectory());
+        first.file = place.getFileName().toStdString();
         if (!place.hasFileExtension(toText(chosenFormat().extension)))
-            wanted.file += chosenFormat().extension;
+            first.file += chosenFormat().extension;
     }
     sayBusy();
-    jobs.run([clips, wanted] { return filesInTheWay(clips, wanted); },
-             [this, clips, wanted](const Result<std::vector<StandingFile>>& standing)
-             {
-                 setAnswerEnabled(true);
-                 if (!standing)
-                     return fail(standing.error());
-                 if (standing->empty())
-                     return write(clips, wanted);
-                 showLosses();
-                 ExportChoice allowed = wanted;
-                 allowed.replaceable = Replaceable::named;
-                 question.show(overwriteQuestion(*standing, [this, clips, allowed] { write(clips, allowed); }));
-             });
+    using Standing = std::vector<StandingFile>;
+    jobs.run(
+        [clips, wanted = choicesFor(first, also)]() -> Result<Standing>
+        {
+            Standing standing;
+            for (const ExportChoice& one : wanted)
+            {
+                auto found = filesInTheWay(clips, one);
+                if (!found)
+                    return found.error();
+                standing.insert(standing.end(), found->begin(), found->end());
+            }
+            return standing;
+        },
+        [this, clips, wanted = choicesFor(first, also)](const Result<Standing>& standing)
+        {
+            setAnswerEnabled(true);
+            if (!standing)
+                return fail(standing.error());
+            if (standing->empty())
+                return write(clips, wanted);
+            showLosses();
+            auto allowed = wanted;
+            for (ExportChoice& one : allowed)
+                one.replaceable = Replaceable::named;
+            question.show(overwriteQuestion(*standing, [this, clips, allowed] { write(clips, allowed); }));
+        });
 }
 
 void ExportSheet::sayBusy()
 {
     setAnswerEnabled(false);
     ++asked;
+    table.show({});
+    resized();
     losses.setText(tr(toText("Exporting…")), false);
 }
 
@@ -302,23 +380,46 @@ void ExportSheet::fail(const Error& error)
     losses.setText(tr("Not exported: {0}", {translateMessage(toText(error.text()))}), false);
 }
 
-void ExportSheet::write(const Clips& clips, const ExportChoice& wanted)
+/// For the next export.
+void ExportSheet::remember()
 {
-    memory = {wanted.format, rate.getSelectedId() == sourceRate ? 0 : rate.getSelectedId(), wanted.folder};
+    const juce::File place = juce::File::getCurrentWorkingDirectory().getChildFile(target.getText());
+    memory = {std::string(chosenFormat().name), rate.getSelectedId() == sourceRate ? 0 : rate.getSelectedId(),
+              pathOf(all.getToggleState() ? place : place.getParentDirectory()), also,
+              memory.written};
+}
+
+void ExportSheet::write(const Clips& clips, const std::vector<ExportChoice>& wanted)
+{
+    remember();
     sayBusy();
-    jobs.run([clips, wanted] { return pacini::exportClips(clips, wanted); },
-             [this](const Result<std::vector<ExportReport>>& done)
-             {
-                 setAnswerEnabled(true);
-                 if (!done)
-                     return fail(done.error());
-                 std::vector<std::filesystem::path> files;
-                 for (const ExportReport& report : *done)
-                     files.insert(files.end(), report.files.begin(), report.files.end());
-                 if (model.onWritten)
-                     model.onWritten(files);
-                 close();
-             });
+    using Reports = std::vector<ExportReport>;
+    jobs.run(
+        [clips, wanted]() -> Result<Reports>
+        {
+            Reports reports;
+            for (const ExportChoice& one : wanted)
+            {
+                auto done = pacini::exportClips(clips, one);
+                if (!done)
+                    return done.error();
+                reports.insert(reports.end(), done->begin(), done->end());
+            }
+            return reports;
+        },
+        [this](const Result<Reports>& done)
+        {
+            setAnswerEnabled(true);
+            if (!done)
+                return fail(done.error());
+            std::vector<std::filesystem::path> files;
+            for (const ExportReport& report : *done)
+                files.insert(files.end(), report.files.begin(), report.files.end());
+            memory.written = true;
+            if (model.onWritten)
+                model.onWritten(files);
+            close();
+        });
 }
 
 void ExportSheet::layOut(juce::Rectangle<int> area)
@@ -330,8 +431,11 @@ void ExportSheet::layOut(juce::Rectangle<int> area)
         area.removeFromTop(grid);
         return line;
     };
-    format.setBounds(row(formatLabel));
-    auto line = row(rateLabel);
+    auto line = row(formatLabel);
+    format.setBounds(line.removeFromLeft(std::min(space::widestBox, line.getWidth() / 2)));
+    line.removeFromLeft(grid);
+    alsoButton.setBounds(line.removeFromLeft(18 * grid));
+    line = row(rateLabel);
     rate.setBounds(line.removeFromLeft(20 * grid));
     line.removeFromLeft(2 * grid);
     all.setBounds(line.removeFromRight(28 * grid));
@@ -341,6 +445,9 @@ void ExportSheet::layOut(juce::Rectangle<int> area)
     line.removeFromRight(grid);
     target.setBounds(line);
     lossLabel.setBounds(area.removeFromLeft(labelWidth).removeFromTop(rowHeight));
+    table.setVisible(!table.isEmpty());
+    if (table.isVisible())
+        table.setBounds(area.removeFromBottom(area.getHeight() - 7 * grid).withTrimmedTop(grid));
     losses.setBounds(area);
     target.applyColourToAllText(paletteFor(*this).text);
     losses.applyColourToAllText(paletteFor(*this).text);

@@ -6,12 +6,14 @@
 #include "document/ClipExport.h"
 #include "editor/clip/session/Actuators.h"
 #include "editor/clip/session/Jobs.h"
+#include "editor/clip/sheets/LossTable.h"
 #include "editor/clip/sheets/Sheet.h"
 #include "editor/clip/sheets/SheetOver.h"
 
 #include <juce_gui_basics/juce_gui_basics.h>
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -25,6 +27,8 @@ struct ExportMemory
     std::string format;           ///< its name; empty or unknown: the first one
     int sampleRate = 0;           ///< Hz; 0: as the sound
     std::filesystem::path folder; ///< empty: that of the project
+    std::vector<std::string> also; ///< names of further formats
+    bool written = false;          ///< something was, since the program began
 };
 
 class ExportSheet final : public Sheet
@@ -32,6 +36,11 @@ class ExportSheet final : public Sheet
 public:
     /// `last` outlives it; what was exported is written there.
     ExportSheet(const EditorModel& project, const Actuators& profiles, ExportMemory& last);
+
+    std::function<void(double time, double duration)> onPlace; ///< a loss was chosen; the sheet is closed before
+
+    /// Whether the clips are written in this format too. The format of the box always is.
+    void setAlso(const std::string& format, bool wanted);
 
 private:
     void layOut(juce::Rectangle<int> area) override;
@@ -43,7 +52,12 @@ private:
     void browse();
     void run();
     using Clips = std::vector<std::shared_ptr<const Clip>>;
-    void write(const Clips& clips, const ExportChoice& wanted);
+    void write(const Clips& clips, const std::vector<ExportChoice>& wanted);
+    void chooseAlso();
+    void showAlso();
+    void remember();
+    [[nodiscard]] bool anySamples() const;
+    [[nodiscard]] std::vector<ExportChoice> choices() const;
     void sayBusy();
     void fail(const Error& error);
     [[nodiscard]] const ClipFormat& chosenFormat() const;
@@ -56,7 +70,9 @@ private:
     juce::ComboBox format, rate, events;
     juce::ToggleButton all;
     juce::TextEditor target, losses;
-    juce::TextButton browseButton;
+    juce::TextButton browseButton, alsoButton;
+    std::vector<std::string> also; ///< in the order of the menu
+    LossTable table;
     std::unique_ptr<juce::FileChooser> chooser;
     int asked = 0; ///< counts what losses were asked for
     SheetOver question{*this};

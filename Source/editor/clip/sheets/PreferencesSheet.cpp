@@ -2,6 +2,7 @@
 #include "editor/clip/sheets/PreferencesSheet.h"
 
 #include "editor/Controls.h"
+#include "editor/Text.h"
 #include "editor/Theme.h"
 #include "editor/Translation.h"
 #include "editor/clip/EditorView.h"
@@ -31,7 +32,7 @@ int nearest(const Values& values, double wanted)
 }
 } // namespace
 
-PreferencesSheet::PreferencesSheet(EditorView& shown) : Sheet("Preferences", 560, 560), view(shown)
+PreferencesSheet::PreferencesSheet(EditorView& shown) : Sheet("Preferences", 560, 640), view(shown)
 {
     ViewState& viewState = view.session().viewState;
     if (view.hostServices().chooseLanguage)
@@ -79,7 +80,30 @@ PreferencesSheet::PreferencesSheet(EditorView& shown) : Sheet("Preferences", 560
           std::pair(&SnapTargets::grid, "Snap to ruler lines")})
         addSwitch(name, "Dragging snaps to nearby targets; hold Alt to bypass", targets.*member,
                   [target, member = member](bool on) { target(member, on); });
+    if (view.hostServices().showDevices)
+        addButton("Audio", toText("Audio devices…"), "Chooses the audio device and its outputs", soundDevices);
+    if (view.hostServices().outputNames)
+        addButton("Haptics", toText("Haptic outputs…"),
+                  "Outputs that clips play on: actuator, gain, delay and position of each", hapticOutputs);
     setAnswers({{"Close", {}}});
+}
+
+void PreferencesSheet::addButton(const juce::String& name, const juce::String& text, const juce::String& help,
+                                 Command command)
+{
+    auto button = std::make_unique<juce::TextButton>(tr(text));
+    prepareButton(*button, help,
+                  [shown = juce::Component::SafePointer(&view), command]
+                  {
+                      // Another sheet takes the place of this one, and of the button.
+                      juce::MessageManager::callAsync(
+                          [shown, command]
+                          {
+                              if (shown)
+                                  shown->doCommand(command);
+                          });
+                  });
+    add(name, std::move(button));
 }
 
 void PreferencesSheet::addLanguages()

@@ -35,6 +35,7 @@ private:
     void add(const juce::String& name, std::unique_ptr<juce::Component> control);
     void addChoice(const juce::String& name, const juce::String& help, const juce::StringArray& offered, int chosen,
                    std::function<void(int)> choose);
+    void addButton(const juce::String& name, const juce::String& text, const juce::String& help, Command command);
     void addSwitch(const juce::String& name, const juce::String& help, bool on, std::function<void(bool)> turn);
 
     EditorView& view;
