@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Makes the pictures of the clip editor beside this file, on a screen that nobody sees.
 
-make_editor_pictures.py [PROGRAM]    PROGRAM: PaciniEditor, else that of build/release. Exit 77 when Xvfb, xdotool or
-ImageMagick is not there.
+make_editor_pictures.py [PROGRAM]    PROGRAM: PaciniEditor, else that of build/release. Exit 77 when Xvfb, xdotool,
+ImageMagick or JACK is not there. A sound server without a sound card runs beside it, so that the pictures show a device.
 """
 import os
 import subprocess
@@ -16,7 +16,7 @@ ROOT = HERE.parent.parent
 sys.path.insert(0, str(ROOT / "Tests" / "hosts"))
 
 from check_editor import Screen  # noqa: E402
-from host_test import picture, until  # noqa: E402
+from host_test import needs, picture, until  # noqa: E402
 
 DEMO = ROOT / "Resources" / "demo" / "drums_tabla_pattern.flac"
 ACTUATOR_CHOICE = (1000, 26 + 21)  # in the toolbar
@@ -50,7 +50,8 @@ def run(program, dark, names, files):
     with tempfile.TemporaryDirectory() as home, Screen(home) as screen:
         settings(Path(home), dark)
         screen.environment.pop("XDG_CONFIG_HOME", None)
-        screen.start(program, *files, env=screen.environment)
+        screen.start_sound_server(screen.environment)
+        screen.start(program, "--device-type", "JACK", *files, env=screen.environment)
         if not until(screen.find_window):
             sys.exit("the window did not open")
         time.sleep(4)
@@ -85,6 +86,7 @@ def run(program, dark, names, files):
 
 
 def main():
+    needs("jackd", "jack_lsp")
     program = sys.argv[1] if len(sys.argv) > 1 else ROOT / "build/release/plugins/Standalone/PaciniEditor"
     run(program, True, ["editor", "editor-export"], [DEMO])
     run(program, False, ["editor-light"], [DEMO])

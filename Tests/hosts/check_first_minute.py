@@ -7,7 +7,6 @@ program, a shortcut, or a text that is typed and confirmed.
 Exit 0, 1 on a failed check, 77 when Xvfb, xdotool or JACK is not there.
 """
 import json
-import os
 import subprocess
 import sys
 import tempfile
@@ -15,7 +14,7 @@ import time
 from pathlib import Path
 
 from check_editor import Screen
-from host_test import RATE, check, failures, needs, skip, until
+from host_test import check, failures, listed, needs, skip, until
 
 try:
     import numpy as np
@@ -29,22 +28,13 @@ MOST_TO_FEEL, MOST_TO_EXPORT = 4, 3
 
 def main():
     program, sound = sys.argv[1], Path(sys.argv[2]).resolve()
-    server = f"pacini{os.getpid()}"
     with tempfile.TemporaryDirectory() as folder, Screen(folder) as screen:
         folder = Path(folder)
-        screen.environment.update(JACK_DEFAULT_SERVER=server, JACK_NO_AUDIO_RESERVATION="1")
-        screen.start("jackd", "-r", "-n", server, "-d", "dummy", "-r", RATE, "-p", "1024", "-C", "4", "-P", "4",
-                     env=screen.environment)
-
-        def ports():
-            listed = subprocess.run(["jack_lsp"], env=screen.environment, capture_output=True, text=True)
-            return listed.stdout if listed.returncode == 0 else ""
-
-        check("the sound server runs", until(lambda: "system:playback_4" in ports()))
+        check("the sound server runs", screen.start_sound_server(screen.environment))
         began = time.monotonic()
         screen.start(program, "--fresh", "--device-type", "JACK", sound, env=screen.environment)
         check("the window opens", until(screen.find_window))
-        check("on its outputs", until(lambda: "JUCEJack:out_3" in ports()))
+        check("on its outputs", until(lambda: "JUCEJack:out_3" in listed(screen.environment)))
         time.sleep(1)
         screen.focus()
         actions = 1  # opening the sound with the program

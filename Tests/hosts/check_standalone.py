@@ -11,7 +11,7 @@ import tempfile
 import time
 from pathlib import Path
 
-from host_test import RATE, Processes, check, failures, needs, picture, skip, until
+from host_test import RATE, Processes, check, failures, listed, needs, picture, skip, until
 
 try:
     import numpy as np
@@ -28,25 +28,16 @@ def pixels(path):
 
 def main():
     program = sys.argv[1]
-    server = f"pacini{os.getpid()}"
     with tempfile.TemporaryDirectory() as folder, Processes() as processes:
         folder = Path(folder)
-        environment = dict(os.environ, JACK_DEFAULT_SERVER=server, JACK_NO_AUDIO_RESERVATION="1", HOME=str(folder))
         display = processes.start_screen()
-        environment["DISPLAY"] = display
-        processes.start("jackd", "-r", "-n", server, "-d", "dummy", "-r", RATE, "-p", "1024", "-C", "4", "-P", "4",
-                        env=environment)
-
-        def ports():
-            listed = subprocess.run(["jack_lsp", "-c"], env=environment, capture_output=True, text=True)
-            return listed.stdout if listed.returncode == 0 else ""
-
-        check("the sound server runs", until(lambda: "system:playback_4" in ports()))
+        environment = dict(os.environ, HOME=str(folder), DISPLAY=display)
+        check("the sound server runs", processes.start_sound_server(environment))
         app = processes.start(program, "--fresh", "--device-type", "JACK", "--test-signal", "--haptic-output", "3",
                               env=environment)
-        check("the program takes the interface", until(lambda: "JUCEJack:out_4" in ports(), 60))
+        check("the program takes the interface", until(lambda: "JUCEJack:out_4" in listed(environment), 60))
         check("its third output is wired to the third of the interface",
-              until(lambda: "system:playback_3\n   JUCEJack:out_3" in ports()))
+              until(lambda: "system:playback_3\n   JUCEJack:out_3" in listed(environment)))
         time.sleep(7)
         for name in ("first.png", "second.png"):
             check(f"{name} is taken", picture(display, folder / name))

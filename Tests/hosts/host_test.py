@@ -36,6 +36,12 @@ def until(condition, seconds=60):
     return False
 
 
+def listed(environment):
+    """The ports of the sound server and their connections."""
+    done = subprocess.run(["jack_lsp", "-c"], env=environment, capture_output=True, text=True)
+    return done.stdout if done.returncode == 0 else ""
+
+
 class Processes:
     """Ends what it started, the newest first."""
 
@@ -61,6 +67,14 @@ class Processes:
         with os.fdopen(read) as numbers:
             numbers.readline()
         return display
+
+    def start_sound_server(self, environment):
+        """JACK without a sound card, four channels at RATE, for programs with `environment`, which is changed."""
+        server = f"pacini{os.getpid()}"
+        environment.update(JACK_DEFAULT_SERVER=server, JACK_NO_AUDIO_RESERVATION="1")
+        self.start("jackd", "-r", "-n", server, "-d", "dummy", "-r", RATE, "-p", "1024", "-C", "4", "-P", "4",
+                   env=environment)
+        return until(lambda: "system:playback_4" in listed(environment))
 
     def __exit__(self, *_):
         for process in reversed(self.running):
