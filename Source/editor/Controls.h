@@ -50,6 +50,26 @@ private:
     bool asksForMenu = false;
 };
 
+/// A menu whose items do something: keys open it, where those of other boxes choose the next item at once.
+class MenuBox final : public juce::ComboBox
+{
+public:
+    bool keyPressed(const juce::KeyPress& key) override
+    {
+        const bool chooses = key.isKeyCode(juce::KeyPress::upKey) || key.isKeyCode(juce::KeyPress::downKey) ||
+                             key.isKeyCode(juce::KeyPress::leftKey) || key.isKeyCode(juce::KeyPress::rightKey);
+        if (!chooses)
+            return juce::ComboBox::keyPressed(key);
+        if (isShowing())
+            showPopup();
+        return true;
+    }
+    void mouseWheelMove(const juce::MouseEvent& event, const juce::MouseWheelDetails& wheel) override
+    {
+        juce::Component::mouseWheelMove(event, wheel); // NOLINT(bugprone-parent-virtual-call): to the parent
+    }
+};
+
 inline void prepareButton(juce::Button& button, const juce::String& tooltip, std::function<void()> click)
 {
     button.setTooltip(tooltip);

@@ -271,3 +271,13 @@ TEST_CASE("Pages and sheets that change the project undo and save; questions and
     CHECK(model.document().steps().canUndo());
     bench.view.showSheet(nullptr);
 }
+
+TEST_CASE("Keys on the closed list of clips add none")
+{
+    ScenePage page;
+    auto& list = get<juce::ComboBox>(*page.sheet, "Add clip");
+    REQUIRE(list.getNumItems() == 2);
+    for (const int key : {juce::KeyPress::downKey, juce::KeyPress::downKey, juce::KeyPress::upKey})
+        CHECK(list.keyPressed(juce::KeyPress(key)));
+    CHECK(page.scene().parts.empty());
+}

@@ -79,7 +79,8 @@ private:
     juce::Label state; ///< of the sound, or why nothing can be set
     juce::TextButton replaceButton, findButton, resetButton;
     juce::Label presetLabel, spacingLabel;
-    juce::ComboBox preset, spacing;
+    MenuBox preset;
+    juce::ComboBox spacing;
     AnalysisPresets ownPresets;
     std::vector<std::string> ownNames; ///< in the menu
     struct OwnPreset

@@ -55,7 +55,8 @@ private:
     SceneSelection selection;
     SceneTimeline line;
     SceneCurveLane curve;
-    juce::ComboBox clips, actuators, law, parameter;
+    MenuBox clips;
+    juce::ComboBox actuators, law, parameter;
     juce::Label clipsLabel, actuatorsLabel, lawLabel, parameterLabel, valueLabel, priorityLabel, repeatsLabel, note;
     juce::TextButton playButton, removeButton, removeCurveButton, fitButton, openButton, exportButton;
     Slider value, priority, repeats;
