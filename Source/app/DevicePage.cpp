@@ -32,7 +32,7 @@ juce::String adviceFor(juce::AudioDeviceManager& manager)
 } // namespace
 
 DevicePage::DevicePage(juce::AudioDeviceManager& wanted)
-    : manager(wanted), selector(wanted, 0, 256, 0, 256, false, false, false, false)
+    : manager(wanted), settings(wanted)
 {
     advice.setMultiLine(true);
     advice.setReadOnly(true);
@@ -46,7 +46,7 @@ DevicePage::DevicePage(juce::AudioDeviceManager& wanted)
     };
     addChildComponent(advice);
     addChildComponent(searchButton);
-    addAndMakeVisible(selector);
+    addAndMakeVisible(settings);
     manager.addChangeListener(this);
     showState();
 }
@@ -85,16 +85,15 @@ void DevicePage::searchAgain()
 
 void DevicePage::resized()
 {
-    auto area = getLocalBounds();
+    auto area = getLocalBounds().reduced(2 * grid, 2 * grid);
     if (advice.isVisible())
     {
-        area.reduce(2 * grid, 2 * grid);
         advice.setBounds(area.removeFromTop(adviceHeight));
         area.removeFromTop(grid);
         searchButton.setBounds(area.removeFromTop(4 * grid).removeFromLeft(16 * grid));
         area.removeFromTop(grid);
     }
-    selector.setBounds(area);
+    settings.setBounds(area);
 }
 
 } // namespace pacini::app

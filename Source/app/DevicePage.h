@@ -3,6 +3,8 @@
 
 // Page of the standalone program for the choice of the sound device, with advice if there is none.
 
+#include "editor/DeviceSettings.h"
+
 #include <juce_audio_utils/juce_audio_utils.h>
 
 namespace pacini::app
@@ -25,7 +27,7 @@ private:
     juce::AudioDeviceManager& manager;
     juce::TextEditor advice;
     juce::TextButton searchButton{"Search again"};
-    juce::AudioDeviceSelectorComponent selector;
+    editor::DeviceSettings settings;
 };
 
 } // namespace pacini::app

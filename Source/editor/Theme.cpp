@@ -236,7 +236,7 @@ void Look::drawToggleButton(juce::Graphics& g, juce::ToggleButton& button, bool 
 {
     drawButtonBackground(g, button, {}, highlighted, down);
     g.setColour(coloursOf(button, palette(), highlighted, down).text);
-    g.setFont(smallFont());
+    g.setFont(button.getHeight() < space::controlHeight ? smallFont() : usualFont()); // as other buttons beside it
     g.drawText(button.getButtonText(), button.getLocalBounds().reduced(3, 0), juce::Justification::centred, true);
 }
 
@@ -322,6 +322,64 @@ void Look::positionComboBoxText(juce::ComboBox& box, juce::Label& label)
     label.setFont(getComboBoxFont(box));
 }
 
+/// Where the text of a chosen item stands.
+void Look::drawComboBoxTextWhenNothingSelected(juce::Graphics& g, juce::ComboBox& box, juce::Label& label)
+{
+    g.setColour(palette().dim.withMultipliedAlpha(box.isEnabled() ? 1.0f : disabledAlpha));
+    g.setFont(getComboBoxFont(box));
+    g.drawText(box.getTextWhenNothingSelected(), label.getBorderSize().subtractedFrom(label.getLocalBounds()),
+               juce::Justification::centredLeft, true);
+}
+
+/// The shortcut, or what else stands at the right, is secondary text of a size that can be read.
+void Look::drawPopupMenuItem(juce::Graphics& g, const juce::Rectangle<int>& area, bool isSeparator, bool isActive,
+                             bool isHighlighted, bool isTicked, bool hasSubMenu, const juce::String& text,
+                             const juce::String& shortcut, const juce::Drawable* icon, const juce::Colour* colour)
+{
+    const Palette& p = palette();
+    if (isSeparator)
+    {
+        g.setColour(p.line);
+        g.fillRect(area.reduced(grid, 0).withSizeKeepingCentre(area.getWidth() - 2 * grid, 1));
+        return;
+    }
+    auto row = area.reduced(1);
+    const bool lit = isHighlighted && isActive;
+    if (lit)
+    {
+        g.setColour(p.accent);
+        g.fillRoundedRectangle(row.toFloat(), space::corner);
+    }
+    const auto shade = [&](juce::Colour usual)
+    {
+        return lit ? p.onAccent : usual.withMultipliedAlpha(isActive ? 1.0f : disabledAlpha);
+    };
+    row.reduce(grid / 2, 0);
+    const auto sign = row.removeFromLeft(2 * grid + 4).toFloat();
+    g.setColour(shade(p.text));
+    if (icon != nullptr)
+        icon->drawWithin(g, sign, juce::RectanglePlacement::centred, 1.0f);
+    else if (isTicked)
+        drawIcon(g, Icon::tick, sign);
+    if (hasSubMenu)
+    {
+        const auto end = row.removeFromRight(2 * grid).toFloat();
+        juce::Path arrow;
+        arrow.startNewSubPath(end.getCentreX() - 2.0f, end.getCentreY() - 4.0f);
+        arrow.lineTo(end.getCentreX() + 2.0f, end.getCentreY());
+        arrow.lineTo(end.getCentreX() - 2.0f, end.getCentreY() + 4.0f);
+        g.strokePath(arrow, juce::PathStrokeType(1.5f));
+    }
+    g.setColour(colour != nullptr && !lit ? *colour : shade(p.text));
+    g.setFont(getPopupMenuFont());
+    g.drawText(text, row, juce::Justification::centredLeft, true);
+    if (shortcut.isEmpty())
+        return;
+    g.setColour(shade(p.dim));
+    g.setFont(smallFont());
+    g.drawText(shortcut, row.withTrimmedRight(grid / 2), juce::Justification::centredRight, true);
+}
+
 juce::Font Look::getComboBoxFont(juce::ComboBox&)
 {
     return usualFont();
@@ -378,11 +436,15 @@ void Look::drawMenuBarBackground(juce::Graphics& g, int width, int height, bool,
     g.fillRect(0, 0, width, height);
 }
 
+/// The whole bar, each tab as wide as its text and the same room beside it.
 int Look::getTabButtonBestWidth(juce::TabBarButton& tab, int)
 {
-    // All alike, over the whole bar.
     const auto& bar = tab.getTabbedButtonBar();
-    return bar.getWidth() / std::max(1, bar.getNumTabs());
+    int texts = 0;
+    for (const auto& name : bar.getTabNames())
+        texts += usualFont().getStringWidth(name);
+    const int room = (bar.getWidth() - texts) / std::max(1, bar.getNumTabs());
+    return std::max(1, usualFont().getStringWidth(tab.getButtonText()) + room);
 }
 
 void Look::drawTabButton(juce::TabBarButton& tab, juce::Graphics& g, bool over, bool)
@@ -392,11 +454,11 @@ void Look::drawTabButton(juce::TabBarButton& tab, juce::Graphics& g, bool over, 
     const bool front = tab.isFrontTab();
     g.setColour(front ? p.text : over ? p.text.withAlpha(0.85f) : p.dim);
     g.setFont(usualFont());
-    g.drawText(tab.getButtonText(), area, juce::Justification::centred);
+    g.drawText(tab.getButtonText(), area, juce::Justification::centred, true);
     if (front)
     {
         g.setColour(p.accent);
-        g.fillRect(area.withTop(area.getBottom() - 3).reduced(grid, 0));
+        g.fillRect(area.withTop(area.getBottom() - 3).reduced(grid / 2, 0));
     }
     if (tab.hasKeyboardFocus(false))
         drawFocusRing(g, tab, area.toFloat().reduced(2.0f));

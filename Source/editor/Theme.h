@@ -56,6 +56,11 @@ public:
     void drawComboBox(juce::Graphics&, int width, int height, bool down, int x, int y, int w, int h,
                       juce::ComboBox&) override;
     void positionComboBoxText(juce::ComboBox&, juce::Label&) override;
+    void drawComboBoxTextWhenNothingSelected(juce::Graphics&, juce::ComboBox&, juce::Label&) override;
+    void drawPopupMenuItem(juce::Graphics&, const juce::Rectangle<int>& area, bool isSeparator, bool isActive,
+                           bool isHighlighted, bool isTicked, bool hasSubMenu, const juce::String& text,
+                           const juce::String& shortcut, const juce::Drawable* icon,
+                           const juce::Colour* colour) override;
     juce::Font getComboBoxFont(juce::ComboBox&) override;
     juce::Font getPopupMenuFont() override;
     juce::Font getMenuBarFont(juce::MenuBarComponent&, int, const juce::String&) override;

@@ -2,6 +2,7 @@
 
 #include "editor/Bench.h"
 #include "editor/Icons.h"
+#include "editor/Translation.h"
 
 #include <set>
 
@@ -144,4 +145,48 @@ TEST_CASE("Every icon draws something of its own, and the buttons with one have 
     };
     visit(visit, bench.view);
     CHECK(buttons >= 6);
+}
+
+TEST_CASE("Tabs are as wide as their texts need, in every language, and buttons of the clip list are not cut")
+{
+    for (const char* code : {"en", "de"})
+    {
+        CAPTURE(code);
+        const juce::ScopedJuceInitialiser_GUI gui;
+        editor::useLanguage(code);
+        {
+            EditorBench bench;
+            bench.openDemo("knock_wood_bridge");
+            auto& tabs = bench.view.sidePanel().getTabbedButtonBar();
+            for (int i = 0; i < tabs.getNumTabs(); ++i)
+            {
+                const auto text = tabs.getTabNames()[i];
+                CHECK(tabs.getTabButton(i)->getWidth() >= editor::usualFont().getStringWidth(text) + 4);
+            }
+            bench.view.sidePanel().setCurrentTabIndex(2);
+            for (const char* name : {"Duplicate", "Remove", "Group…"})
+            {
+                bool found = false;
+                const auto wanted = editor::tr(juce::String::fromUTF8(name));
+                const auto visit = [&](auto& self, juce::Component& parent) -> void
+                {
+                    for (auto* child : parent.getChildren())
+                    {
+                        auto* button = dynamic_cast<juce::TextButton*>(child);
+                        if (button != nullptr && button->getButtonText() == wanted)
+                        {
+                            found = true;
+                            CHECK(button->getWidth() >=
+                                  editor::usualFont().getStringWidth(button->getButtonText()) + 8);
+                        }
+                        self(self, *child);
+                    }
+                };
+                visit(visit, bench.view.sidePanel());
+                CAPTURE(name);
+                CHECK(found);
+            }
+        }
+        editor::useLanguage("en");
+    }
 }

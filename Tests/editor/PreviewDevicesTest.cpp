@@ -4,6 +4,7 @@
 
 #include "app/editor/MeasureDevice.h"
 #include "editor/Bench.h"
+#include "editor/DeviceSettings.h"
 #include "editor/Pump.h"
 
 #include <algorithm>
@@ -269,4 +270,37 @@ TEST_CASE("The sweep of a measurement goes to the first haptic output, not to th
     list[0].channel = 3;
     bench.session.outputs.setOutputs(list);
     CHECK(rig.ports().expectedOutput == 3);
+}
+
+TEST_CASE("The audio device is chosen by boxes and ticks of our own, and a channel goes by the space bar", "[devices]")
+{
+    DeviceBench bench;
+    REQUIRE(pumpUntil([&] { return bench.session.outputs.hasDevice(); }));
+    auto& devices = bench.rig->devices();
+    editor::DeviceSettings settings(devices);
+    settings.setSize(640, 400);
+    CHECK(get<juce::ComboBox>(settings, "Output device").getText() == "Interface");
+    CHECK(get<juce::ComboBox>(settings, "Sample rate").getText() == "48000 Hz");
+    CHECK(get<juce::ComboBox>(settings, "Buffer").getText() == "480 samples (10.0 ms)");
+    auto& channels = get<editor::ChannelList>(settings, "Output channels");
+    REQUIRE(channels.getNumRows() == 4);
+    CHECK(channels.getNameForRow(2) == "3  Out 3");
+    REQUIRE(devices.getCurrentAudioDevice()->getActiveOutputChannels()[3]);
+    get<juce::ListBox>(channels, "Output channels").selectRow(3);
+    CHECK(static_cast<juce::Component&>(channels).keyPressed(juce::KeyPress(juce::KeyPress::spaceKey)));
+    REQUIRE(devices.getCurrentAudioDevice() != nullptr);
+    CHECK_FALSE(devices.getCurrentAudioDevice()->getActiveOutputChannels()[3]);
+    CHECK(devices.getCurrentAudioDevice()->getActiveOutputChannels()[2]);
+    for (juce::Component* one : settings.getChildren())
+    {
+        CAPTURE(one->getTitle());
+        CHECK(settings.getLocalBounds().contains(one->getBounds()));
+        if (dynamic_cast<juce::ComboBox*>(one) != nullptr)
+            CHECK(one->getWidth() <= editor::space::widestBox);
+        for (juce::Component* other : settings.getChildren())
+            if (other != one && one->getWidth() > 0)
+                CHECK_FALSE(one->getBounds().intersects(other->getBounds()));
+    }
+    get<juce::ComboBox>(settings, "Output device").setSelectedId(1, juce::sendNotificationSync); // none
+    CHECK(devices.getAudioDeviceSetup().outputDeviceName.isEmpty());
 }

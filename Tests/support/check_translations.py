@@ -88,8 +88,7 @@ LITERALS = {
 }
 
 # Texts of JUCE's own components, which look in the table, too.
-JUCE = {"Device:", "Output:", "Input:", "Audio device type:", "Sample rate:", "Audio buffer size:", "Test",
-        "Active output channels:", "Active input channels:", "OK", "<< none >>", "(no choices)", "Select All"}
+JUCE = {"OK", "(no choices)", "Select All"}
 
 UNITS = {"Hz", "kHz", "dB", "ms", "s", "W", "ppm", "bit", "ch", "st", "k", "x", "Q", "m", "s²"}
 

@@ -20,10 +20,10 @@ constexpr int none = 1; // menus know no item 0; channels follow
 } // namespace
 
 DevicesSheet::DevicesSheet(PreviewDevices& wanted, ControllerOutput& wantedControllers)
-    : Sheet("Audio devices", 760, 560),
+    : Sheet("Audio devices", 760, 640),
       rig(wanted),
       controllerOutput(wantedControllers),
-      selector(wanted.devices(), 0, 256, 0, 256, false, false, false, false)
+      settings(wanted.devices())
 {
     prepareSound();
     hapticLabel.setText("Haptic output", juce::dontSendNotification);
@@ -42,6 +42,7 @@ DevicesSheet::DevicesSheet(PreviewDevices& wanted, ControllerOutput& wantedContr
     controllerNote.setFont(editor::smallFont());
     controllerChoice.setTitle("Game controller");
     controllerChoice.setTooltip("Controller or haptic device that plays along");
+    controllerChoice.setTextWhenNothingSelected(editor::tr("None"));
     controllerChoice.onChange = [this]
     {
         chooseController();
@@ -49,7 +50,7 @@ DevicesSheet::DevicesSheet(PreviewDevices& wanted, ControllerOutput& wantedContr
     for (juce::Component* part : std::initializer_list<juce::Component*>{&hapticLabel, &hapticButton, &controllerLabel,
                                                                          &controllerChoice, &controllerNote})
         addAndMakeVisible(part);
-    addAndMakeVisible(selector);
+    addAndMakeVisible(settings);
     rig.devices().addChangeListener(this);
     setAnswers({{"Close", {}}});
     fill();
@@ -164,23 +165,31 @@ void DevicesSheet::say(const juce::String& text)
 
 void DevicesSheet::layOut(juce::Rectangle<int> area)
 {
-    auto row = area.removeFromTop(4 * grid);
-    soundLabel.setBounds(row.removeFromLeft(11 * grid));
-    const int third = row.getWidth() / 3;
-    soundChannel.setBounds(row.removeFromLeft(third).reduced(0, 2));
-    soundLevel.setBounds(row.removeFromLeft(third).withTrimmedLeft(grid));
+    constexpr int labelWidth = 15 * grid; // as in the settings of the device
+    const auto line = [&](juce::Label& label)
+    {
+        auto row = area.removeFromTop(4 * grid);
+        label.setBounds(row.removeFromLeft(labelWidth));
+        area.removeFromTop(grid / 2);
+        return row;
+    };
+    const auto box = [](juce::Rectangle<int>& row)
+    {
+        auto place = row.removeFromLeft(std::min(editor::space::widestBox, row.getWidth() / 2)).reduced(0, 2);
+        row.removeFromLeft(grid);
+        return place;
+    };
+    auto row = line(soundLabel);
+    soundChannel.setBounds(box(row));
+    soundLevel.setBounds(row.removeFromLeft(row.getWidth() / 2));
     soundDelay.setBounds(row.withTrimmedLeft(grid));
+    row = line(hapticLabel);
+    hapticButton.setBounds(box(row));
+    row = line(controllerLabel);
+    controllerChoice.setBounds(box(row));
+    controllerNote.setBounds(row);
     area.removeFromTop(grid);
-    row = area.removeFromTop(4 * grid);
-    hapticLabel.setBounds(row.removeFromLeft(11 * grid));
-    hapticButton.setBounds(row.removeFromLeft(third).reduced(0, 2));
-    area.removeFromTop(grid);
-    row = area.removeFromTop(4 * grid);
-    controllerLabel.setBounds(row.removeFromLeft(11 * grid));
-    controllerChoice.setBounds(row.removeFromLeft(row.getWidth() / 3).reduced(0, 2));
-    controllerNote.setBounds(row.withTrimmedLeft(grid));
-    area.removeFromTop(grid);
-    selector.setBounds(area);
+    settings.setBounds(area);
 }
 
 } // namespace pacini::app

@@ -6,6 +6,7 @@
 #include "app/editor/ControllerOutput.h"
 #include "app/editor/PreviewDevices.h"
 #include "editor/Controls.h"
+#include "editor/DeviceSettings.h"
 #include "editor/clip/sheets/Sheet.h"
 
 #include <juce_audio_utils/juce_audio_utils.h>
@@ -41,7 +42,7 @@ private:
     juce::Label controllerLabel, controllerNote;
     juce::ComboBox controllerChoice;
     std::vector<devices::Controller> controllers; ///< of the choice, from its second item on
-    juce::AudioDeviceSelectorComponent selector;
+    editor::DeviceSettings settings;
 };
 
 } // namespace pacini::app

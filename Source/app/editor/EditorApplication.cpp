@@ -106,7 +106,7 @@ public:
         session = std::make_unique<editor::Session>(folders, std::move(profiles));
         openDevices(editor::toText(options.deviceType));
         editor::useLanguage(language);
-        window = std::make_unique<EditorWindow>(*session, *rig, hostServices(home));
+        window = std::make_unique<EditorWindow>(*session, *rig, hostServices(home, options));
         auto& view = window->view();
         const bool firstRun = settings && settings->isFirstRun();
         if (settings)
@@ -229,7 +229,7 @@ private:
     }
 
     /// What the editor asks of this program.
-    editor::HostServices hostServices(const juce::File& home)
+    editor::HostServices hostServices(const juce::File& home, const Options& options)
     {
         editor::HostServices around;
         around.version = PACINI_VERSION;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/editor/StudyWindow.h"
 
+#include "editor/DeviceSettings.h"
 #include "editor/Text.h"
 #include "editor/Translation.h"
 
@@ -209,11 +210,11 @@ bool StudyWindow::keyPressed(const juce::KeyPress& key)
 
 void StudyWindow::showDevices()
 {
-    auto selector =
-        std::make_unique<juce::AudioDeviceSelectorComponent>(manager, 0, 0, 1, 256, false, false, false, false);
-    selector->setSize(520, 420);
+    auto settings = std::make_unique<editor::DeviceSettings>(manager);
+    editor::translateTexts(*settings);
+    settings->setSize(560, 460);
     juce::DialogWindow::LaunchOptions dialog;
-    dialog.content.setOwned(selector.release());
+    dialog.content.setOwned(settings.release());
     dialog.dialogTitle = editor::tr("Audio devices");
     dialog.componentToCentreAround = this;
     dialog.useNativeTitleBar = true;

@@ -18,6 +18,7 @@ namespace
 constexpr std::size_t maxRecent = 5;
 constexpr int startRowHeight = 4 * grid;
 constexpr int tileHeight = 7 * grid;
+constexpr int tallestTile = 12 * grid;
 constexpr int tileWidth = 200; // at least
 constexpr int leftWidth = 34 * grid;
 constexpr int dropHeight = 19 * grid;
@@ -91,7 +92,7 @@ public:
         g.fillRoundedRectangle(area, 6.0f);
         g.setColour(plays ? p.accent : over ? p.dim : p.line);
         g.drawRoundedRectangle(area, 6.0f, plays ? 2.0f : 1.0f);
-        auto inner = getLocalBounds().reduced(grid, grid / 2);
+        auto inner = getLocalBounds().reduced(grid, 0).withSizeKeepingCentre(getWidth() - 2 * grid, tileHeight - grid);
         auto symbol = inner.removeFromLeft(2 * grid).toFloat().withSizeKeepingCentre(10.0f, 12.0f);
         g.setColour(plays ? p.accent : p.dim);
         juce::Path shape;
@@ -192,6 +193,8 @@ StartPage::StartPage(EditorModel& project, Actuators& profiles, FilePreview& pla
     addAndMakeVisible(outputsButton);
     words.setTitle("Search sounds");
     words.setJustification(juce::Justification::centredLeft);
+    words.setFont(usualFont());
+    words.setIndents(grid, 0);
     words.setTextToShowWhenEmpty(tr("Search sounds"), juce::Colours::grey);
     words.onTextChange = [this]
     {
@@ -445,14 +448,19 @@ void StartPage::layOutTiles()
     const int width = viewport.getWidth() - viewport.getScrollBarThickness();
     const int columns = std::max(1, width / (tileWidth + grid));
     const int each = (width - (columns - 1) * grid) / columns;
+    // In a tall window all tiles together fill it, up to a height.
+    const auto shown = static_cast<int>(
+        std::count_if(tiles.begin(), tiles.end(), [](const auto& tile) { return tile->isVisible(); }));
+    const int rows = std::max(1, (static_cast<int>(tiles.size()) + columns - 1) / columns);
+    const int high = std::clamp(viewport.getHeight() / rows - grid, tileHeight, tallestTile);
     int i = 0;
     for (const auto& tile : tiles)
         if (tile->isVisible())
         {
-            tile->setBounds(i % columns * (each + grid), i / columns * (tileHeight + grid), each, tileHeight);
+            tile->setBounds(i % columns * (each + grid), i / columns * (high + grid), each, high);
             ++i;
         }
-    tileArea.setSize(width, (i + columns - 1) / columns * (tileHeight + grid));
+    tileArea.setSize(width, (shown + columns - 1) / columns * (high + grid));
 }
 
 } // namespace pacini::editor

@@ -9,9 +9,11 @@
 
 #include <juce_gui_basics/juce_gui_basics.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -41,6 +43,8 @@ public:
     {
         auto area = getLocalBounds();
         label.setBounds(area.removeFromLeft(labelWidth));
+        if constexpr (std::is_same_v<Control, juce::ComboBox>)
+            area = area.withWidth(std::min(area.getWidth(), space::widestBox));
         control.setBounds(area);
     }
     void enablementChanged() override { label.setEnabled(isEnabled()); }

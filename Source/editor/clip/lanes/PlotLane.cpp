@@ -20,6 +20,7 @@ namespace pacini::editor
 
 namespace
 {
+constexpr int leastForTicks = 60; // pixels of a plot that has them inside
 constexpr int edgeOfThings = 9;          // pixels to either side of what has changed
 constexpr double floorAmplitude = 0.001; // -60 dB
 constexpr double tickGap = 15.0;         // pixels between marks of the scale
@@ -169,7 +170,8 @@ void PlotLane::paint(juce::Graphics& g)
             g.fillRect(plot.withLeft(std::max(plot.getX(), end)));
         }
     }
-    if (getNumChildComponents() > 0) // its head is full of buttons
+    // Its head is full of buttons; in a low lane numbers would cover the curve, whose scale is that of the others.
+    if (getNumChildComponents() > 0 && plot.getHeight() >= leastForTicks)
         paintTicks(g, plot.withTrimmedLeft(3).withWidth(tickWidth), juce::Justification::centredLeft);
     if (hovered && *hovered < count())
     {

@@ -155,7 +155,7 @@ void ClipList::paintListBoxItem(int row, juce::Graphics& g, int width, int heigh
     {
         g.setColour(p.dim);
         g.setFont(smallFont().boldened());
-        g.drawText(nameOf(*shown), area.reduced(grid / 2, 0), juce::Justification::centredLeft, true);
+        g.drawText(nameOf(*shown), area.reduced(grid, 0), juce::Justification::centredLeft, true);
         g.setColour(p.line);
         g.fillRect(area.removeFromBottom(1));
         return;
@@ -163,7 +163,7 @@ void ClipList::paintListBoxItem(int row, juce::Graphics& g, int width, int heigh
     const auto item = model.document().clip(shown->clip);
     if (!item)
         return;
-    area.reduce(grid / 2, 0);
+    area.reduce(grid, 0);
     if (!shown->group.empty())
         area.removeFromLeft(grid);
     g.setFont(smallFont());

@@ -8,6 +8,8 @@
 #include "editor/Translation.h"
 #include "editor/clip/EditorView.h"
 
+#include <array>
+
 namespace pacini::editor
 {
 
@@ -202,13 +204,32 @@ void ProjectPanel::resized()
     clipsCard = area;
 
     auto inside = insideOfCard(clipsCard);
+    // In one row where their texts fit, else the last one below.
+    const std::array<juce::TextButton*, 3> buttons{&duplicateButton, &removeButton, &groupButton};
+    const auto textWidth = [](const juce::TextButton& button)
+    {
+        return usualFont().getStringWidth(button.getButtonText()) + grid;
+    };
+    int texts = 0;
+    for (const auto* button : buttons)
+        texts += textWidth(*button);
+    const int gaps = 2 * (grid / 2);
+    const bool oneRow = texts + gaps <= inside.getWidth();
+    if (!oneRow)
+    {
+        groupButton.setBounds(inside.removeFromBottom(projectRowHeight + 4));
+        inside.removeFromBottom(grid / 2);
+    }
     auto line = inside.removeFromBottom(projectRowHeight + 4);
-    const int third = (line.getWidth() - grid) / 3;
-    duplicateButton.setBounds(line.removeFromLeft(third + grid / 2));
-    line.removeFromLeft(grid / 2);
-    removeButton.setBounds(line.removeFromLeft(third - grid / 4));
-    line.removeFromLeft(grid / 2);
-    groupButton.setBounds(line);
+    const int inRow = oneRow ? 3 : 2;
+    const int rest = line.getWidth() - (inRow - 1) * (grid / 2) -
+                     (oneRow ? texts : textWidth(duplicateButton) + textWidth(removeButton));
+    for (int i = 0; i < inRow; ++i)
+    {
+        auto& button = *buttons[static_cast<std::size_t>(i)];
+        button.setBounds(i + 1 == inRow ? line : line.removeFromLeft(textWidth(button) + rest / inRow));
+        line.removeFromLeft(grid / 2);
+    }
     list.setBounds(inside.withTrimmedBottom(grid));
 
     inside = insideOfCard(soundCard);

@@ -200,9 +200,13 @@ void OutputsSheet::layOut(juce::Rectangle<int> area)
         heads[i].setBounds(top[i + 1]);
     area.removeFromTop(grid / 2);
     auto last = area.removeFromBottom(outputRowHeight);
-    addButton.setBounds(last.removeFromLeft(13 * grid).reduced(0, 3));
+    const auto widthOf = [](const juce::TextButton& button)
+    {
+        return usualFont().getStringWidth(button.getButtonText()) + 3 * grid;
+    };
+    addButton.setBounds(last.removeFromLeft(widthOf(addButton)).reduced(0, 3));
     last.removeFromLeft(grid);
-    removeButton.setBounds(last.removeFromLeft(14 * grid).reduced(0, 3));
+    removeButton.setBounds(last.removeFromLeft(widthOf(removeButton)).reduced(0, 3));
     last.removeFromLeft(grid);
     note.setBounds(last);
     for (std::size_t i = 0; i < outputs.outputs().size(); ++i)

@@ -80,7 +80,7 @@ public:
             row.reduce(grid / 2, 0);
             g.setFont(smallFont());
             g.setColour(isChosen && waits ? p.accent : p.text);
-            g.drawText(isChosen && waits ? tr(toText("Press a key…")) : one.key,
+            g.drawText(isChosen && waits ? tr(toText("Press a key…")) : one.key.isEmpty() ? toText("–") : one.key,
                        row.removeFromLeft(keyWidth).withTrimmedRight(grid), juce::Justification::centredLeft, true);
             g.setColour(p.dim);
             g.drawText(one.text, row, juce::Justification::centredLeft, true);
@@ -105,7 +105,7 @@ private:
             rows.push_back({tr(menu.name), {}, true});
             for (const Action& action : menu.actions)
                 if (action.run)
-                    rows.push_back({menus.keyTextOf(action.id), tr(action.name) + ": " + tr(action.help), false,
+                    rows.push_back({menus.keyTextOf(action.id), Menus::nameOf(action) + ": " + tr(action.help), false,
                                     action.id});
         }
         setSize(std::max(600, getWidth()), static_cast<int>(rows.size()) * shortcutRowHeight);
