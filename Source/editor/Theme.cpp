@@ -262,9 +262,10 @@ void Look::drawButtonBackground(juce::Graphics& g, juce::Button& button, const j
 void Look::drawButtonText(juce::Graphics& g, juce::TextButton& button, bool highlighted, bool down)
 {
     g.setColour(coloursOf(button, palette(), highlighted, down).text);
-    g.setFont(getTextButtonFont(button, button.getHeight()));
-    g.drawText(button.getButtonText(), button.getLocalBounds().reduced(grid / 2, 0), juce::Justification::centred,
-               true);
+    const auto area = button.getLocalBounds().reduced(grid / 2, 0);
+    // In less type before it is cut.
+    g.setFont(usualFont().getStringWidth(button.getButtonText()) <= area.getWidth() ? usualFont() : smallFont());
+    g.drawText(button.getButtonText(), area, juce::Justification::centred, true);
 }
 
 void Look::drawTickBox(juce::Graphics& g, juce::Component& component, float x, float y, float w, float h, bool ticked,
@@ -327,8 +328,7 @@ void Look::drawComboBoxTextWhenNothingSelected(juce::Graphics& g, juce::ComboBox
 {
     g.setColour(palette().dim.withMultipliedAlpha(box.isEnabled() ? 1.0f : disabledAlpha));
     g.setFont(getComboBoxFont(box));
-    g.drawText(box.getTextWhenNothingSelected(), label.getBorderSize().subtractedFrom(label.getLocalBounds()),
-               juce::Justification::centredLeft, true);
+    g.drawText(box.getTextWhenNothingSelected(), label.getBounds(), juce::Justification::centredLeft, true);
 }
 
 /// The shortcut, or what else stands at the right, is secondary text of a size that can be read.

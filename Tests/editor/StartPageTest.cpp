@@ -226,3 +226,26 @@ TEST_CASE("The pointer plays no sound unless that is switched on; the triangle o
     CHECK(preview.file().empty());
     CHECK(bench.session.model.isEmpty());
 }
+
+TEST_CASE("Nothing on the start page is cut off or lies on another, in a low window as well")
+{
+    StartBench bench;
+    for (const auto size : {juce::Point<int>(1280, 800), juce::Point<int>(880, 560), juce::Point<int>(720, 460)})
+    {
+        bench.view.setSize(size.x, size.y);
+        auto& page = bench.view.startPage();
+        std::vector<juce::Component*> placed;
+        for (juce::Component* child : page.getChildren())
+            if (child->isVisible())
+                placed.push_back(child);
+        CHECK(placed.size() >= 9);
+        for (std::size_t i = 0; i < placed.size(); ++i)
+        {
+            CAPTURE(size.x, placed[i]->getTitle(), placed[i]->getBounds().toString());
+            CHECK(page.getLocalBounds().contains(placed[i]->getBounds()));
+            CHECK(placed[i]->getHeight() >= 24);
+            for (std::size_t k = 0; k < i; ++k)
+                CHECK_FALSE(placed[k]->getBounds().intersects(placed[i]->getBounds()));
+        }
+    }
+}

@@ -335,3 +335,23 @@ TEST_CASE("The side panel is as wide as it was drawn, at most half the window, a
     REQUIRE(bench.view.doCommand(editor::showSidePanel));
     CHECK(side.isVisible());
 }
+
+TEST_CASE("A scale that the window has no room for is drawn as large as fits, and every menu of the toolbar stays")
+{
+    EditorBench bench;
+    bench.openDemo("knock_wood_bridge");
+    bench.view.setScale(1.5);
+    CHECK(bench.view.shownScale() == 1.5);
+    bench.view.setSize(880, 568);
+    CHECK(bench.view.scale() == 1.5); // comes back with the room
+    CHECK(bench.view.shownScale() < 1.3);
+    CHECK(bench.view.shownScale() > 1.1);
+    for (const char* menu : {"Clip", "Monitor", "Actuator"})
+    {
+        CAPTURE(menu);
+        CHECK(get<juce::ComboBox>(bench.view, menu).getWidth() >= 70);
+    }
+    bench.view.setSize(1280, 800);
+    CHECK(bench.view.shownScale() == 1.5);
+    CHECK(get<juce::Button>(bench.view, "Zoom in").isVisible());
+}

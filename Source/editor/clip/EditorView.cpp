@@ -16,6 +16,8 @@ namespace
 {
 constexpr int menuHeight = 26;
 constexpr int toolbarHeight = 42;
+constexpr double leastScale = 0.75;
+constexpr int leastBodyWidth = 720, leastBodyHeight = 460; // points, with room for all parts
 
 /// Sliders make their boxes, and text editors colour their text, before they have a look or when they had another.
 void takeLook(juce::Component& part)
@@ -169,9 +171,15 @@ void EditorView::setDark(bool dark)
 
 void EditorView::setScale(double wanted)
 {
-    scaleNow = std::clamp(wanted, 0.75, 2.0);
-    body.setTransform(juce::AffineTransform::scale(static_cast<float>(scaleNow)));
+    scaleNow = std::clamp(wanted, leastScale, 2.0);
     resized();
+}
+
+double EditorView::shownScale() const noexcept
+{
+    const double fits =
+        std::min(getWidth() / static_cast<double>(leastBodyWidth), getHeight() / static_cast<double>(leastBodyHeight));
+    return std::clamp(fits, leastScale, scaleNow);
 }
 
 void EditorView::setSideWidth(int wanted)
@@ -203,8 +211,10 @@ void EditorView::paint(juce::Graphics& g)
 
 void EditorView::resized()
 {
-    body.setBounds(0, 0, static_cast<int>(std::ceil(getWidth() / scaleNow)),
-                   static_cast<int>(std::ceil(getHeight() / scaleNow)));
+    const double shown = shownScale();
+    body.setTransform(juce::AffineTransform::scale(static_cast<float>(shown)));
+    body.setBounds(0, 0, static_cast<int>(std::ceil(getWidth() / shown)),
+                   static_cast<int>(std::ceil(getHeight() / shown)));
     auto area = body.getLocalBounds();
     if (sheetNow)
         sheetNow->setBounds(area);

@@ -68,9 +68,10 @@ public:
     [[nodiscard]] juce::String title() const;
     void setDark(bool dark);
     [[nodiscard]] bool isDark() const noexcept { return look.isDark(); }
-    /// 0.75 to 2.
+    /// 0.75 to 2. Where the window has no room for it, all is drawn as large as fits.
     void setScale(double wanted);
     [[nodiscard]] double scale() const noexcept { return scaleNow; }
+    [[nodiscard]] double shownScale() const noexcept;
 
     static constexpr int usualSideWidth = 248; ///< also the least
     /// Points; at most half the window, less than the least: the usual width.

@@ -21,7 +21,8 @@ constexpr int tileHeight = 7 * grid;
 constexpr int tallestTile = 12 * grid;
 constexpr int tileWidth = 200; // at least
 constexpr int leftWidth = 34 * grid;
-constexpr int dropHeight = 19 * grid;
+constexpr int dropHeight = 19 * grid, lowDropHeight = 15 * grid;
+constexpr int roomForAll = 56 * grid;
 constexpr int signWidth = 4 * grid; // of a tile: a click there plays it
 constexpr int hoverDelay = 250;     // ms
 
@@ -354,7 +355,8 @@ juce::Rectangle<int> StartPage::left() const
 
 juce::Rectangle<int> StartPage::dropArea() const
 {
-    return left().withHeight(dropHeight);
+    auto area = left();
+    return area.withHeight(area.getHeight() < roomForAll ? lowDropHeight : dropHeight);
 }
 
 juce::Rectangle<int> StartPage::right() const
@@ -387,7 +389,9 @@ void StartPage::paint(juce::Graphics& g)
     juce::PathStrokeType(1.5f).createDashedStroke(dashes, outline, lengths, 2);
     g.setColour(dropNow ? p.accent : p.line);
     g.fillPath(dashes);
-    auto text = drop.reduced(2 * grid);
+    auto text = drop.reduced(2 * grid).withTrimmedBottom(startRowHeight);
+    if (drop.getHeight() < dropHeight)
+        text.translate(0, -grid);
     g.setColour(p.text);
     g.setFont(titleFont());
     g.drawFittedText(tr("Drop a sound or a clip here"), text.removeFromTop(4 * grid), juce::Justification::centred, 1);
@@ -397,7 +401,7 @@ void StartPage::paint(juce::Graphics& g)
                      juce::Justification::centred, 2, 1.0f);
     if (tiles.empty())
         return;
-    auto head = right().removeFromTop(4 * grid);
+    const auto head = right().removeFromTop(4 * grid).withRight(words.getX() - grid);
     g.setColour(p.text);
     g.setFont(usualFont().boldened());
     g.drawText(tr("Or begin with one of these"), head, juce::Justification::centredLeft);
@@ -414,7 +418,7 @@ void StartPage::resized()
 {
     auto area = left();
     openButton.setBounds(dropArea().reduced(2 * grid).removeFromBottom(startRowHeight));
-    area.removeFromTop(dropHeight + 6 * grid);
+    area.removeFromTop(dropArea().getHeight() + (area.getHeight() < roomForAll ? 4 : 6) * grid);
     for (const auto& button : feltBy)
     {
         button->setBounds(area.removeFromTop(startRowHeight));
@@ -437,7 +441,8 @@ void StartPage::resized()
     auto head = beside.removeFromTop(4 * grid);
     hoverButton.setBounds(head.removeFromRight(15 * grid));
     head.removeFromRight(grid);
-    words.setBounds(head.removeFromRight(std::min(30 * grid, head.getWidth() / 2)));
+    const int heading = usualFont().boldened().getStringWidth(tr("Or begin with one of these")) + 2 * grid;
+    words.setBounds(head.removeFromRight(std::clamp(head.getWidth() - heading, 10 * grid, 30 * grid)));
     beside.removeFromTop(grid);
     viewport.setBounds(beside);
     layOutTiles();

@@ -19,6 +19,7 @@ constexpr int fromFile = 100000;
 constexpr int sliderWidth = 124;
 constexpr int iconWidth = 34, playWidth = 52;
 constexpr int leastHeard = 76, mostHeard = 140, leastLabel = 28;
+constexpr int leastMenus = 240;   // of the three menus together: with less, the zoom is left out
 constexpr int leastChoices = 300; // of the three menus together: with less, labels are left out
 
 juce::String clockText(double seconds)
@@ -196,9 +197,16 @@ void Toolbar::resized()
     put(playButton, playWidth, 4);
     put(loopButton, iconWidth, grid);
     put(time, smallFont().getStringWidth("00:00.00 / 00:00.00") + 3 * grid, grid);
-    put(zoomOutButton, iconWidth, 4);
-    put(zoomInButton, iconWidth, 4);
-    put(fitButton, iconWidth, 2 * grid);
+    // Menus have a name to show; the zoom has keys and a menu as well.
+    const bool narrow = area.getWidth() - 3 * (iconWidth + 4) - sliderWidth - 5 * grid < leastMenus;
+    for (juce::Component* one : std::initializer_list<juce::Component*>{&zoomOutButton, &zoomInButton, &fitButton})
+        one->setVisible(!narrow);
+    if (!narrow)
+    {
+        put(zoomOutButton, iconWidth, 4);
+        put(zoomInButton, iconWidth, 4);
+        put(fitButton, iconWidth, 2 * grid);
+    }
     const auto widthOf = [](const juce::Label& label)
     {
         return std::max(leastLabel, label.getFont().getStringWidth(label.getText()) + 2);

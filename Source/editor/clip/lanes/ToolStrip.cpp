@@ -47,9 +47,12 @@ void ToolStrip::resized()
     auto area = getLocalBounds().reduced(3);
     versionButton.setBounds(area.removeFromRight(24));
     area.removeFromRight(3);
-    const int half = (area.getWidth() - 3) / 2;
-    drawButton.setBounds(area.removeFromLeft(half));
-    snapButton.setBounds(area.removeFromRight(half));
+    // By their texts, which differ in length.
+    const int draw = smallFont().getStringWidth(drawButton.getButtonText());
+    const int snap = smallFont().getStringWidth(snapButton.getButtonText());
+    const int room = area.getWidth() - 3 - draw - snap;
+    drawButton.setBounds(area.removeFromLeft(draw + room / 2));
+    snapButton.setBounds(area.withTrimmedLeft(3));
 }
 
 } // namespace pacini::editor

@@ -327,10 +327,13 @@ void Inspector::resized()
         area.removeFromTop(grid);
         return insideOfCard(place);
     };
-    const auto row = [](juce::Rectangle<int>& inside, juce::Label& label, juce::Component& field)
+    int labelWidth = 9 * grid;
+    for (const juce::Label* label : {&timeLabel, &valueLabel, &sharpLabel})
+        labelWidth = std::max(labelWidth, smallFont().getStringWidth(label->getText()) + grid);
+    const auto row = [labelWidth](juce::Rectangle<int>& inside, juce::Label& label, juce::Component& field)
     {
         auto line = inside.removeFromTop(inspectorRowHeight);
-        label.setBounds(line.removeFromLeft(9 * grid));
+        label.setBounds(line.removeFromLeft(labelWidth));
         field.setBounds(line);
         inside.removeFromTop(grid / 2);
     };
