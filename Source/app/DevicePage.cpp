@@ -31,8 +31,7 @@ juce::String adviceFor(juce::AudioDeviceManager& manager)
 }
 } // namespace
 
-DevicePage::DevicePage(juce::AudioDeviceManager& wanted)
-    : manager(wanted), settings(wanted)
+DevicePage::DevicePage(juce::AudioDeviceManager& wanted) : manager(wanted), settings(wanted)
 {
     advice.setMultiLine(true);
     advice.setReadOnly(true);

@@ -24,7 +24,7 @@ struct ExportChoice
     ExportParams params; ///< the rate of the drive signal is that of the clip's sound where none is given, or 8 kHz
     std::filesystem::path folder;               ///< existing
     std::filesystem::path file;                 ///< of a single clip, in `folder`; empty: the clip's name
-    std::string mark; ///< stands behind each name, before the extension; empty: nothing does
+    std::string mark;                           ///< stands behind each name, before the extension; empty: nothing does
     ProjectFileSet needed;                      ///< never replaced
     Replaceable replaceable = Replaceable::own; ///< `named` once the user has been asked
 };

@@ -245,8 +245,7 @@ void DeviceSettings::fill()
         for (const int one : device->getAvailableBufferSizes())
             buffer.box.addItem(
                 tr("{0} samples ({1} ms)",
-                   {juce::String(one),
-                    numberText(1000.0 * one / std::max(1.0, device->getCurrentSampleRate()), 1)}),
+                   {juce::String(one), numberText(1000.0 * one / std::max(1.0, device->getCurrentSampleRate()), 1)}),
                 one);
         buffer.box.setSelectedId(device->getCurrentBufferSizeSamples(), juce::dontSendNotification);
     }
@@ -254,8 +253,8 @@ void DeviceSettings::fill()
                  device != nullptr ? device->getActiveOutputChannels() : juce::BigInteger());
     inputs.show(device != nullptr ? device->getInputChannelNames() : juce::StringArray(),
                 device != nullptr ? device->getActiveInputChannels() : juce::BigInteger());
-    for (juce::Component* one : std::initializer_list<juce::Component*>{&rate.box, &buffer.box, &testButton, &outputs,
-                                                                        &inputs})
+    for (juce::Component* one :
+         std::initializer_list<juce::Component*>{&rate.box, &buffer.box, &testButton, &outputs, &inputs})
         one->setEnabled(device != nullptr);
 }
 

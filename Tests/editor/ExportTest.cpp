@@ -39,10 +39,10 @@ void type(editor::ExportSheet& sheet, const std::filesystem::path& path)
 
 TEST_CASE("Losses that say the same are one row with their number, and the worst of them")
 {
-    const auto groups = editor::groupedLosses({loss(0.1, 0.2, "3 points were left out"), loss(0.5, 0.0, "is quiet"),
-                                               loss(0.7, 0.4, "12 points were left out"),
-                                               loss(0.9, 0.1, "2 points were left out"),
-                                               loss(1.2, 0.9, "2 points were left out", LossKind::event)});
+    const auto groups =
+        editor::groupedLosses({loss(0.1, 0.2, "3 points were left out"), loss(0.5, 0.0, "is quiet"),
+                               loss(0.7, 0.4, "12 points were left out"), loss(0.9, 0.1, "2 points were left out"),
+                               loss(1.2, 0.9, "2 points were left out", LossKind::event)});
     REQUIRE(groups.size() == 3);
     CHECK(groups[0].count == 3);
     CHECK(groups[0].worst.time == 0.7);
@@ -63,7 +63,8 @@ TEST_CASE("Several formats are written at once, each beside the other, and none 
         sheet.setAlso("haptic", true);
         sheet.setAlso("android", true); // .json as well
         sheet.setAlso("haptic", false);
-        CHECK(get<juce::TextButton>(sheet, "Further formats").getButtonText() == juce::String::fromUTF8("+ 2 formats…"));
+        CHECK(get<juce::TextButton>(sheet, "Further formats").getButtonText() ==
+              juce::String::fromUTF8("+ 2 formats…"));
         answer(sheet, "Export");
         REQUIRE(pumpUntil([&] { return bench.view.sheet() == nullptr; }));
     }

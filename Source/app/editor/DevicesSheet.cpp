@@ -20,10 +20,7 @@ constexpr int none = 1; // menus know no item 0; channels follow
 } // namespace
 
 DevicesSheet::DevicesSheet(PreviewDevices& wanted, ControllerOutput& wantedControllers)
-    : Sheet("Audio devices", 760, 640),
-      rig(wanted),
-      controllerOutput(wantedControllers),
-      settings(wanted.devices())
+    : Sheet("Audio devices", 760, 640), rig(wanted), controllerOutput(wantedControllers), settings(wanted.devices())
 {
     prepareSound();
     hapticLabel.setText("Haptic output", juce::dontSendNotification);

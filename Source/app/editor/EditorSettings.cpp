@@ -76,7 +76,8 @@ void EditorSettings::apply(editor::EditorView& view) const
     view.setSideWidth(file.getIntValue("sideWidth", editor::EditorView::usualSideWidth));
     view.showSide(file.getBoolValue("sidePanel", true));
     viewState.setAmplitudesInDecibels(file.getBoolValue("decibels", true));
-    view.lastExport = {file.getValue("exportFormat").toStdString(), file.getIntValue("exportRate", 0),
+    view.lastExport = {file.getValue("exportFormat").toStdString(),
+                       file.getIntValue("exportRate", 0),
                        editor::pathOf(file.getValue("exportFolder")),
                        {},
                        false};

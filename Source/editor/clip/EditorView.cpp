@@ -54,8 +54,8 @@ EditorView::EditorView(Session& shared, HostServices around)
     setWantsKeyboardFocus(true);
     setFocusContainerType(FocusContainerType::keyboardFocusContainer);
     addAndMakeVisible(body);
-    for (juce::Component* child :
-         std::initializer_list<juce::Component*>{&menuBar, &toolbar, &clipPart, &side, &meters, &start, &status, &divider})
+    for (juce::Component* child : std::initializer_list<juce::Component*>{&menuBar, &toolbar, &clipPart, &side, &meters,
+                                                                          &start, &status, &divider})
         body.addAndMakeVisible(child);
     body.addChildComponent(workBar);
     body.addChildComponent(notice);

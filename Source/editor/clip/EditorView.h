@@ -37,16 +37,16 @@ namespace pacini::editor
 /// Services of the program or plugin around an editor; menus omit missing services.
 struct HostServices
 {
-    std::vector<std::filesystem::path> demoSounds;                ///< those of the library too
-    std::function<void()> quit;                                   ///< null: the host closes the window
-    std::function<void()> showDevices;                            ///< null: the host has the devices
-    std::function<juce::StringArray()> outputNames = {};          ///< of the device; null: the host has one output
-    std::function<std::vector<FoundDevice>()> foundDevices = {};  ///< for the start page; null: nobody looks
-    std::shared_ptr<MeasureRig> measureRig = {};                  ///< null: only simulated actuators can be measured
-    std::filesystem::path profileFolder = {};                     ///< where measured profiles are written at first
-    std::filesystem::path presetFolder = {};                      ///< of the user's analysis presets; empty: none are kept
-    juce::String language = {};                                   ///< code of the chosen one; empty: that of the system
-    std::function<void(const juce::String&)> chooseLanguage = {}; ///< from the next start on; null: not here
+    std::vector<std::filesystem::path> demoSounds;               ///< those of the library too
+    std::function<void()> quit;                                  ///< null: the host closes the window
+    std::function<void()> showDevices;                           ///< null: the host has the devices
+    std::function<juce::StringArray()> outputNames = {};         ///< of the device; null: the host has one output
+    std::function<std::vector<FoundDevice>()> foundDevices = {}; ///< for the start page; null: nobody looks
+    std::shared_ptr<MeasureRig> measureRig = {};                 ///< null: only simulated actuators can be measured
+    std::filesystem::path profileFolder = {};                    ///< where measured profiles are written at first
+    std::filesystem::path presetFolder = {}; ///< of the user's analysis presets; empty: none are kept
+    juce::String language = {};              ///< code of the chosen one; empty: that of the system
+    std::function<void(const juce::String&)> chooseLanguage = {};    ///< from the next start on; null: not here
     std::function<void(const std::filesystem::path&)> runStudy = {}; ///< of that file; null: not here
     std::function<void()> feelOnPhone = {};                          ///< lets a phone in; null: not here
     std::function<bool()> reconnect = {};      ///< opens a sound device, if there is one; null: the host has devices

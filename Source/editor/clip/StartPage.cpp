@@ -454,8 +454,8 @@ void StartPage::layOutTiles()
     const int columns = std::max(1, width / (tileWidth + grid));
     const int each = (width - (columns - 1) * grid) / columns;
     // In a tall window all tiles together fill it, up to a height.
-    const auto shown = static_cast<int>(
-        std::count_if(tiles.begin(), tiles.end(), [](const auto& tile) { return tile->isVisible(); }));
+    const auto shown =
+        static_cast<int>(std::count_if(tiles.begin(), tiles.end(), [](const auto& tile) { return tile->isVisible(); }));
     const int rows = std::max(1, (static_cast<int>(tiles.size()) + columns - 1) / columns);
     const int high = std::clamp(viewport.getHeight() / rows - grid, tileHeight, tallestTile);
     int i = 0;

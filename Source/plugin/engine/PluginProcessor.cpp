@@ -536,7 +536,8 @@ juce::String PluginProcessor::actuatorName(std::size_t channel) const
 {
     const juce::ScopedLock lock(setupLock);
     const auto& profile = actuators[channel].profile;
-    return profile ? juce::String::fromUTF8(shortNameOf(*profile).c_str()) : juce::String(noActuator.data(), noActuator.size());
+    return profile ? juce::String::fromUTF8(shortNameOf(*profile).c_str())
+                   : juce::String(noActuator.data(), noActuator.size());
 }
 
 bool PluginProcessor::strengthMatters() const

@@ -20,7 +20,7 @@ namespace pacini::editor
 
 namespace
 {
-constexpr int leastForTicks = 60; // pixels of a plot that has them inside
+constexpr int leastForTicks = 60;        // pixels of a plot that has them inside
 constexpr int edgeOfThings = 9;          // pixels to either side of what has changed
 constexpr double floorAmplitude = 0.001; // -60 dB
 constexpr double tickGap = 15.0;         // pixels between marks of the scale

@@ -238,11 +238,12 @@ void AnalysisPanel::choosePreset()
     {
         showPreset(params()); // those are no presets
         if (chosen == loadSettings)
-            return view.files().askForSettings([self = juce::Component::SafePointer(this)](const auto& file)
-                                               {
-                                                   if (self)
-                                                       self->load(file);
-                                               });
+            return view.files().askForSettings(
+                [self = juce::Component::SafePointer(this)](const auto& file)
+                {
+                    if (self)
+                        self->load(file);
+                });
         return view.showSheet(std::make_unique<NameSheet>(
             "Save preset", "Name of the preset", juce::String(),
             [self = juce::Component::SafePointer(this)](const juce::String& name)
@@ -262,9 +263,9 @@ void AnalysisPanel::load(const std::filesystem::path& settings, const juce::Stri
     if (!read)
     {
         showPreset(params());
-        return view.showMessage(std::make_unique<MessageSheet>(
-            tr("{0} not opened", {pathText(settings.filename())}), translateMessage(toText(read.error().text())),
-            std::vector<Sheet::Answer>{{"Close", {}}}));
+        return view.showMessage(std::make_unique<MessageSheet>(tr("{0} not opened", {pathText(settings.filename())}),
+                                                               translateMessage(toText(read.error().text())),
+                                                               std::vector<Sheet::Answer>{{"Close", {}}}));
     }
     if (name.isNotEmpty())
         lastOwn = OwnPreset{name, *read};
@@ -294,9 +295,13 @@ void AnalysisPanel::saveAs(const juce::String& name)
     std::error_code unknown;
     if (!std::filesystem::exists(ownPresets.pathOf(name.toStdString()), unknown))
         return write(false);
-    view.showMessage(std::make_unique<MessageSheet>(
-        tr("Replace the preset {0}?", {name}), "There is a preset of this name.",
-        std::vector<Sheet::Answer>{{"Cancel", {}}, {"Replace", [write] { write(true); }}}));
+    view.showMessage(std::make_unique<MessageSheet>(tr("Replace the preset {0}?", {name}),
+                                                    "There is a preset of this name.",
+                                                    std::vector<Sheet::Answer>{{"Cancel", {}},
+                                                                               {"Replace", [write]
+                                                                                {
+                                                                                    write(true);
+                                                                                }}}));
 }
 
 void AnalysisPanel::showPreset(const EncoderParams& wanted)

@@ -42,8 +42,8 @@ CommandSheet::CommandSheet(Menus& ofView) : Sheet("Find a command", 560, 440), m
     for (const Menu& menu : menus.all())
         for (const Action& action : menu.actions)
             if (action.run)
-                all.push_back({&action, Menus::nameOf(action), tr(menu.name),
-                               menus.keyTextOf(action.id), Menus::canDo(action)});
+                all.push_back(
+                    {&action, Menus::nameOf(action), tr(menu.name), menus.keyTextOf(action.id), Menus::canDo(action)});
     words.setTitle("Find a command");
     words.setJustification(juce::Justification::centredLeft);
     words.setTextToShowWhenEmpty(tr("Words of a command"), juce::Colours::grey);

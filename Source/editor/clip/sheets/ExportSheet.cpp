@@ -25,7 +25,12 @@ int itemOf(EventExport events)
 } // namespace
 
 ExportSheet::ExportSheet(const EditorModel& project, const Actuators& profiles, ExportMemory& last)
-    : Sheet("Export", 680, 520), model(project), actuators(profiles), memory(last), browseButton(toText("Browse…")), also(last.also)
+    : Sheet("Export", 680, 520),
+      model(project),
+      actuators(profiles),
+      memory(last),
+      browseButton(toText("Browse…")),
+      also(last.also)
 {
     const auto label = [this](juce::Label& one, const juce::String& text)
     {
@@ -114,8 +119,8 @@ ExportSheet::ExportSheet(const EditorModel& project, const Actuators& profiles, 
     };
     addAll(*this, {&format, &alsoButton, &rate, &all, &events, &target, &browseButton, &losses, &table});
     int order = 1;
-    for (juce::Component* child :
-         std::initializer_list<juce::Component*>{&target, &format, &alsoButton, &rate, &all, &events, &browseButton, &losses, &table})
+    for (juce::Component* child : std::initializer_list<juce::Component*>{&target, &format, &alsoButton, &rate, &all,
+                                                                          &events, &browseButton, &losses, &table})
         child->setExplicitFocusOrder(order++);
     setAnswers({{"Export", {}}, {"Cancel", {}}});
     setUsualAnswer([this] { run(); });
@@ -285,8 +290,7 @@ void ExportSheet::showLosses()
                 for (const auto& [name, lost] : *found)
                     for (const ClipFormat& one : exportFormats())
                         if (one.name == name)
-                            parts.push_back(
-                                {found->size() > 1 ? tr(toText(one.title)) : juce::String(), lost});
+                            parts.push_back({found->size() > 1 ? tr(toText(one.title)) : juce::String(), lost});
             table.show(parts);
             if (found && table.isEmpty())
                 text << tr("No losses.");
@@ -385,8 +389,7 @@ void ExportSheet::remember()
 {
     const juce::File place = juce::File::getCurrentWorkingDirectory().getChildFile(target.getText());
     memory = {std::string(chosenFormat().name), rate.getSelectedId() == sourceRate ? 0 : rate.getSelectedId(),
-              pathOf(all.getToggleState() ? place : place.getParentDirectory()), also,
-              memory.written};
+              pathOf(all.getToggleState() ? place : place.getParentDirectory()), also, memory.written};
 }
 
 void ExportSheet::write(const Clips& clips, const std::vector<ExportChoice>& wanted)

@@ -24,9 +24,9 @@ namespace pacini::editor
 /// Choices of an export that the next one starts from.
 struct ExportMemory
 {
-    std::string format;           ///< its name; empty or unknown: the first one
-    int sampleRate = 0;           ///< Hz; 0: as the sound
-    std::filesystem::path folder; ///< empty: that of the project
+    std::string format;            ///< its name; empty or unknown: the first one
+    int sampleRate = 0;            ///< Hz; 0: as the sound
+    std::filesystem::path folder;  ///< empty: that of the project
     std::vector<std::string> also; ///< names of further formats
     bool written = false;          ///< something was, since the program began
 };

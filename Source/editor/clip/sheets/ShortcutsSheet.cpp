@@ -80,7 +80,9 @@ public:
             row.reduce(grid / 2, 0);
             g.setFont(smallFont());
             g.setColour(isChosen && waits ? p.accent : p.text);
-            g.drawText(isChosen && waits ? tr(toText("Press a key…")) : one.key.isEmpty() ? toText("–") : one.key,
+            g.drawText(isChosen && waits   ? tr(toText("Press a key…"))
+                       : one.key.isEmpty() ? toText("–")
+                                           : one.key,
                        row.removeFromLeft(keyWidth).withTrimmedRight(grid), juce::Justification::centredLeft, true);
             g.setColour(p.dim);
             g.drawText(one.text, row, juce::Justification::centredLeft, true);
@@ -105,8 +107,8 @@ private:
             rows.push_back({tr(menu.name), {}, true});
             for (const Action& action : menu.actions)
                 if (action.run)
-                    rows.push_back({menus.keyTextOf(action.id), Menus::nameOf(action) + ": " + tr(action.help), false,
-                                    action.id});
+                    rows.push_back(
+                        {menus.keyTextOf(action.id), Menus::nameOf(action) + ": " + tr(action.help), false, action.id});
         }
         setSize(std::max(600, getWidth()), static_cast<int>(rows.size()) * shortcutRowHeight);
         juce::StringArray lines;
@@ -177,8 +179,9 @@ private:
         {
             const auto before = none ? std::nullopt : menus.commandOf(key);
             menus.setKey(command, none ? Key() : key);
-            say(before && *before != command ? tr("{0} was the key of another command, which has none now", {keyText(key)})
-                                             : juce::String());
+            say(before && *before != command
+                    ? tr("{0} was the key of another command, which has none now", {keyText(key)})
+                    : juce::String());
         }
         waits = false;
         fill();
@@ -249,7 +252,11 @@ ShortcutsSheet::ShortcutsSheet(Menus& menus) : Sheet("Keyboard and mouse", 760, 
                  juce::dontSendNotification);
     addAndMakeVisible(viewport);
     addAndMakeVisible(note);
-    setAnswers({{"Close", {}}, {"Reset all keys", [&menus] { menus.resetKeys(); }}});
+    setAnswers({{"Close", {}},
+                {"Reset all keys", [&menus]
+                 {
+                     menus.resetKeys();
+                 }}});
 }
 
 juce::Component* ShortcutsSheet::firstFocus()
