@@ -106,7 +106,7 @@ const look = () => {
 // ---- in
 
 const extensionOf = (file) => /\.[^.]+$/.exec(file)?.[0].toLowerCase() ?? ''
-const clipExtensions = ['.pacb', '.json', '.ahap', '.haptic', '.haps', '.hjif', '.vij', '.hasp', '.tact', '.csv']
+const clipExtensions = ['.pacb', '.json', '.ahap', '.haptic', '.haps', '.hjif', '.hmpg', '.vij', '.hasp', '.tact', '.csv']
 
 let opened = 0 // how often something was: the last one counts, however long others take to be read
 let opening // which of them is read or analysed
