@@ -18,13 +18,13 @@ namespace pacini
 
 namespace
 {
-constexpr std::string_view blanks = " \t\r";
+constexpr std::string_view blanksOfLine = " \t\r";
 
 std::string_view withoutBlanks(std::string_view text)
 {
-    const auto first = text.find_first_not_of(blanks);
+    const auto first = text.find_first_not_of(blanksOfLine);
     return first == std::string_view::npos ? std::string_view()
-                                           : text.substr(first, text.find_last_not_of(blanks) - first + 1);
+                                           : text.substr(first, text.find_last_not_of(blanksOfLine) - first + 1);
 }
 
 /// Seconds, `1:02.5` or `1:00:02.5`.
