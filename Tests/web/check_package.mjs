@@ -150,6 +150,15 @@ try {
   }
   check('a method of settings is that of the option', (await encode(sound, { settings: settings({ method: 'thesis', attack: 0.1 }) })).encoder.attack === 0.1)
 
+  // A file that is read in parts gives the same bytes, whatever the parts are.
+  const bytesOfFile = new Uint8Array(readFileSync(join(sounds, names[0])))
+  let asked = 0
+  const inParts = pacini.openSound((at, length) => { asked = Math.max(asked, length); return bytesOfFile.slice(at, at + length) }, bytesOfFile.length)
+  check('a sound is read in parts', same(await encode(inParts, { format: 'packed' }), await encode(readWav(bytesOfFile), { format: 'packed' })) &&
+    inParts.frames === inParts.promised && asked <= 4 * 65536, `${asked} bytes at most`)
+  const cutOff = bytesOfFile.subarray(0, 1044), short = pacini.openSound((at, length) => cutOff.subarray(at, at + length), cutOff.length)
+  check('and says what it lacks', short.frames === 500 && short.promised === inParts.frames, `${short.frames} of ${short.promised}`)
+
   // What is wrong.
   const broken = (value) => {
     const samples = Float32Array.from(Array.isArray(sound.samples) ? sound.samples[0] : sound.samples)

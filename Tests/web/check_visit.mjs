@@ -91,6 +91,10 @@ try {
       if (pictures) await looked.tab.screenshot({ path: join(pictures, `first-${width}-${scheme}.png`), fullPage: true })
     }
   }
+  const listed = await looked.tab.$$eval('link[rel=modulepreload]', (links) => links.map(({ href }) => href).sort())
+  const loaded = await looked.tab.evaluate(() => [...new Set(performance.getEntriesByType('resource').map(({ name }) => name))]
+    .filter((name) => name.endsWith('.js') && !/(early|app|worker|gallery.list|pacini.index|pacini.sound)\.js$/.test(name)).sort()) // the last two are the worker's
+  check('the scripts that are loaded at once are those that the page has', listed.join() === loaded.join(), loaded.filter((name) => !listed.includes(name)).join(' '))
   await looked.context.close()
   const slow = await visit('about:blank')
   const throttled = await slow.tab.createCDPSession()

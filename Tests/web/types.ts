@@ -1,5 +1,5 @@
 // What the package says of its types, read by a compiler: each line that must be refused stands under its mark.
-import { encode, felt, formats, lint, PaciniError, profileNames, read, reapply, render, reports, rumble, touch, write } from 'pacini'
+import { encode, felt, formats, lint, openSound, PaciniError, profileNames, read, reapply, render, reports, rumble, touch, write } from 'pacini'
 import type { Clip, Loss, RumblePlan, Sound, TouchPlan } from 'pacini'
 import { createTranslator } from 'pacini/translator'
 
@@ -9,6 +9,7 @@ const decoded: Sound = new AudioBuffer({ length: 1, sampleRate: 48000 })
 export const use = async (context: AudioContext): Promise<number> => {
   const clip: Clip = await encode(sound, { bands: 8, signal: new AbortController().signal, progress: (share: number) => share })
   const packed: Uint8Array = await encode(decoded, { format: 'packed' })
+  const inParts: Clip = await encode(openSound((at: number, length: number) => new Uint8Array(length - at), 44))
   const text: string = await encode(sound, { format: 'text' })
   const drive = await render(packed, { profile: 'l5-wristband' })
   const skin = await felt(text, { profile: profileNames()[0] })
@@ -30,5 +31,5 @@ export const use = async (context: AudioContext): Promise<number> => {
   await reports(clip, {})
   const wrong: unknown = new Error()
   const where: string = wrong instanceof PaciniError ? wrong.where : ''
-  return unfitting.length + drive.frames + skin.frames + losses.length + bytes.length + node.numberOfOutputs + warnings.length + where.length
+  return inParts.duration + unfitting.length + drive.frames + skin.frames + losses.length + bytes.length + node.numberOfOutputs + warnings.length + where.length
 }

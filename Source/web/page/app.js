@@ -181,7 +181,7 @@ const analysed = async ({ name, source, sound }, values) => {
   say('Analysing...')
   const { clip, peaks } = await core.call('encode', { blob: sound.blob, peaks: true }, { name, source, ...values })
   if (!isHeld(sound)) sound.peaks ??= peaks
-  if (isLong(clip)) core.rest()
+  if (isLong(clip)) await core.rest()
   return { clip, said: `Analysed in ${((performance.now() - started) / 1000).toFixed(2)} s.` }
 }
 
@@ -328,11 +328,11 @@ const renderDrive = newestOnly(async () => {
   if (!clip) return
   // A long clip goes to the worker once, as its packed bytes.
   const { files: [{ bytes }] } = await side.call('write', clip, { format: 'packed' })
-  if (isLong(clip)) side.rest()
+  if (isLong(clip)) await side.rest()
   if (clip !== view.clip) return // a newer one comes
   const part = isLong(clip) ? { end: Math.min(clip.duration, longestRendered) } : {}
   const rendered = await side.call('render', isLong(clip) ? bytes : clip, { ...part, ...profileOption(), sampleRate: driveRateOf(clip), ...strength() })
-  if (isLong(clip)) side.rest()
+  if (isLong(clip)) await side.rest()
   if (clip !== view.clip) return
   drive = { samples: rendered.samples, sampleRate: driveRateOf(clip) }
   view.drive = new Peaks(drive.samples)
@@ -345,7 +345,7 @@ const renderDrive = newestOnly(async () => {
     (clip.duration > longestRendered ? `. This is long: what the actuator plays is rendered, shown and played of the first ${longestRendered / 60} minutes; files hold all of it` : '')
   await showLosses()
   if (element('comparison').open) await compare()
-  if (isLong(clip)) side.rest()
+  if (isLong(clip)) await side.rest()
 })
 
 const profileOption = () => element('profile').value ? { profile: element('profile').value } : {}

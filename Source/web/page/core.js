@@ -37,11 +37,12 @@ export class Core {
     })
   }
 
-  /** Gives the memory of the worker back, once it works for nothing: the next call starts another. */
+  /** Gives the memory of the worker back, where it works for nothing: the next call starts another. Resolves when it is given. */
   rest() {
-    if (this.#waiting.size > 0) return
-    this.#worker?.terminate()
+    if (this.#waiting.size > 0 || !this.#worker) return undefined
+    this.#worker.terminate()
     this.#worker = undefined
+    return new Promise((resolve) => setTimeout(resolve, 100)) // browsers do not tell when
   }
 
   cancel() {
