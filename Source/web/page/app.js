@@ -625,9 +625,11 @@ const watchLevel = (stream, signal) => {
   const samples = new Float32Array(analyser.fftSize), started = performance.now()
   context.createMediaStreamSource(stream).connect(analyser)
   meter.hidden = false
+  element('status').ariaLive = 'off' // its seconds are not read aloud
   const tick = () => {
     if (signal.aborted) {
       meter.hidden = true
+      element('status').ariaLive = 'polite'
       context.close()
       return
     }
