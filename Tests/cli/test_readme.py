@@ -64,6 +64,7 @@ ELSEWHERE = {
     "pacini encode sounds/ -o clips/ --format packed --ray auto": ("Tests/python/test_ray.py", "--ray"),
     "build/python-venv/bin/python Resources/docs/make_site.py": ("Tests/python/test_site.py", "make_site"),
     "Tests/hosts/check_standalone.py PROGRAM PICTURE": ("Tests/hosts/CMakeLists.txt", "check_standalone.py"),
+    "build/release-packages": ("cmake/bootstrap.sh", "make_release.py build/release-packages"),
     "build/release/plugins": ("cmake/bootstrap.sh", "build/release/plugins"),
     "build/release/bin/pacini": ("cmake/bootstrap.sh", "build/release/bin/pacini"),
     "build/release/plugins/Standalone/PaciniEditor [FILE...]": ("Tests/hosts/CMakeLists.txt", "Standalone/PaciniEditor"),
