@@ -1,7 +1,6 @@
 // The editor looks as it did when somebody looked at it: twelve states beside pictures that were approved.
 //
-// Approve what it looks like now, after looking at each: PACINI_PIN=1 build/release/bin/pacini_editor_tests
-// "[#PicturesTest]"
+// Approve what it looks like now, after looking at each: PACINI_PIN=1 build/release/bin/pacini_editor_tests "Twelve*"
 
 #include "editor/Bench.h"
 #include "editor/Pump.h"
