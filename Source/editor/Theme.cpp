@@ -477,7 +477,9 @@ void Look::drawLabel(juce::Graphics& g, juce::Label& label)
     g.fillAll(label.findColour(juce::Label::backgroundColourId));
     g.setColour(label.findColour(juce::Label::textColourId).withMultipliedAlpha(label.isEnabled() ? 1.0f : 0.6f));
     const juce::Font font = getLabelFont(label);
-    const int lines = std::max(1, label.getHeight() / juce::roundToInt(font.getHeight()));
+    // The text of a menu has one line, however tall its box is.
+    const bool ofBox = dynamic_cast<const juce::ComboBox*>(label.getParentComponent()) != nullptr;
+    const int lines = ofBox ? 1 : std::max(1, label.getHeight() / juce::roundToInt(font.getHeight()));
     g.setFont(font);
     g.drawFittedText(label.getText(), label.getLocalBounds(), label.getJustificationType(), lines);
 }

@@ -190,3 +190,23 @@ TEST_CASE("Tabs are as wide as their texts need, in every language, and buttons 
         editor::useLanguage("en");
     }
 }
+
+TEST_CASE("The text of a menu is one line, cut at its end, however tall the box is")
+{
+    const juce::ScopedJuceInitialiser_GUI gui;
+    editor::Look look;
+    juce::ComboBox box;
+    box.setLookAndFeel(&look);
+    box.addItem("a long name of a format, which would fill two lines", 1);
+    box.setSelectedId(1, juce::dontSendNotification);
+    box.setBounds(0, 0, 160, 36);
+    const auto picture = pictureOf(box);
+    // One line of text leaves the rows at a quarter and three quarters of the height empty.
+    for (const int y : {7, 28})
+        for (int x = 12; x < 120; ++x)
+        {
+            CAPTURE(x, y);
+            REQUIRE(picture.getPixelAt(x, y) == picture.getPixelAt(12, y));
+        }
+    box.setLookAndFeel(nullptr);
+}

@@ -22,10 +22,16 @@ int itemOf(EventExport events)
 {
     return 1 + static_cast<int>(events);
 }
+
+/// The extension first: a box may cut the rest.
+juce::String nameOf(const ClipFormat& format)
+{
+    return toText(format.extension) + "  " + tr(toText(format.title));
+}
 } // namespace
 
 ExportSheet::ExportSheet(const EditorModel& project, const Actuators& profiles, ExportMemory& last)
-    : Sheet("Export", 680, 520),
+    : Sheet("Export", 760, 520),
       model(project),
       actuators(profiles),
       memory(last),
@@ -45,7 +51,7 @@ ExportSheet::ExportSheet(const EditorModel& project, const Actuators& profiles, 
     format.setTitle("Format");
     format.setTooltip("Format of the exported files");
     for (const ClipFormat& one : exportFormats())
-        format.addItem(tr(toText(one.title)) + "  " + toText(one.extension), format.getNumItems() + 1);
+        format.addItem(nameOf(one), format.getNumItems() + 1);
     const auto& formats = exportFormats();
     const auto known = std::find_if(formats.begin(), formats.end(),
                                     [this](const ClipFormat& one) { return one.name == memory.format; });
@@ -194,7 +200,7 @@ void ExportSheet::chooseAlso()
     {
         const bool ticked = std::find(also.begin(), also.end(), one.name) != also.end();
         const bool chosen = one.name == chosenFormat().name;
-        menu.addItem(tr(toText(one.title)) + "  " + toText(one.extension), !chosen, chosen || ticked,
+        menu.addItem(nameOf(one), !chosen, chosen || ticked,
                      [this, name = std::string(one.name), ticked]
                      {
                          setAlso(name, !ticked);
