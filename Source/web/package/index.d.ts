@@ -204,9 +204,9 @@ export interface WriteOptions extends Stoppable {
   frequencyPoints?: number
   /** Write several files, in formats that allow one or several [off] */
   split?: boolean
-  /** Skip the search for the best file (hjif): much faster, usually a little less like the sound [off] */
+  /** Skip the search for the best file (hjif, hmpg): much faster, usually a little less like the sound [off] */
   quick?: boolean
-  /** How events are written (haptic, ahap, hjif): as transients, with the voice ducked around them, or merged into the voice where it is as strong [transients; merged in hjif] */
+  /** How events are written (haptic, ahap, hjif, hmpg, pulsar): as transients, with the voice ducked around them, or merged into the voice where it is as strong [transients; merged in hjif and hmpg] */
   events?: 'transients' | 'merged'
   /** Maximum number of control points in an Android envelope, at any cost in detail (2 to 1000) [any number] */
   maxPoints?: number
