@@ -238,7 +238,7 @@ TEST_CASE("Nothing on the start page is cut off or lies on another, in a low win
         for (juce::Component* child : page.getChildren())
             if (child->isVisible())
                 placed.push_back(child);
-        CHECK(placed.size() >= 9);
+        CHECK(placed.size() >= (size.y < 500 ? 8u : 9u)); // a row that has no room is left out
         for (std::size_t i = 0; i < placed.size(); ++i)
         {
             CAPTURE(size.x, placed[i]->getTitle(), placed[i]->getBounds().toString());

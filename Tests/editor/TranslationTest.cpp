@@ -111,9 +111,10 @@ TEST_CASE("No page, sheet or menu of the editor has a text that bypasses the tab
                                   ".json",       ".wav",
                                   ".haptic",     ".ahap",
                                   ".hjif",       ".haps",
-                                  ".pulsar",     ".xml",
-                                  ".java",       ".tact",
-                                  ".csv",        ".pacb"};
+                                  ".pulsar",     ".hmpg",
+                                  ".xml",        ".java",
+                                  ".tact",       ".csv",
+                                  ".pacb"};
     test::addUnmarked(bench.view, names, found); // without a clip
     bench.openDemo("knock_wood_bridge");
     bench.view.doCommand(editor::addMarker);

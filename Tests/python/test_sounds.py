@@ -317,7 +317,7 @@ class Arrays(FolderTest):
         pacini.write_audio(felt / "a.wav", knocks(0.4), RATE)  # what was rendered counts, not its clip
         clip.save(felt / "deep/c.pacb")
         pacini.write_audio(felt / "d.wav", knocks(0.4), RATE)
-        pacini.write_audio(felt / "d.flac", knocks(0.4), RATE)
+        pacini.write_audio(felt / "d.flac", knocks(0.4), RATE, encoding="pcm16")
         clip.save(felt / "alone.pacb")
         with self.assertWarnsRegex(UserWarning, "alone.pacb: has no reference"):
             found = dict(pacini.compare_files(sounds, felt, threads=2))

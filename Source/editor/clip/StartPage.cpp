@@ -377,7 +377,7 @@ void StartPage::paint(juce::Graphics& g)
                    juce::Justification::centredLeft);
     };
     heading(*feltBy.front(), tr("What will feel it?"));
-    if (!recentButtons.empty())
+    if (!recentButtons.empty() && recentButtons.front()->isVisible())
         heading(*recentButtons.front(), tr("Recent projects"));
 
     const auto drop = dropArea();
@@ -419,24 +419,24 @@ void StartPage::resized()
     auto area = left();
     openButton.setBounds(dropArea().reduced(2 * grid).removeFromBottom(startRowHeight));
     area.removeFromTop(dropArea().getHeight() + (area.getHeight() < roomForAll ? 4 : 6) * grid);
+    // In a low window, what has no room is left out, the list of all outputs last.
+    const auto place = [&area](juce::Component& button, int below)
+    {
+        const bool fits = area.getHeight() >= startRowHeight + below;
+        button.setVisible(fits);
+        button.setBounds(fits ? area.removeFromTop(startRowHeight) : juce::Rectangle<int>());
+        area.removeFromTop(fits ? grid / 2 : 0);
+    };
+    constexpr int roomForOutputs = startRowHeight + 3 * grid / 2;
     for (const auto& button : feltBy)
-    {
-        button->setBounds(area.removeFromTop(startRowHeight));
-        area.removeFromTop(grid / 2);
-    }
+        place(*button, roomForOutputs);
     for (const auto& button : found)
-    {
-        button->setBounds(area.removeFromTop(startRowHeight));
-        area.removeFromTop(grid / 2);
-    }
+        place(*button, roomForOutputs);
     area.removeFromTop(grid); // it is no choice of these
-    outputsButton.setBounds(area.removeFromTop(startRowHeight));
-    area.removeFromTop(5 * grid);
+    place(outputsButton, 0);
+    area.removeFromTop(9 * grid / 2);
     for (const auto& button : recentButtons)
-    {
-        button->setBounds(area.removeFromTop(startRowHeight));
-        area.removeFromTop(grid / 2);
-    }
+        place(*button, 0);
     auto beside = right();
     auto head = beside.removeFromTop(4 * grid);
     hoverButton.setBounds(head.removeFromRight(15 * grid));

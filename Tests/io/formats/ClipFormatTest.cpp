@@ -209,7 +209,7 @@ TEST_CASE("The first format that is written to an extension is that of its files
         CHECK(format.companion == (format.name == "ahap" ? "-transients" : ""));
         CHECK((format.isRead() || format.isWritten()));
     }
-    CHECK(names.size() == 24);
+    CHECK(names.size() == 25);
     const std::vector<std::pair<LossKind, std::string>> kinds{
         {LossKind::bands, "bands"},         {LossKind::points, "points"},     {LossKind::length, "length"},
         {LossKind::frequency, "frequency"}, {LossKind::timeStep, "timeStep"}, {LossKind::amplitude, "amplitude"},
@@ -309,5 +309,6 @@ TEST_CASE("The table says how each format writes events unless something else is
         if (format.events)
             choices.insert(format.name);
     }
-    CHECK(choices == std::set<std::string_view>{"ahap", "haptic", "hjif", "pulsar"}); // as the help of --events says
+    CHECK(choices ==
+          std::set<std::string_view>{"ahap", "haptic", "hjif", "hmpg", "pulsar"}); // as the help of --events says
 }

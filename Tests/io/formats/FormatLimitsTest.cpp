@@ -209,8 +209,9 @@ TEST_CASE(".haps: times are 0 to 24 hours and gains 0 to 1000", "[formats]")
     CHECK(wide.clip.bands.at(0).lowFrequency == 1.0);
     CHECK(wide.clip.bands.at(0).highFrequency == 20000.0);
     CHECK(wide.clip.bands.at(0).centreFrequency == Approx(std::sqrt(20000.0)));
-    CHECK(limitsTaken("haps", wave("0", "1", "1", point("0", "1"), point("0", "0.5"))).warnings ==
-          std::vector<std::string>{pitch + ".m_value: is outside of 1 to 20000 and is limited to this range"});
+    CHECK(
+        limitsTaken("haps", wave("0", "1", "1", point("0", "1"), point("0", "0.5") + "," + point("1", "2"))).warnings ==
+        std::vector<std::string>{pitch + ".m_value: is outside of 1 to 20000 and is limited to this range"});
     CHECK(limitsTaken("haps", wave("0", "1", "1", point("0", "1"), point("0", "20001")))
               .clip.bands.at(0)
               .centreFrequency == 20000.0);

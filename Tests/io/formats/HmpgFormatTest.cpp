@@ -12,6 +12,8 @@
 
 #include <pacini/synthesis/Decoder.h>
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -119,12 +121,16 @@ TEST_CASE("Files of the MPEG reference program are what they were as HJIF", "[io
 TEST_CASE("Wavelets of the MPEG reference program are read from HMPG", "[io][hmpg]")
 {
     std::ifstream stream(testFolder() / "fuzz" / "corpus" / "hjif" / "wavelets", std::ios::binary);
-    const std::string text{std::istreambuf_iterator<char>(stream), {}};
-    const auto wanted = readHjif(text);
+    auto tree = nlohmann::json::parse(stream);
+    for (auto& band : tree["perceptions"][0]["channels"][0]["bands"])
+        if (band["band_type"] == "WaveletWave")
+            band["effects"].erase(band["effects"].begin() + 1,
+                                  band["effects"].end()); // that program writes one in 128 ms
+    const auto wanted = readHjif(tree.dump());
     const auto read = readHmpg(referenceFile("wavelets"));
     REQUIRE(wanted);
     REQUIRE(read);
-    checkAlike(read->clip, wanted->clip, 1e-3);
+    CHECK(likeness(drive(read->clip), drive(wanted->clip)) > 30.0);
 }
 
 TEST_CASE("HMPG is written as the reference program writes it", "[io][hmpg]")
@@ -139,12 +145,14 @@ TEST_CASE("HMPG is written as the reference program writes it", "[io][hmpg]")
     const std::string& bytes = written->files.front().bytes;
     CHECK(isHmpg(bytes));
     CHECK(bytes.substr(0, 5) == referenceFile("reference").substr(0, 5));
-    CHECK(bytes.substr(8, 50) == referenceFile("reference").substr(8, 50)); // timing and head
+    CHECK(bytes.substr(9, 70) == referenceFile("reference").substr(9, 70)); // timing and head, behind the unit's length
     const auto again = readHmpg(bytes);
     REQUIRE(again);
     CHECK(again->clip.transients.size() == read->clip.transients.size());
     CHECK(std::abs(again->clip.duration - read->clip.duration) < 0.002);
-    CHECK(likeness(drive(again->clip), drive(read->clip)) > 25.0);
+    const auto text = readHjif(writeHjif(read->clip, params)->files.front().bytes);
+    REQUIRE(text);
+    CHECK(likeness(drive(again->clip), drive(text->clip)) > 30.0);
 }
 
 TEST_CASE("HMPG keeps what HJIF keeps, but for its steps", "[io][hmpg]")
@@ -160,7 +168,7 @@ TEST_CASE("HMPG keeps what HJIF keeps, but for its steps", "[io][hmpg]")
         REQUIRE(text.ok() == bits.ok());
         if (!text)
             continue;
-        CHECK(bits->files.front().bytes.size() < text->files.front().bytes.size() / 4);
+        CHECK(bits->files.front().bytes.size() < text->files.front().bytes.size() / 2);
         const auto fromText = readHjif(text->files.front().bytes);
         const auto fromBits = readHmpg(bits->files.front().bytes);
         REQUIRE(fromText);

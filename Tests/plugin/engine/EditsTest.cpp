@@ -162,6 +162,7 @@ TEST_CASE("Each side has its own settings, actuator and steps; B begins as A was
     const TempFolder folder;
     auto own = randomProfile(4);
     own.name = "bench rig 7";
+    own.shortName.clear();
     REQUIRE(writeProfile(folder / "own.json", own));
     PluginProcessor plugin;
     plugin.chooseProgram(1);

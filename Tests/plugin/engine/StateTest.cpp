@@ -65,6 +65,7 @@ TEST_CASE("An actuator from a file is kept by its content")
     const TempFolder folder;
     auto profile = randomProfile(4);
     profile.name = "bench rig 7";
+    profile.shortName.clear();
     REQUIRE(writeProfile(folder / "own.json", profile));
     PluginProcessor first;
     REQUIRE(first.loadActuator(juce::File((folder / "own.json").string())));

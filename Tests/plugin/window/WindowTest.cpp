@@ -254,7 +254,7 @@ TEST_CASE("No text of the window bypasses the tables of translations")
     window.refresh();
     juce::StringArray found;
     juce::StringArray names{
-        "Pacini", "L5 wristband", "L5 test jig", "LRA",  "Coin ERM",
+        "Pacini", "L5 wristband", "L5 test jig", "LRA",  "Coin ERM", "iPhone (Taptic)",
         "iPhone", "DualSense",    "Joy-Con",     "Main", "Sidechain"}; // names of buses are the same for all hosts
     names.add(rig.plugin.actuatorName());
     test::addUnmarked(window, names, found);

@@ -125,7 +125,7 @@ public:
           params(wanted),
           most(limitsOfFile),
           losses(lossesFound),
-          gain(std::max(most.lowestGain, std::ceil(highestSum(clip, told) / most.gainStep) * most.gainStep))
+          gain(std::max(most.lowestGain, std::ceil(highestSum(clip, told) * most.gainSteps) / most.gainSteps))
     {
     }
 

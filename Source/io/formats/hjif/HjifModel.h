@@ -15,7 +15,7 @@ namespace pacini
 struct HjifModelParams
 {
     double lowestGain = 1.0; ///< of the channel; below 1 where amplitudes have few steps, which a quiet clip then uses
-    double gainStep = 0.001; ///< gains are multiples of it
+    double gainSteps = 1000.0;                                      ///< gains are multiples of 1 / gainSteps
     double longestEffect = std::numeric_limits<double>::infinity(); ///< s; a longer wave goes on in a further effect
 };
 

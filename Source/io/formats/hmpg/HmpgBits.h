@@ -71,6 +71,16 @@ public:
         return static_cast<std::int64_t>(value << (64 - count)) >> (64 - count);
     }
 
+    /// Passes over `count` bits.
+    void skip(std::uint64_t count)
+    {
+        place += static_cast<std::size_t>(count);
+        hasFailed = hasFailed || place / 8 + (place % 8 != 0 ? 1 : 0) > bytes.size();
+    }
+
+    /// Passes over a text as HmpgBitWriter::putText() writes it.
+    void skipText() { skip(8 * take(8)); }
+
     /// As HmpgBitWriter::putText() writes it.
     std::string takeText() { return takeBytes(take(8)); }
 

@@ -87,7 +87,10 @@ struct HmpgAmplitude
     static constexpr HmpgScale scale{8, -1.0, 1.0};
     static constexpr std::uint64_t silence = 127;
 
-    [[nodiscard]] static std::uint64_t codeOf(double value) { return value == 0.0 ? silence : scale.codeOf(value); }
+    [[nodiscard]] static std::uint64_t codeOf(double value)
+    {
+        return std::abs(value) < 1e-6 ? silence : scale.codeOf(value);
+    }
     [[nodiscard]] static double valueOf(std::uint64_t code) { return code == silence ? 0.0 : scale.valueOf(code); }
 };
 

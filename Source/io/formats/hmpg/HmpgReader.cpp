@@ -6,12 +6,14 @@
 
 #include <fmt/format.h>
 
-#include <array>
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
-#include <map>
 #include <optional>
-#include <set>
+#include <span>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace pacini
 {
@@ -19,6 +21,7 @@ namespace pacini
 namespace
 {
 constexpr std::size_t mostEffectsRead = 1'000'000, mostKeyframesRead = 5'000'000;
+constexpr std::size_t mostChannels = 4096;
 constexpr std::size_t mostTimelines = 32; // one inside of the other
 
 bool isSpatial(std::string_view modality)
@@ -49,6 +52,7 @@ std::string streamText(std::string_view bytes)
     return text;
 }
 
+/// Lists grow by emplace_back() alone, as those of the JSON reader, whose code this shares in libpacini.
 class Reader
 {
 public:
@@ -71,11 +75,20 @@ public:
     }
 
 private:
-    using Key = std::pair<std::size_t, std::size_t>;
+    static constexpr std::size_t none = SIZE_MAX;
+
+    /// Where a channel is, by the index of its perception and its number.
+    struct Channel
+    {
+        std::size_t perception;
+        std::uint64_t number;
+        std::size_t index;
+    };
+
     struct Place
     {
-        std::size_t perception, channel, band;
-        std::map<std::uint64_t, std::size_t> effects; ///< indices by number
+        std::size_t perception = none, channel = 0, band = 0;
+        std::vector<std::uint32_t> effects; ///< index + 1 by number
     };
 
     void fail(std::size_t at, const std::string& message, ErrorCode code = ErrorCode::invalidData)
@@ -94,7 +107,7 @@ private:
         }
         HmpgBitReader head(bytes.substr(at, hmpgUnitHeader));
         const std::uint64_t kind = head.take(6);
-        head.take(2 + 4);
+        head.skip(2 + 4);
         const std::uint64_t ticks = head.take(24), length = head.take(32);
         const std::size_t first = at + hmpgUnitHeader;
         if (length > bytes.size() - first)
@@ -115,8 +128,10 @@ private:
 
     void leaveOut(std::size_t at, const std::string& what)
     {
-        if (leftOut.insert(what).second)
-            warnings.push_back(fmt::format("byte {}: {} is left out", at, what));
+        if (std::find(leftOut.begin(), leftOut.end(), what) != leftOut.end())
+            return;
+        leftOut.push_back(what);
+        warnings.push_back(fmt::format("byte {}: {} is left out", at, what));
     }
 
     /// Returns where the next packet of the unit that ends at `end` begins.
@@ -187,9 +202,9 @@ private:
     void readHead(HmpgBitReader& bits)
     {
         version = bits.takeText();
-        bits.takeText(); // profile
-        bits.take(8);    // level
-        bits.takeText(); // date
+        bits.skipText(); // profile
+        bits.skip(8);    // level
+        bits.skipText(); // date
         file.description = bits.takeText();
         // Perceptions come in packets of their own; nothing is played by avatars.
     }
@@ -198,38 +213,40 @@ private:
     {
         HjifPerception perception;
         const std::uint64_t number = bits.take(8);
-        bits.take(8); // priority
-        bits.takeText();
+        bits.skip(8); // priority
+        bits.skipText();
         perception.modality = nameOf(hmpgModalities, bits.take(8), "modality");
-        bits.take(8 + 16); // avatar, effects of the library
+        bits.skip(8 + 16); // avatar, effects of the library
         if (bits.take(1) == 1)
-            bits.takeText(); // scheme of meanings
-        bits.take(8);        // exponent of the unit
+            bits.skipText(); // scheme of meanings
+        bits.skip(8);        // exponent of the unit
         perception.unitExponent = static_cast<double>(bits.takeSigned(8));
         // Units of the reference devices that follow change nothing of what is played.
-        if (perceptions.emplace(number, file.perceptions.size()).second) // again in each initialisation
-            file.perceptions.push_back(std::move(perception));
+        if (perceptions[number] != none)
+            return; // again in each initialisation
+        perceptions[number] = file.perceptions.size();
+        file.perceptions.emplace_back() = std::move(perception);
     }
 
     void readChannel(HmpgBitReader& bits)
     {
         HjifChannel channel;
         const std::uint64_t number = bits.take(16);
-        const auto owner = perceptions.find(bits.take(8));
-        bits.take(8); // priority
-        bits.takeText();
-        bits.take(8); // reference device
+        const std::size_t owner = perceptions[bits.take(8)];
+        bits.skip(8); // priority
+        bits.skipText();
+        bits.skip(8); // reference device
         channel.gain = hmpgGain.valueOf(bits.take(hmpgGain.bits));
-        bits.take(hmpgMixing.bits);
+        bits.skip(hmpgMixing.bits);
         const std::uint64_t has = bits.take(8);
         if ((has & 1u) != 0)
-            bits.take(32); // mask of body parts
+            bits.skip(32); // mask of body parts
         else if ((has & 2u) != 0)
         {
-            bits.take(3 * 8); // resolution
-            bits.takeText();  // parts of the body, a byte each
+            bits.skip(3 * 8); // resolution
+            bits.skipText();  // parts of the body, a byte each
             for (std::uint64_t n = bits.take(8); n > 0 && !bits.failed(); --n)
-                bits.take(3 * 8);
+                bits.skip(3 * 8);
         }
         if (const std::uint64_t rate = bits.take(32); rate > 0)
         {
@@ -237,20 +254,32 @@ private:
             channel.samples = static_cast<double>(bits.take(32));
         }
         // Direction and vertices follow.
-        if (owner == perceptions.end())
+        if (owner == none)
             return fail(place, "is a channel of no perception");
-        auto& siblings = file.perceptions[owner->second].channels;
-        if (channels.emplace(Key{owner->second, number}, siblings.size()).second)
-            siblings.push_back(std::move(channel));
+        if (channelOf(owner, number) != none)
+            return;
+        if (!isWithin(channels.size() + 1, mostChannels, "channels"))
+            return;
+        auto& siblings = file.perceptions[owner].channels;
+        channels.push_back({owner, number, siblings.size()});
+        siblings.emplace_back() = std::move(channel);
+    }
+
+    [[nodiscard]] std::size_t channelOf(std::size_t perception, std::uint64_t number) const
+    {
+        for (const Channel& known : channels)
+            if (known.perception == perception && known.number == number)
+                return known.index;
+        return none;
     }
 
     void readBand(HmpgBitReader& bits)
     {
         HjifBand band;
         const std::uint64_t number = bits.take(8);
-        const auto owner = perceptions.find(bits.take(8));
-        const std::uint64_t channelNumber = bits.take(16);
-        bits.take(8); // priority
+        const std::size_t owner = perceptions[bits.take(8)];
+        const std::size_t channel = channelOf(owner, bits.take(16));
+        bits.skip(8); // priority
         band.type = nameOf(hmpgBandTypes, bits.take(3), "type of band");
         if (band.type == "Curve")
             band.curve = nameOf(hmpgCurves, bits.take(4), "curve");
@@ -258,23 +287,24 @@ private:
             band.blockLength = static_cast<double>(bits.take(8));
         band.low = static_cast<double>(bits.take(16));
         band.high = static_cast<double>(bits.take(16));
-        if (owner == perceptions.end() || !channels.contains({owner->second, channelNumber}))
+        if (channel == none)
             return fail(place, "is a band of no channel");
-        const std::size_t channel = channels[{owner->second, channelNumber}];
-        auto& siblings = file.perceptions[owner->second].channels[channel].bands;
-        if (bands.emplace(number, Place{owner->second, channel, siblings.size(), {}}).second)
-            siblings.push_back(std::move(band));
+        if (bands[number].perception != none)
+            return;
+        auto& siblings = file.perceptions[owner].channels[channel].bands;
+        bands[number] = {owner, channel, siblings.size(), {}};
+        siblings.emplace_back() = std::move(band);
     }
 
     void readLibrary(HmpgBitReader& bits)
     {
-        const auto owner = perceptions.find(bits.take(8));
-        if (owner == perceptions.end())
+        const std::size_t owner = perceptions[bits.take(8)];
+        if (owner == none)
             return fail(place, "is a library of no perception");
-        auto& library = file.perceptions[owner->second].library;
+        auto& library = file.perceptions[owner].library;
         library.clear(); // again in each initialisation
         for (std::uint64_t n = bits.take(16); n > 0 && !bits.failed() && !error; --n)
-            library.push_back(libraryEffect(bits, 0));
+            library.emplace_back() = libraryEffect(bits, 0);
     }
 
     HjifEffect libraryEffect(HmpgBitReader& bits, std::size_t depth)
@@ -302,7 +332,7 @@ private:
                 keyframe.amplitude = HmpgAmplitude::valueOf(bits.take(8));
             if ((has & 4u) != 0)
                 keyframe.frequency = static_cast<double>(bits.take(16));
-            effect.keyframes.push_back(keyframe);
+            effect.keyframes.emplace_back() = keyframe;
         }
         for (std::uint64_t n = bits.take(16); n > 0 && !bits.failed() && countEffect(); --n)
             libraryEffect(bits, depth + 1); // Composite effects are left out with a warning of the import
@@ -319,23 +349,22 @@ private:
     static void skipMeaning(HmpgBitReader& bits)
     {
         if (bits.take(1) == 1)
-            bits.take(12);
+            bits.skip(12);
     }
 
     void readData(HmpgBitReader& bits)
     {
-        bits.take(1 + 8 + 16); // kind of access, perception, channel: a band's number says them
-        const auto found = bands.find(bits.take(8));
-        if (found == bands.end())
+        bits.skip(1 + 8 + 16); // kind of access, perception, channel: a band's number says them
+        Place& target = bands[bits.take(8)];
+        if (target.perception == none)
             return fail(place, "has data of no band");
-        Place& target = found->second;
         const HjifPerception& perception = file.perceptions[target.perception];
         HjifBand& band = file.perceptions[target.perception].channels[target.channel].bands[target.band];
         if (isSpatial(perception.modality))
             return; // has another layout, and the import leaves it out with a warning
         for (std::uint64_t n = bits.take(16); n > 0 && !bits.failed() && countEffect(); --n)
             if (band.type == "WaveletWave")
-                band.effects.push_back(block(bits, band));
+                band.effects.emplace_back() = block(bits, band);
             else
                 addEffect(bits, band, target);
     }
@@ -343,7 +372,7 @@ private:
     HjifEffect block(HmpgBitReader& bits, const HjifBand& band)
     {
         HjifEffect effect;
-        bits.take(16); // number
+        bits.skip(16); // number
         effect.type = nameOf(hmpgEffects, bits.take(2), "type of effect");
         skipMeaning(bits);
         effect.position = static_cast<double>(band.effects.size()) * band.blockLength.value_or(0.0);
@@ -361,19 +390,23 @@ private:
         if (type != 0)
         {
             effect.id = static_cast<double>(number);
-            band.effects.push_back(std::move(effect));
+            band.effects.emplace_back() = std::move(effect);
             return;
         }
         skipMeaning(bits);
         const std::uint64_t here = bits.take(16);
         if (band.type == "VectorialWave")
             readWave(effect, bits);
-        const auto [known, isNew] = target.effects.emplace(number, band.effects.size());
-        if (isNew)
-            band.effects.push_back(std::move(effect));
-        HjifEffect& whole = band.effects[known->second];
+        target.effects.resize(65536);
+        std::uint32_t& known = target.effects[number];
+        if (known == 0)
+        {
+            band.effects.emplace_back() = std::move(effect);
+            known = static_cast<std::uint32_t>(band.effects.size());
+        }
+        HjifEffect& whole = band.effects[known - 1];
         for (std::uint64_t n = here; n > 0 && !bits.failed() && countKeyframe(); --n)
-            whole.keyframes.push_back(keyframe(bits, band.type));
+            whole.keyframes.emplace_back() = keyframe(bits, band.type);
     }
 
     static HjifKeyframe keyframe(HmpgBitReader& bits, std::string_view type)
@@ -388,26 +421,21 @@ private:
         return made;
     }
 
-    template <std::size_t size>
-    std::string nameOf(const std::array<std::string_view, size>& names, std::uint64_t code, const char* what)
+    std::string_view nameOf(std::span<const std::string_view> names, std::uint64_t code, const char* what)
     {
-        if (code < size)
-            return std::string(names[static_cast<std::size_t>(code)]);
-        fail(place, fmt::format("has the {} {}, and the last one known is {}", what, code, size - 1));
+        if (code < names.size())
+            return names[static_cast<std::size_t>(code)];
+        fail(place, fmt::format("has the {} {}, and the last one known is {}", what, code, names.size() - 1));
         return {};
     }
 
-    [[nodiscard]] bool countEffect()
-    {
-        if (++effects > mostEffectsRead)
-            fail(place, fmt::format("has more than {} effects", mostEffectsRead), ErrorCode::tooLarge);
-        return !error;
-    }
+    [[nodiscard]] bool countEffect() { return isWithin(++effects, mostEffectsRead, "effects"); }
+    [[nodiscard]] bool countKeyframe() { return isWithin(++keyframes, mostKeyframesRead, "keyframes"); }
 
-    [[nodiscard]] bool countKeyframe()
+    [[nodiscard]] bool isWithin(std::size_t count, std::size_t most, const char* what)
     {
-        if (++keyframes > mostKeyframesRead)
-            fail(place, fmt::format("has more than {} keyframes", mostKeyframesRead), ErrorCode::tooLarge);
+        if (count > most)
+            fail(place, fmt::format("has more than {} {}", most, what), ErrorCode::tooLarge);
         return !error;
     }
 
@@ -416,10 +444,10 @@ private:
     HjifFile file;
     std::string version;
     std::optional<Error> error;
-    std::map<std::uint64_t, std::size_t> perceptions; ///< indices by number
-    std::map<Key, std::size_t> channels;              ///< likewise, by perception and number
-    std::map<std::uint64_t, Place> bands;             ///< by number
-    std::set<std::string> leftOut;
+    std::vector<std::size_t> perceptions = std::vector<std::size_t>(256, none); ///< indices by number
+    std::vector<Channel> channels;
+    std::vector<Place> bands = std::vector<Place>(256); ///< by number
+    std::vector<std::string> leftOut;
     std::size_t place = 0, effects = 0, keyframes = 0;
     double time = 0.0; ///< ticks, of the unit
 };
@@ -431,9 +459,9 @@ bool isHmpg(std::string_view bytes)
         return false;
     HmpgBitReader bits(bytes);
     const bool initialises = bits.take(6 + 2) == 0;
-    bits.take(4); // layer
+    bits.skip(4); // layer
     const bool takesNoTime = bits.take(24) == 0;
-    bits.take(32 + 4);
+    bits.skip(32 + 4);
     return initialises && takesNoTime && bits.take(6) == static_cast<std::uint64_t>(HmpgPacket::firstTiming) &&
            bits.take(17) == hmpgFirstTiming;
 }

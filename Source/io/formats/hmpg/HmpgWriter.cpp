@@ -20,7 +20,7 @@ constexpr std::size_t mostEffects = 65536; // of one file: each has a number of 
 constexpr std::size_t longestText = 255;   // bytes
 
 /// A float of the reference reader tells gains apart that differ by this much.
-constexpr HjifModelParams limitsOfFile{.lowestGain = 0.125, .gainStep = 1.0 / 1024.0, .longestEffect = 60.0};
+constexpr HjifModelParams limitsOfFile{.lowestGain = 0.125, .gainSteps = 1024.0, .longestEffect = 60.0};
 
 std::uint64_t whole(double value)
 {
