@@ -243,10 +243,10 @@ private:
             bits.skip(32); // mask of body parts
         else if ((has & 2u) != 0)
         {
-            bits.skip(3 * 8); // resolution
-            bits.skipText();  // parts of the body, a byte each
+            bits.skip(24);   // resolution
+            bits.skipText(); // parts of the body, a byte each
             for (std::uint64_t n = bits.take(8); n > 0 && !bits.failed(); --n)
-                bits.skip(3 * 8);
+                bits.skip(24);
         }
         if (const std::uint64_t rate = bits.take(32); rate > 0)
         {
