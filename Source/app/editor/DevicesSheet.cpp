@@ -14,7 +14,6 @@ namespace pacini::app
 namespace
 {
 using editor::grid;
-constexpr int controllerPoll = 1000; // ms
 constexpr auto noController = "No supported controller connected";
 constexpr int none = 1; // menus know no item 0; channels follow
 } // namespace

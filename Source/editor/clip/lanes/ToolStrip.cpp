@@ -2,6 +2,7 @@
 #include "editor/clip/lanes/ToolStrip.h"
 
 #include "editor/Controls.h"
+#include "editor/Fonts.h"
 
 namespace pacini::editor
 {

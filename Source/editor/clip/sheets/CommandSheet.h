@@ -35,7 +35,8 @@ private:
     void paintListBoxItem(int row, juce::Graphics& g, int width, int height, bool selected) override;
     void listBoxItemClicked(int row, const juce::MouseEvent&) override;
     void returnKeyPressed(int) override { performSelected(); }
-    bool keyPressed(const juce::KeyPress& key, juce::Component*) override;
+    using Sheet::keyPressed;
+    bool keyPressed(const juce::KeyPress& key, juce::Component*) override; ///< of the field of words
     void layOut(juce::Rectangle<int> area) override;
     juce::Component* firstFocus() override { return &words; }
 

@@ -99,7 +99,7 @@ void LossTable::show(const std::vector<Part>& parts)
     for (const Part& part : parts)
     {
         if (part.title.isNotEmpty() && !part.losses.empty())
-            rows.push_back({.loss = part.title, .isTitle = true});
+            rows.push_back({.loss = part.title, .count = {}, .worst = {}, .place = {}, .isTitle = true});
         for (const LossGroup& group : groupedLosses(part.losses))
             rows.push_back({.loss = translateMessage(toText(group.worst.message)),
                             .count = juce::String(static_cast<int>(group.count)),

@@ -133,14 +133,14 @@ private:
     {
         chosen = row;
         waits = false;
-        if (auto* viewport = findParentComponentOfClass<juce::Viewport>())
+        if (auto* list = findParentComponentOfClass<juce::Viewport>())
         {
-            const auto seen = viewport->getViewArea();
+            const auto seen = list->getViewArea();
             const auto place = placeOf(row);
             if (place.getY() < seen.getY())
-                viewport->setViewPosition(0, place.getY());
+                list->setViewPosition(0, place.getY());
             else if (place.getBottom() > seen.getBottom())
-                viewport->setViewPosition(0, place.getBottom() - seen.getHeight());
+                list->setViewPosition(0, place.getBottom() - seen.getHeight());
         }
         if (hasKeyboardFocus(false))
             juce::AccessibilityHandler::postAnnouncement(rows[row].key + " " + rows[row].text,
