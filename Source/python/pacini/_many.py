@@ -112,7 +112,8 @@ def encode_files(
         if is_path(sound):
             return encode(sound, progress=go_on, **options)
         if isinstance(sound, tuple) and len(sound) == 2:
-            return encode(sound[0], sound[1], axis=axis, progress=go_on, **options)
+            samples, rate = cast("tuple[FloatArray, float]", sound)
+            return encode(samples, rate, axis=axis, progress=go_on, **options)
         return encode(cast(Sound, sound), sample_rate, axis=axis, progress=go_on, **options)
 
     return counted(_on_threads(todo, threads, one), len(todo), progress, "encoding")

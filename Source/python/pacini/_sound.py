@@ -716,7 +716,7 @@ def compare(
     late = sum(float(time) > end + 0.1 for time in onsets or ())
     if late:
         warnings.warn(
-            f"{late} of the {len(onsets or ())} onsets are after the end of the sound at {end:.2f} s; onsets are in seconds",
+            f"{late} of the {len(onsets or ())} onsets are after the end of the sound, {end:.2f} s; give seconds",
             stacklevel=2,
         )
     if is_path(candidate) and os.path.splitext(os.fsdecode(candidate))[1].lower() in _clip_extensions():
