@@ -86,6 +86,7 @@ COMPLETED = {
     "pacini lint CLIP --target NAME": "pacini lint door.json --target hjif",
     "pacini encode --method NAME": "pacini encode rain.wav -o rain.json --method thesis",
     "pacini encode --format NAME": "pacini encode rain.wav -o rain.ahap --format ahap",
+    "pacini encode --settings": "pacini encode --print-settings >own.json && pacini encode rain.wav -o r.json --settings own.json",
     "pacini measure simulate sweep.wav -o rec.wav --wearers 14": "",  # between the steps of the measurement, see WORLD
     "pacini bench methods FOLDER --sweep --markdown corpus.md": "pacini bench methods sounds --markdown corpus.md",
 }
