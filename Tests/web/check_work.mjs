@@ -206,7 +206,7 @@ try {
   }
   const theirs = await open(main.context, await linkOf({ ...fresh, name: 'theirs' }))
   await theirs.shown()
-  check('a link is opened', await until(async () => await theirs.name() === 'shared') && !theirs.tab.url().includes('#c='), theirs.tab.url())
+  check('a link is opened', await until(async () => await theirs.name() === 'shared' && !theirs.tab.url().includes('#c=')), theirs.tab.url())
   await theirs.addEvent(0.2)
   await wait(500)
   for (let i = 0; i < 3; ++i) {
