@@ -16,15 +16,6 @@ namespace pacini
 
 namespace
 {
-constexpr std::string_view blanks = " \t\r";
-
-std::string_view trimmed(std::string_view text)
-{
-    const auto first = text.find_first_not_of(blanks);
-    return first == std::string_view::npos ? std::string_view()
-                                           : text.substr(first, text.find_last_not_of(blanks) - first + 1);
-}
-
 bool isComment(std::string_view line)
 {
     return line.empty() || line.front() == '#' || line.front() == '*' || line.front() == ';' || line.starts_with("//");
@@ -33,13 +24,13 @@ bool isComment(std::string_view line)
 /// Takes the next cell off `line`.
 std::string_view takeCell(std::string_view& line, std::string_view separators)
 {
-    line = trimmed(line);
+    line = withoutBlanks(line);
     const auto end = line.find_first_of(separators);
     const auto cell = line.substr(0, end);
     line = end == std::string_view::npos ? std::string_view() : line.substr(end + 1);
-    auto text = trimmed(cell);
+    auto text = withoutBlanks(cell);
     if (text.size() >= 2 && text.front() == '"' && text.back() == '"')
-        text = trimmed(text.substr(1, text.size() - 2));
+        text = withoutBlanks(text.substr(1, text.size() - 2));
     return text;
 }
 
@@ -91,9 +82,9 @@ Result<std::vector<NumberRow>> readNumberTable(std::string_view bytes, const Num
     std::string_view text = *unmarked;
     std::vector<NumberRow> rows;
     bool headingSeen = false;
-    for (std::size_t number = 1; !text.empty(); ++number)
+    for (std::size_t number = takeSeparatorLine(text) ? 2 : 1; !text.empty(); ++number)
     {
-        const auto line = trimmed(takeLine(text));
+        const auto line = withoutBlanks(takeLine(text));
         if (isComment(line))
             continue;
         const Cells cells = splitLine(line, form.columns.size());

@@ -18,15 +18,6 @@ namespace pacini
 
 namespace
 {
-constexpr std::string_view blanksOfLine = " \t\r";
-
-std::string_view withoutBlanks(std::string_view text)
-{
-    const auto first = text.find_first_not_of(blanksOfLine);
-    return first == std::string_view::npos ? std::string_view()
-                                           : text.substr(first, text.find_last_not_of(blanksOfLine) - first + 1);
-}
-
 /// Seconds, `1:02.5` or `1:00:02.5`.
 std::optional<double> timeOf(std::string_view text)
 {
@@ -196,7 +187,7 @@ Result<void> forEachTimeLine(std::string_view text, const std::function<void(con
 {
     std::vector<std::pair<std::size_t, std::string_view>> lines; // with their numbers
     bool timesHavePoints = false;
-    for (std::size_t number = 1; !text.empty(); ++number)
+    for (std::size_t number = takeSeparatorLine(text) ? 2 : 1; !text.empty(); ++number)
     {
         const std::string_view line = withoutBlanks(takeLine(text));
         // A line that begins with a backslash holds the frequencies of Audacity's label before it.

@@ -210,10 +210,9 @@ Result<std::vector<Rating>> ratingsOfCsv(std::string_view bytes, const RatingCol
     if (isOld && warnings != nullptr)
         warnings->emplace_back("is not UTF-8, and was read as Latin-1 (Windows-1252)");
     std::string_view rest = text;
-    const std::string_view first = rest.empty() ? rest : takeLine(rest);
-    const bool tellsSeparator = first.size() == 5 && first.starts_with("sep="); // for Excel
-    CsvLines lines(text, tellsSeparator ? first.back() : separatorOf(first));
-    if (tellsSeparator)
+    const std::optional<char> told = takeSeparatorLine(rest);
+    CsvLines lines(text, told.value_or(separatorOf(text.substr(0, text.find_first_of("\r\n")))));
+    if (told)
         (void)lines.next();
     const auto heading = lines.next().value_or(std::vector<std::string>());
     const auto places = placesIn(heading, columns);

@@ -95,13 +95,14 @@ Result<WordCategories> WordCategories::ofCsv(std::string_view bytes)
     const std::string decoded = isUtf8(*unmarked) ? std::string(*unmarked) : utf8OfWindows1252(*unmarked);
     std::string_view text = decoded;
     WordCategories categories;
-    std::size_t number = 0;
+    const std::size_t first = takeSeparatorLine(text) ? 2 : 1;
+    std::size_t number = first - 1;
     while (!text.empty())
     {
         ++number;
         const std::string_view line = takeLine(text);
         if (line.empty() ||
-            (number == 1 && (line == "category,word" || line == "category;word" || line == "category\tword")))
+            (number == first && (line == "category,word" || line == "category;word" || line == "category\tword")))
             continue;
         const std::size_t comma = line.find_first_of(",;\t");
         if (comma == std::string_view::npos || comma == 0 || comma + 1 == line.size())

@@ -63,7 +63,8 @@ TEST_CASE("Tables of audio editors and lines of every system are times", "[io]")
           "Name\tStart\tDuration\tTime Format\tType\tDescription\nMarker 01\t0:00.120\t0:00.000\tdecimal\tCue\t\n"
           "Marker 02\t0:00.800\t0:00.000\tdecimal\tCue\t\n", // Audition
           "\"time\",\"label\"\n\"0,12\",\"a, b\"\n\"0.8\",\"c\"\n", "time;label\n0,12;x\n0,8;y\n",
-          "onset_time (s),label\n0.12,x\n0.8,y\n", "Label,Time\n1,0.12\n2,0.8", "0:00.12\n0:00:00.8"})
+          "sep=;\r\ntime;label\r\n0,12;x\r\n0,8;y\r\n", "onset_time (s),label\n0.12,x\n0.8,y\n",
+          "Label,Time\n1,0.12\n2,0.8", "0:00.12\n0:00:00.8"})
     {
         CAPTURE(text);
         const auto onsets = readOnsetText(text);
@@ -73,6 +74,7 @@ TEST_CASE("Tables of audio editors and lines of every system are times", "[io]")
     CHECK(*readOnsetText("1:02.5\n1:00:00")->find("x.wav") == std::vector<double>{62.5, 3600.0});
     CHECK(failureText("0:61") == "line 1: \"0:61\" is not a time in seconds, 0 or more");
     CHECK(failureText("Name,Start\nM1,1.1.00") == "line 2: \"1.1.00\" is not a time in seconds, 0 or more");
+    CHECK(failureText("sep=,\nName,Start\nM1,x") == "line 3: \"x\" is not a time in seconds, 0 or more");
     CHECK(failureText("Name,Start\nM1") == "line 2: \"\" is not a time in seconds, 0 or more");
     CHECK(failureText("Name,Length\nM1,2") == "line 1: \"Name\" is not a time in seconds, 0 or more");
 

@@ -37,6 +37,7 @@ TEST_CASE("Responses are read as measuring programs write them")
 {
     checkIsNumbered(readResponseTable(numbered("{},{}\n")));
     checkIsNumbered(readResponseTable("frequency,dB\r\n" + numbered("{}.0, {}\r\n")));
+    checkIsNumbered(readResponseTable("sep=;\nfrequency;dB\n" + numbered("{};{}\n")));
     checkIsNumbered(readResponseTable("frequency,dB\r" + numbered("{}.0, {}\r"))); // an old Macintosh
     checkIsNumbered(readResponseTable("\xEF\xBB\xBF\"frequency\";\"raw\"\n" + numbered("{},0;{},00\n")));
     checkIsNumbered(readResponseTable("* Freq(Hz) SPL(dB) Phase(degrees)\n" + numbered("{}  {} 12.5\n")));

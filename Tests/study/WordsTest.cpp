@@ -30,6 +30,7 @@ TEST_CASE("Categories come from a table, the longest beginning first")
     CHECK(table->categoryOf("stark") == "intensity");
     CHECK(table->categoryOf("starker").empty());
     CHECK(WordCategories::ofCsv("a,b\nnothing\n").error().where == "line 2");
+    CHECK(WordCategories::ofCsv("sep=;\ncategory;word\na;b\n")->names() == std::vector<std::string>{"a"});
     CHECK(WordCategories::ofCsv("a,b\rc,d\r")->names() == std::vector<std::string>{"a", "c"}); // an old Macintosh
     CHECK_FALSE(WordCategories::ofCsv(""));
 }

@@ -77,7 +77,7 @@ public:
 
     void read(std::string_view text)
     {
-        std::size_t number = 0;
+        std::size_t number = takeSeparatorLine(text) ? 1 : 0;
         while (!text.empty() && !error)
         {
             const std::string_view line = takeLine(text);
