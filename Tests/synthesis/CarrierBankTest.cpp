@@ -65,6 +65,21 @@ TEST_CASE("Carriers follow their curves as the definition in long double says", 
     }
 }
 
+TEST_CASE("Carriers that begin at whole quarters of a turn have exact zeros and ones there", "[synthesis]")
+{
+    for (const double start : {0.0, 0.25, 0.5, 0.75, 1.0, -0.25, 1e6 + 0.5})
+    {
+        Carrier carrier;
+        carrier.phase = start;
+        carrier.amplitude = {{0.0, 1.0}};
+        carrier.frequency = {{0.0, 0.1}};
+        CarrierBank bank({carrier});
+        const auto y = play(bank, 1, 1);
+        const double quarter = start - std::floor(start);
+        REQUIRE(y[0] == (quarter == 0.25 ? 1.0 : quarter == 0.75 ? -1.0 : 0.0));
+    }
+}
+
 TEST_CASE("Carriers do not depend on the block size and start over after reset", "[synthesis]")
 {
     Carrier carrier{
