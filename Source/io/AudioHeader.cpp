@@ -66,6 +66,14 @@ std::optional<std::uint64_t> nextChunk(ByteWindow& file, const ChunkLayout& layo
     return offset + whole;
 }
 
+/// Where the chunk begins that follows one whose content ends at `next`: chunks of odd length may lack the byte of
+/// padding behind them.
+std::uint64_t behindPadding(ByteWindow& file, const ChunkLayout& layout, std::uint64_t next, std::uint64_t begin)
+{
+    const auto padded = aligned(layout, next, begin);
+    return padded == next || hasId(file, layout, padded) || !hasId(file, layout, next) ? padded : next;
+}
+
 std::optional<AudioChunk> walk(ByteWindow& file, const ChunkLayout& layout, std::uint64_t begin, std::uint64_t end)
 {
     const auto headerBytes = layout.idBytes + layout.sizeBytes;
@@ -97,7 +105,7 @@ std::optional<AudioChunk> walk(ByteWindow& file, const ChunkLayout& layout, std:
         const auto next = nextChunk(file, layout, offset, end);
         if (!next)
             return {};
-        offset = aligned(layout, *next, begin);
+        offset = behindPadding(file, layout, *next, begin);
     }
     return {};
 }
@@ -163,10 +171,8 @@ std::optional<std::uint64_t> endOfChunks(ByteWindow& file, const ChunkLayout& la
         const auto next = nextChunk(file, layout, offset, end);
         if (!next || *next > end)
             return {};
-        // A chunk of odd length may lack the byte behind it.
         const auto padded = aligned(layout, *next, 0);
-        const bool isPadded = padded >= end || hasId(file, layout, padded) || !hasId(file, layout, *next);
-        offset = isPadded ? padded : *next;
+        offset = padded >= end ? padded : behindPadding(file, layout, *next, 0);
     }
     return {};
 }
@@ -187,9 +193,7 @@ std::vector<FileChunk> chunksOf(ByteWindow& file, std::uint64_t begin, std::uint
         const auto content = std::min(end, offset + headerBytes);
         if (!isAudio)
             chunks.push_back({offset, content, std::min(next, end) - content});
-        // A chunk of odd length may lack the byte behind it.
-        const auto padded = aligned(*layout, next, begin);
-        offset = hasId(file, *layout, padded) || !hasId(file, *layout, next) ? padded : next;
+        offset = behindPadding(file, *layout, next, begin);
     }
     return chunks;
 }

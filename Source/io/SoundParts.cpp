@@ -172,6 +172,7 @@ private:
             addMpegInside(*found, begin);
             return next;
         }
+        addPadding(part, *found);
         // AIFF says how many bytes of its audio chunk lie before the first frame, to place it on a disc: hardly ever.
         if (!found->layout || found->layout->fileId != "FORM")
             return next;
@@ -182,6 +183,35 @@ private:
         else
             part.skippedBytes = offset;
         return next;
+    }
+
+    /// Lets a file begin later whose audio chunk follows one of odd length without padding, where libsndfile does not
+    /// look for it: header and format are read again in front of the audio chunk.
+    void addPadding(SoundPart& part, const AudioChunk& chunk)
+    {
+        const auto* layout = chunk.layout;
+        if (!layout || (layout->fileId != "RIFF" && layout->fileId != "FORM"))
+            return;
+        const auto audio = chunk.sizeField - layout->idBytes;
+        if ((audio - part.begin) % layout->alignment == 0)
+            return;
+        constexpr std::string_view needed[] = {"fmt ", "fact", "FVER", "COMM"};
+        constexpr std::uint64_t largest = 4096;
+        auto header = bytesAt(part.begin, layout->firstChunk);
+        for (const FileChunk& piece : chunksOf(file, part.begin, audio, 0))
+            if (const auto whole = piece.content + piece.bytes - piece.offset;
+                piece.bytes % layout->alignment == 0 && piece.bytes <= largest &&
+                std::any_of(std::begin(needed), std::end(needed),
+                            [&](std::string_view id) { return file.has(piece.offset, id); }))
+                header += bytesAt(piece.offset, whole);
+        part.outerBegin = std::exchange(part.begin, audio - header.size());
+        part.patches.push_back({part.begin, std::move(header)});
+    }
+
+    std::string bytesAt(std::uint64_t offset, std::uint64_t count)
+    {
+        const auto bytes = file.at(offset, static_cast<std::size_t>(count));
+        return {bytes.begin(), bytes.end()};
     }
 
     /// Puts the MPEG audio inside a file of chunks, which begins at `begin`, in the place of that file.

@@ -235,6 +235,27 @@ TEST_CASE("Streamed files with an open length are read to their end", "[io][audi
     }
 }
 
+TEST_CASE("Chunks of odd length without the byte of padding do not hide the sound behind them", "[io][audio]")
+{
+    const TempFolder folder;
+    const auto plain = wavBytes({}, pcm16({1000, -2000, 3000, -4000}));
+    const auto data = plain.find("data");
+    const auto odd = "LIST" + littleEndian(17, 4) + "INFOISFT" + littleEndian(5, 4) + "Lame3";
+    const auto expected = readAudio(put(folder / "plain.wav", plain))->samples;
+    REQUIRE(expected.size() == 4);
+    for (const auto& between : {odd, odd + odd, odd + "JUNK" + littleEndian(4, 4) + "wxyz"})
+        for (const auto& behind : {std::string(), odd})
+        {
+            auto wav = plain;
+            wav.insert(data, between);
+            wav += behind;
+            const auto audio = readAudio(put(folder / "odd.wav", wav));
+            REQUIRE(audio.ok());
+            CHECK(audio->samples == expected);
+            CHECK(audio->warnings.empty());
+        }
+}
+
 TEST_CASE("A file without frames is correct and empty", "[io][audio]")
 {
     const TempFolder folder;
