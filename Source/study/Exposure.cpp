@@ -10,10 +10,20 @@ namespace pacini::study
 
 namespace
 {
-// Table A.1 of ISO 5349-1: corners of the band in Hz with their Q, and of the transition from acceleration to velocity.
-constexpr double f1 = 6.310, f2 = 1258.9, q1 = 0.71, f3 = 15.915, f4 = 15.915, q2 = 0.64;
 constexpr double turn = 2.0 * std::numbers::pi;
 constexpr double workday = 8.0 * 3600.0; // s
+
+/// Corners of the band in Hz with their Q, of the transition from acceleration to velocity, and of an upward step.
+struct Weighting
+{
+    double low, high, bandQ;
+    double transition, transitionQ;
+    double stepFrom, stepTo, stepQ; // no step where both are equal
+};
+
+// ISO 5349-1, table A.1 (Wh), and ISO 2631-1, table A.1 (Wk).
+constexpr Weighting handArm{6.310, 1258.9, 0.71, 15.915, 0.64, 1.0, 1.0, 1.0};
+constexpr Weighting vertical{0.4, 100.0, 0.7071, 12.5, 0.63, 2.37, 3.35, 0.91};
 
 /// A section of second order in transposed direct form II; state and coefficients in double.
 struct Section
@@ -46,14 +56,20 @@ double dailyExposure(double dose) noexcept
     return std::sqrt(std::max(dose, 0.0) / workday);
 }
 
-double doseOf(std::span<const float> acceleration, double sampleRate)
+double doseOf(std::span<const float> acceleration, double sampleRate, ExposedPart part)
 {
-    const double w1 = turn * f1, w2 = turn * f2, w3 = turn * f3, w4 = turn * f4;
+    const Weighting& weighting = part == ExposedPart::hand ? handArm : vertical;
+    const double low = turn * weighting.low, high = turn * weighting.high, transition = turn * weighting.transition;
+    const double from = turn * weighting.stepFrom, to = turn * weighting.stepTo;
     // Below the Nyquist frequency, where the transform has a place for it.
-    const double top = std::min(f2, 0.4 * sampleRate);
-    std::array<Section, 3> sections{bilinear(1.0, 0.0, 0.0, w1 / q1, w1 * w1, f1, sampleRate),
-                                    bilinear(0.0, 0.0, w2 * w2, w2 / q1, w2 * w2, top, sampleRate),
-                                    bilinear(0.0, w4 * w4 / w3, w4 * w4, w4 / q2, w4 * w4, f4, sampleRate)};
+    const double top = std::min(weighting.high, 0.4 * sampleRate);
+    std::array<Section, 4> sections{
+        bilinear(1.0, 0.0, 0.0, low / weighting.bandQ, low * low, weighting.low, sampleRate),
+        bilinear(0.0, 0.0, high * high, high / weighting.bandQ, high * high, top, sampleRate),
+        bilinear(0.0, transition, transition * transition, transition / weighting.transitionQ, transition * transition,
+                 weighting.transition, sampleRate),
+        bilinear(1.0, from / weighting.stepQ, from * from, to / weighting.stepQ, to * to, weighting.stepTo,
+                 sampleRate)};
     double sum = 0.0;
     for (const float sample : acceleration)
     {

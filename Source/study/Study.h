@@ -2,6 +2,8 @@
 
 // A study with participants: stimuli, groups, orders and questions.
 
+#include "study/Exposure.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -177,7 +179,8 @@ struct Masking
 /// Limits for participants. Computed for each one, shown to the experimenter and never exceeded.
 struct ExposureLimits
 {
-    double daily = 2.5;  ///< m/s2, A(8) of ISO 5349-1: the action value of the directive 2002/44/EC
+    ExposedPart part = ExposedPart::hand;
+    double daily = actionValue(ExposedPart::hand); ///< m/s2, A(8)
     double minutes = 60; ///< of a session
     bool operator==(const ExposureLimits&) const = default;
 };

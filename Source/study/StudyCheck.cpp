@@ -102,7 +102,7 @@ private:
             const int fs = maker.params().sampleRate;
             MadeStimulus one;
             one.seconds = static_cast<double>(prepared->touch.size()) / fs;
-            one.dose = doseOf(feltOf(prepared->touch, maker.params().profile, fs), fs);
+            one.dose = doseOf(feltOf(prepared->touch, maker.params().profile, fs), fs, study.limits.part);
             const bool silent =
                 std::all_of(prepared->touch.begin(), prepared->touch.end(), [](float x) { return x == 0.0f; });
             if (silent && !study.stimuli[i].silence)
@@ -240,8 +240,8 @@ private:
         if (load.exposure > study.limits.daily)
             spoils("limits.daily",
                    fmt::format(
-                       "would be passed: group {} is exposed to A(8) = {:.2f} m/s2, {:.2f} are allowed (ISO 5349-1)",
-                       group.name, load.exposure, study.limits.daily));
+                       "would be passed: group {} is exposed to A(8) = {:.2f} m/s2, {:.2f} are allowed ({})",
+                       group.name, load.exposure, study.limits.daily, standardOf(study.limits.part)));
         if (load.minutes > study.limits.minutes)
             spoils("limits.minutes",
                    fmt::format("would be passed: group {} takes some {:.0f} minutes, {:.0f} are allowed", group.name,

@@ -6,6 +6,7 @@
 #include "study/Study.h"
 
 #include <array>
+#include <type_traits>
 
 namespace pacini::study::fields
 {
@@ -34,6 +35,9 @@ inline constexpr std::array<Choice<Variable>, 7> variables{{{"level", Variable::
                                                             {"bits", Variable::bits}}};
 inline constexpr std::array<Choice<Procedure>, 2> procedures{
     {{"levitt", Procedure::levitt}, {"questPlus", Procedure::questPlus}}};
+
+inline constexpr std::array<Choice<ExposedPart>, 2> exposedParts{
+    {{"hand", ExposedPart::hand}, {"wholeBody", ExposedPart::wholeBody}}};
 
 inline constexpr std::size_t mostNames = studyLimits::stimuli;
 
@@ -141,6 +145,9 @@ void visitStudy(AnyStudy& study, Visitor& visitor)
     visitor.object("limits", study.limits, Need::usual,
                    [&](auto& limits)
                    {
+                       visitor.choice("part", limits.part, exposedParts, Need::usual);
+                       if constexpr (!std::is_const_v<std::remove_reference_t<decltype(limits)>>)
+                           limits.daily = actionValue(limits.part); // unless the study has its own
                        visitor.number("daily", limits.daily, Need::usual);
                        visitor.number("minutes", limits.minutes, Need::usual);
                    });

@@ -177,7 +177,7 @@ Result<void> validate(const Study& study)
     rules.range(study.masking.lowFrequency, 1.0, 20000.0, "masking.lowFrequency", " Hz");
     rules.range(study.masking.highFrequency, study.masking.lowFrequency, 20000.0, "masking.highFrequency", " Hz");
     // Above the limit value of the directive nobody may be exposed, whatever a file says.
-    rules.range(study.limits.daily, 0.0, 5.0, "limits.daily", " m/s2");
+    rules.range(study.limits.daily, 0.0, limitValue(study.limits.part), "limits.daily", " m/s2");
     rules.range(study.limits.minutes, 1.0, 480.0, "limits.minutes");
     if (rules.broken)
         return *rules.broken;

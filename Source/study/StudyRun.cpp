@@ -59,7 +59,8 @@ PlayRefusal StudyRun::start(Result<TrialSound> sound, std::size_t part)
         for (float& sample : sound->touch)
             sample = static_cast<float>(static_cast<double>(sample) * Decibels(trim).gain());
     const StimulusParams& params = maker.params();
-    const double doseOfPlay = doseOf(feltOf(sound->touch, params.profile, params.sampleRate), params.sampleRate);
+    const double doseOfPlay =
+        doseOf(feltOf(sound->touch, params.profile, params.sampleRate), params.sampleRate, study().limits.part);
     if (dailyExposure(running->exposure() + doseOfPlay) > study().limits.daily)
         return PlayRefusal::exposure;
     // All of it counts from its start, and is on the disk before it is felt: what is cut off may have been felt, and a

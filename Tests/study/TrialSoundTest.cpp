@@ -2,11 +2,14 @@
 
 #include "study/Exposure.h"
 #include "study/StudyCheck.h"
+#include "study/StudyFile.h"
 #include "study/StudyTemplates.h"
 #include "support/Catch.h"
 #include "support/Measure.h"
 #include "support/Paths.h"
 #include "support/ShippedProfile.h"
+
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -194,10 +197,54 @@ TEST_CASE("The dose of a sine is that of its weighted RMS")
             samples[n] = static_cast<float>(
                 10.0 * std::sin(2.0 * std::numbers::pi * frequency * static_cast<double>(n) / 48000.0));
         const double rms = handArmWeight(frequency) * 10.0 / std::sqrt(2.0);
-        CHECK(doseOf(samples, 48000.0) == Approx(20.0 * rms * rms).epsilon(0.02));
+        CHECK(doseOf(samples, 48000.0, ExposedPart::hand) == Approx(20.0 * rms * rms).epsilon(0.02));
     }
     // Eight hours at 1 m/s2.
     CHECK(dailyExposure(8.0 * 3600.0) == Approx(1.0));
+}
+
+TEST_CASE("The dose of a seat follows the vertical weighting of ISO 2631-1")
+{
+    // Its table 3, Wk at third octaves.
+    const std::vector<std::pair<double, double>> table{{1.0, 0.482}, {2.0, 0.531},  {4.0, 0.967},  {5.0, 1.039},
+                                                       {8.0, 1.036}, {16.0, 0.768}, {31.5, 0.405}, {80.0, 0.132}};
+    for (const double sampleRate : {8000.0, 48000.0, 384000.0})
+        for (const auto& [frequency, weight] : table)
+        {
+            // Twenty seconds and the half of them: what rings in at first falls out.
+            const auto of = [&, hz = frequency](double seconds)
+            {
+                std::vector<float> samples(static_cast<std::size_t>(seconds * sampleRate));
+                for (std::size_t n = 0; n < samples.size(); ++n)
+                    samples[n] = static_cast<float>(
+                        std::sin(2.0 * std::numbers::pi * hz * static_cast<double>(n) / sampleRate));
+                return doseOf(samples, sampleRate, ExposedPart::wholeBody);
+            };
+            CAPTURE(sampleRate, frequency);
+            CHECK(std::sqrt((of(12.0) - of(4.0)) / 8.0 * 2.0) == Approx(weight).epsilon(0.01));
+        }
+}
+
+TEST_CASE("A study of seats has the limits of the whole body", "[study]")
+{
+    Study study = withClicks();
+    study.limits.part = ExposedPart::wholeBody;
+    study.limits.daily = actionValue(ExposedPart::wholeBody);
+    const auto text = studyJson(study);
+    const auto read = readStudyJson(text);
+    REQUIRE(read);
+    CHECK(*read == study);
+    const auto with = [&](const std::string& limits)
+    {
+        auto changed = nlohmann::json::parse(text);
+        changed["limits"] = nlohmann::json::parse(limits);
+        return readStudyJson(changed.dump());
+    };
+    CHECK(with(R"({"part": "wholeBody"})")->limits.daily == 0.5);
+    CHECK(with(R"({"part": "hand"})")->limits.daily == 2.5);
+    CHECK(with(R"({"daily": 5})")->limits.part == ExposedPart::hand);
+    CHECK(with(R"({"part": "wholeBody", "daily": 1.2})").error().where == "limits.daily");
+    CHECK(with(R"({"part": "foot"})").error().where == "limits.part");
 }
 
 TEST_CASE("What would spoil a study is found before anybody comes")

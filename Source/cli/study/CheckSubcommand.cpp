@@ -23,7 +23,7 @@ struct CheckSubcommand : Command
                   "PROFILE");
         return command->footer(
             "Finds missing files and texts, uneven groups, sessions that are too long, exposure beyond the limit\n(ISO "
-            "5349-1), and stimuli that can hardly be distinguished. Exits with 1 if the study cannot be run.");
+            "5349-1 or 2631-1), and stimuli that can hardly be distinguished. Exits with 1 if the study cannot be run.");
     }
 
     Exit run(Console& console) override

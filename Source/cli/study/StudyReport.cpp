@@ -894,8 +894,9 @@ Result<StudyReport> reportOfStudy(const StudyResults& results, const StudyReport
         writer.paragraph(fmt::format("{} where sound or touch dropped out; these are left out and were repeated.",
                                      counted(results.dropouts, "trial", "trials")));
     if (largest > 0.0)
-        writer.paragraph(fmt::format("Largest exposure of a participant: A(8) = {} m/s2 of {} allowed (ISO 5349-1).",
-                                     decimalText(largest, 3), decimalText(results.study.limits.daily, 2)));
+        writer.paragraph(fmt::format("Largest exposure of a participant: A(8) = {} m/s2 of {} allowed ({}).",
+                                     decimalText(largest, 3), decimalText(results.study.limits.daily, 2),
+                                     study::standardOf(results.study.limits.part)));
     report.json["dropouts"] = results.dropouts;
     for (const auto& [title, ratings] : questionsOf(results))
         if (auto written = writeRatings(writer, report.json["ratings"], ratings, title, AnswerKind::ratings, params);
