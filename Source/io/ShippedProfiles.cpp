@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 namespace
 {
 /// In the order of the plugin's parameter `profile`; never reordered, new ones at the end.
-constexpr std::array<std::string_view, 18> slotNames{"flat-pcm",
+constexpr std::array<std::string_view, 20> slotNames{"flat-pcm",
                                                      "l5-wristband",
                                                      "l5-test-jig",
                                                      "lra-175",
@@ -35,7 +35,9 @@ constexpr std::array<std::string_view, 18> slotNames{"flat-pcm",
                                                      "phone-lra-z",
                                                      "phone-lra-x",
                                                      "phone-voice-coil",
-                                                     "phone-piezo"};
+                                                     "phone-piezo",
+                                                     "bass-shaker",
+                                                     "seat-shaker"};
 } // namespace
 
 std::string_view profileNameOf(std::size_t slot) noexcept

@@ -454,7 +454,7 @@ class Claims(CommandTest):
     """Numbers that the README and the pages state, each with the sentence that it stands in. Sizes, speed and strength
     are compared by Tests/benchmarks/check_claims.py."""
 
-    NUMBERS = {"five": 5, "seven": 7, "eleven": 11, "twelve": 12, "thirteen": 13, "eighteen": 18}
+    NUMBERS = {"five": 5, "seven": 7, "eleven": 11, "twelve": 12, "thirteen": 13, "twenty": 20}
 
     def setUp(self):
         super().setUp()

@@ -101,7 +101,7 @@ def main():
               and all(low <= default <= high and low < high for low, high, default, _ in parameters.values()),
               f"{len(parameters)} of them")
         choices = {name: (high, named) for name, (_, high, _, named) in parameters.items() if named}
-        free = {name: set(range(18 + further, 31 + further))  # numbers without an actuator
+        free = {name: set(range(20 + further, 31 + further))  # numbers without an actuator
                 for further, names in ((0, ["profile"]), (1, [f"actuator{n}" for n in range(2, 9)])) for name in names}
         check("choices are the whole numbers of their range, less those without an actuator",
               all(set(named.values()) == set(range(int(high) + 1)) - free.get(name, set())

@@ -92,7 +92,7 @@ try {
   const brightest = Array.from({ length: picture.height }, (_, y) => y).reduce((best, y) => light(y) > light(best) ? y : best, 0)
   const hertz = picture.low * (picture.high / picture.low) ** ((picture.height - brightest - 0.5) / picture.height)
   check('a spectrogram shows a tone where it is', picture.width === 40 && Math.abs(hertz / 200 - 1) < 0.05, `${hertz.toFixed(0)} Hz of 200`)
-  check('actuators are there', profileNames().length === 18 && (await profileInfo('lra-175')).high > 0)
+  check('actuators are there', profileNames().length === 20 && (await profileInfo('lra-175')).high > 0)
   const controllers = [['switch', 0x057e, 0x2009, true], ['switch-usb', 0x057e, 0x2009, false],
     ['dualsense', 0x054c, 0x0ce6, false], ['dualsense-bluetooth', 0x054c, 0x0ce6, true],
     ['dualshock4', 0x054c, 0x09cc, false], ['xbox', 0x045e, 0x0b13, true], ['steamdeck', 0x28de, 0x1205, false],

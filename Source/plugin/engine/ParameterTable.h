@@ -132,7 +132,7 @@ inline constexpr std::array<std::string_view, profileSlots> profileChoices{
     "LRA 235 Hz", "Coin ERM", "Piezo", "iPhone (Taptic)",
     "Quest controller", "DualSense", "Joy-Con", "Wideband exciter",
     "Electroactive polymer", "Phone (ERM)", "Phone (coin LRA)", "Phone (bar LRA)",
-    "Phone (voice coil)", "Phone (piezo)", "No actuator (flat) 18", "No actuator (flat) 19",
+    "Phone (voice coil)", "Phone (piezo)", "Bass shaker", "Seat shaker",
     "No actuator (flat) 20", "No actuator (flat) 21", "No actuator (flat) 22", "No actuator (flat) 23",
     "No actuator (flat) 24", "No actuator (flat) 25", "No actuator (flat) 26", "No actuator (flat) 27",
     "No actuator (flat) 28", "No actuator (flat) 29", "No actuator (flat) 30", "From file"};
