@@ -106,6 +106,29 @@ def check_file(folder):
           and not error, f"{took:.2f} s {error}")
 
 
+def check_server_returns(folder, start):
+    """A sound device that goes away is told, and plays again when it is back."""
+    sound = folder / "long.wav"
+    frames = 25 * RATE
+    sound.write_bytes(b"RIFF" + struct.pack("<I", 36 + 2 * frames) + b"WAVEfmt "
+                      + struct.pack("<IHHIIHH", 16, 1, 1, RATE, 2 * RATE, 2, 16) + b"data" + struct.pack("<I", 2 * frames)
+                      + b"".join(struct.pack("<h", 9000 * (n // 300 % 2)) for n in range(frames)))
+    server = start()
+    process = live(str(sound), "--sound-output", "jack", "--json")
+    check("it plays on JACK first", until(lambda: "pacini touch" in jack("jack_lsp"), 10))
+    server.terminate()
+    server.wait(20)
+    time.sleep(3)
+    server = start()
+    check("it is back when the server is", until(lambda: "pacini touch" in jack("jack_lsp"), 10))
+    out, error = process.communicate(timeout=60)
+    check("a device that goes away is told", "jack: warning: does not answer any more; it plays again when it is back"
+          in error, error)
+    told = json.loads(out or "{}")
+    check("and counted", process.returncode == 0 and told["outputs"][0]["connections"] == 2, f"{out} {error}")
+    return server
+
+
 def check_server_ends(folder, server):
     process = live("--sound-input", "jack", "-o", str(folder / "whole.wav"))
     time.sleep(1)
@@ -123,14 +146,21 @@ def claims(devices):
     controller = devices.FakeController(devices.DUALSHOCK_4)
     controller.connect()
     with tempfile.TemporaryDirectory() as name, Processes() as processes:
-        server = processes.start("jackd", "-r", "-t", "8000", "-n", SERVER, "-d", "dummy", "-r", RATE, "-p", BLOCK,
-                                 "-C", "2", "-P", "2", env=without_devices())
-        if not until(lambda: "system:playback_2" in jack("jack_lsp"), 10):
-            skip("JACK does not start")
+        def start():
+            server = processes.start("jackd", "-r", "-t", "8000", "-n", SERVER, "-d", "dummy", "-r", RATE, "-p", BLOCK,
+                                     "-C", "2", "-P", "2", env=without_devices())
+            if not until(lambda: "system:playback_2" in jack("jack_lsp"), 10):
+                skip("JACK does not start")
+            return server
+
+        server = start()
         check_delay()
         check_ports(Path(name))
         check_signal(Path(name))
         check_file(Path(name))
+        server.terminate()
+        server.wait(20)
+        server = check_server_returns(Path(name), start)
         check_server_ends(Path(name), server)
 
 

@@ -11,8 +11,8 @@
 #include "cli/live/LiveFile.h"
 #include "cli/live/LiveInput.h"
 #include "cli/live/LivePad.h"
+#include "cli/live/SoundOutput.h"
 #include "cli/live/SoundPort.h"
-#include "cli/live/TrackedDrive.h"
 #include "io/FileOrigin.h"
 #include "io/Fingerprint.h"
 
@@ -95,15 +95,6 @@ private:
     /// All that plays, and the thread that hands it the sound.
     struct Session
     {
-        /// A sound device that plays the drive, at its own clock.
-        struct Output
-        {
-            std::string name;
-            std::unique_ptr<TrackedDrive> drive;
-            std::unique_ptr<SoundPort> port; ///< ends first
-            bool isGone = false;
-        };
-
         [[nodiscard]] bool isRealTime() const { return !pads.empty() || !outputs.empty(); }
 
         std::unique_ptr<LiveInput> input; ///< or a port
@@ -111,7 +102,7 @@ private:
         std::vector<std::unique_ptr<LiveDrive>> drives;
         std::unique_ptr<LatencyProbe> probe;
         std::vector<std::unique_ptr<LivePad>> pads;
-        std::vector<Output> outputs;
+        std::vector<std::unique_ptr<SoundOutput>> outputs;
         std::unique_ptr<SoundPort> port; ///< ends before all that it hands the sound to
         std::unique_ptr<LiveFile> file;
         LiveDrive* fileDrive = nullptr;
@@ -188,17 +179,18 @@ CLI::App* LiveCommand::declare(CLI::App& app)
     command->add_flag("--measure-latency", measuring,
                       "Play impulses in place of the sound and print how long each takes to the controller's report");
     overwriting.declare(*command);
-    command->footer("The channels of the sound are mixed to one. A pipe is played as it comes, a file at its rate, or "
-                    "at once when\nonly -o is given. The motors stop when the sound ends, on Ctrl-C, and when the "
-                    "program fails; a controller\nthat is unplugged plays again when it is back.\nPresets:" +
-                    presetList() +
-                    "\nSYSTEM alone is its default device; jack then leaves its ports for you to connect. NAME is a "
-                    "part of a name,\nand of pulse the whole name of a source or a sink: pulse:@DEFAULT_MONITOR@ is "
-                    "what this machine plays.\nExamples:\n"
-                    "  pacini live --sound-input pulse:@DEFAULT_MONITOR@       what this machine plays\n"
-                    "  pacini live --sound-input jack --device pro\n"
-                    "  pacini live rain.wav --device pro --sound-output jack\n"
-                    "  pacini live - --preset music -o - < rain.wav");
+    command->footer(
+        "The channels of the sound are mixed to one. A pipe is played as it comes, a file at its rate, or "
+        "at once when\nonly -o is given. The motors stop when the sound ends, on Ctrl-C, and when the "
+        "program fails; a controller\nor sound device that goes away plays again when it is back.\nPresets:" +
+        presetList() +
+        "\nSYSTEM alone is its default device; jack then leaves its ports for you to connect. NAME is a "
+        "part of a name,\nand of pulse the whole name of a source or a sink: pulse:@DEFAULT_MONITOR@ is "
+        "what this machine plays.\nExamples:\n"
+        "  pacini live --sound-input pulse:@DEFAULT_MONITOR@       what this machine plays\n"
+        "  pacini live --sound-input jack --device pro\n"
+        "  pacini live rain.wav --device pro --sound-output jack\n"
+        "  pacini live - --preset music -o - < rain.wav");
     return command;
 }
 
@@ -257,25 +249,18 @@ Exit LiveCommand::openFile(Console& console, Session& session) const
 
 Exit LiveCommand::openSoundOutput(Console& console, Session& session, const std::string& name) const
 {
+    constexpr double pipeBlock = 0.020; // s, as programs write to pipes
     const double fs = session.engine->sampleRate();
-    auto opened = SoundPort::openOutput(name);
+    session.drives.push_back(std::make_unique<LiveDrive>(static_cast<std::size_t>(fs)));
+    session.engine->add(*session.drives.back());
+    session.outputs.push_back(std::make_unique<SoundOutput>(
+        name, *session.drives.back(), fs,
+        Seconds(session.port ? static_cast<double>(session.port->blockFrames()) / fs : pipeBlock)));
+    const auto opened = session.outputs.back()->open();
     if (!opened)
         return console.fail(name, opened.error(),
                             opened.error().code == ErrorCode::invalidArgument ? Exit::usage : Exit::failed);
-    constexpr double margin = 0.002;    // s
-    constexpr double pipeBlock = 0.020; // s, as programs write to pipes
-    const double comes =
-        session.port ? static_cast<double>(session.port->blockFrames()) / fs : pipeBlock; // s, as the next
-    const double goes = static_cast<double>((*opened)->blockFrames()) / (*opened)->sampleRate();
-    session.drives.push_back(std::make_unique<LiveDrive>(static_cast<std::size_t>(fs)));
-    LiveDrive& drive = *session.drives.back();
-    session.engine->add(drive);
-    auto tracked = std::make_unique<TrackedDrive>(drive, fs, (*opened)->sampleRate(),
-                                                  static_cast<std::size_t>((comes + goes + margin) * fs));
-    auto* reader = tracked.get();
-    session.outputs.push_back({name, std::move(tracked), std::move(*opened), false});
-    const auto started = session.outputs.back().port->play([reader](std::span<float> frames) { reader->read(frames); });
-    return started ? Exit::ok : console.fail(name, started.error());
+    return Exit::ok;
 }
 
 Exit LiveCommand::openOutputs(Console& console, Session& session) const
@@ -378,7 +363,7 @@ void LiveCommand::watch(Console& console, Session& session, Interruption& interr
         return session.ended.load(std::memory_order_acquire) &&
                std::all_of(session.pads.begin(), session.pads.end(), [](const auto& pad) { return pad->isDone(); }) &&
                std::all_of(session.outputs.begin(), session.outputs.end(),
-                           [](const auto& out) { return out.drive->isOver() || out.isGone; });
+                           [](const auto& out) { return out->isDone(); });
     };
     float heard = 0.0f, felt = 0.0f;
     while (!isDone())
@@ -388,11 +373,7 @@ void LiveCommand::watch(Console& console, Session& session, Interruption& interr
         for (const auto& pad : session.pads)
             pad->look(console);
         for (auto& out : session.outputs)
-            if (!out.isGone && !out.port->isRunning())
-            {
-                out.isGone = true;
-                console.warning(out.name, "does not answer any more; the others play on");
-            }
+            out->look(console);
         if (session.port && !session.ended.load())
         {
             const bool runs = session.port->isRunning();
@@ -435,9 +416,10 @@ void LiveCommand::tell(Console& console, Session& session, std::uint64_t written
         console.wrote(output, durationText(static_cast<double>(written) / session.engine->sampleRate()));
     }
     for (const auto& out : session.outputs)
-        outputs.push_back({{"soundOutput", out.name},
-                           {"standstills", out.drive->standstills()},
-                           {"correctionPpm", 1e6 * (out.drive->correction() - 1.0)}});
+        outputs.push_back({{"soundOutput", out->name()},
+                           {"standstills", out->standstills()},
+                           {"connections", out->connections()},
+                           {"correctionPpm", 1e6 * (out->correction() - 1.0)}});
     Json report{{"input", soundName()},
                 {"seconds", seconds},
                 {"sampleRate", session.engine->sampleRate()},
@@ -482,7 +464,7 @@ Exit LiveCommand::finish(Console& console, Session& session) const
     if (session.port && !session.ended.load())
         endOf(session);
     for (auto& out : session.outputs)
-        out.port->stop();
+        out->stop();
     if (session.thread.joinable())
         session.thread.join();
     std::uint64_t written = 0;

@@ -219,6 +219,7 @@ public:
     }
 
     [[nodiscard]] bool isRunning() override { return running.load(); }
+    [[nodiscard]] std::uint64_t blocks() const override { return written.load(std::memory_order_relaxed); }
     [[nodiscard]] std::uint64_t interruptions() const override { return 0; }
 
     static constexpr std::uint32_t rate = 48000; // Hz
@@ -237,12 +238,14 @@ private:
                 block[channels * i + 2] = block[channels * i + 3] = std::clamp(made[i], -1.0f, 1.0f);
             if (simple().write(stream, block.data(), sizeof block, nullptr) < 0)
                 running.store(false);
+            written.fetch_add(1, std::memory_order_relaxed);
         }
         simple().flush(stream, nullptr); // silent at once
     }
 
     pa_simple* stream;
     std::atomic<bool> running{false};
+    std::atomic<std::uint64_t> written{0};
     std::thread thread;
 };
 } // namespace

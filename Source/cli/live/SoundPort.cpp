@@ -259,6 +259,10 @@ public:
     {
         return library().isRunning(audio) != 0;
     }
+    [[nodiscard]] std::uint64_t blocks() const override
+    {
+        return asked.load(std::memory_order_relaxed);
+    }
     [[nodiscard]] std::uint64_t interruptions() const override
     {
         return late.load(std::memory_order_relaxed);
@@ -286,6 +290,7 @@ private:
 
     void block(float* out, const float* in, std::size_t count, bool wasLate) noexcept
     {
+        asked.fetch_add(1, std::memory_order_relaxed);
         if (wasLate)
             late.fetch_add(1, std::memory_order_relaxed);
         const std::size_t channels = stream.num_channels;
@@ -317,6 +322,7 @@ private:
     std::vector<float> scratch;
     SoundTaker takes;
     SoundMaker makes;
+    std::atomic<std::uint64_t> asked{0};
     std::atomic<std::uint64_t> late{0};
 };
 

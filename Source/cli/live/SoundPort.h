@@ -68,6 +68,9 @@ public:
     /// Whether it still runs. [message]
     [[nodiscard]] virtual bool isRunning() = 0;
 
+    /// How many blocks it has asked for or handed in. [any]
+    [[nodiscard]] virtual std::uint64_t blocks() const = 0;
+
     /// How often the device came too late or too early. [any]
     [[nodiscard]] virtual std::uint64_t interruptions() const = 0;
 };
