@@ -138,7 +138,8 @@ Result<void> writeRecovery(const fs::path& file, const DocumentSnapshot& snapsho
                 return written.error();
         }
     const auto path = snapshot.path.generic_u8string();
-    const RecoveryNote note{std::string(path.begin(), path.end()), now(), static_cast<double>(processId())};
+    const RecoveryNote note{std::string(path.begin(), path.end()), now(), static_cast<double>(processId()),
+                            snapshot.place};
     ProjectTextOptions options;
     options.embed = false;
     options.recovery = &note;
@@ -284,6 +285,7 @@ std::vector<Recoverable> listRecoverable(const fs::path& folder)
                 const std::string& path = read->recovery->path;
                 entry.project = fs::path(std::u8string(path.begin(), path.end()));
                 entry.time = read->recovery->time;
+                entry.place = read->recovery->place;
             }
             for (const auto& item : read->project.clips)
                 entry.clips.push_back(item->clip->name);

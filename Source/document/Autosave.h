@@ -81,6 +81,7 @@ struct Recoverable
     std::filesystem::path project;  ///< its project file; empty: never saved
     double time = 0.0;              ///< s since 1970 (UTC)
     std::vector<std::string> clips; ///< their names
+    WorkPlace place = {};           ///< when it was written
     std::optional<Error> problem;   ///< why it cannot be read; it is kept all the same
 };
 

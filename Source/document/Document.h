@@ -4,6 +4,7 @@
 
 #include "document/History.h"
 #include "document/Project.h"
+#include "document/WorkPlace.h"
 
 #include <pacini/foundation/Result.h>
 
@@ -29,6 +30,7 @@ struct DocumentSnapshot
     std::filesystem::path path; ///< empty: never saved
     std::uint64_t state = 0;    ///< differs when anything differs
     bool dirty = false;
+    WorkPlace place = {}; ///< of who works on it; its change alone is no other state
 };
 
 /// One project with its file and its history. Changes are pure functions (ProjectEdits.h), which become steps with a
@@ -62,7 +64,7 @@ public:
         return file.empty() && content.clips.empty() && content.sources.empty() && history.size() == 1;
     }
     [[nodiscard]] const Project& project() const noexcept { return content; }
-    [[nodiscard]] DocumentSnapshot snapshot() const { return {content, file, history.id(), isDirty()}; }
+    [[nodiscard]] DocumentSnapshot snapshot() const { return {content, file, history.id(), isDirty(), {}}; }
 
     /// A clip with all that belongs to it, or null. Immutable: views and threads may keep it.
     [[nodiscard]] std::shared_ptr<const ClipItem> clip(int id) const { return content.find(id); }

@@ -200,6 +200,8 @@ std::string projectJson(const Project& project, const ProjectTextOptions& option
                           writer.text("path", note.path);
                           writer.number("time", note.time, Need::required);
                           writer.number("process", note.process, Need::required);
+                          writer.object("place", note.place, Need::optional,
+                                        [&](const WorkPlace& place) { visitPlace(place, writer); });
                       });
     writer.optionalText("notes", project.notes);
     writer.list("sources", project.sources, most, "sounds",
@@ -246,6 +248,8 @@ Result<ReadProject> readProjectJson(std::string_view text, const fs::path& folde
                               reader.text("path", note.path);
                               reader.number("time", note.time, Need::usual);
                               reader.number("process", note.process, Need::usual);
+                              reader.object("place", note.place, Need::optional,
+                                            [&](WorkPlace& place) { visitPlace(place, reader); });
                           });
     reader.optionalText("notes", project.notes);
     reader.list("sources", project.sources, most, "sounds",

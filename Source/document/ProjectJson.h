@@ -3,6 +3,7 @@
 // Projects as JSON text.
 
 #include "document/Project.h"
+#include "document/WorkPlace.h"
 
 #include <cstddef>
 #include <filesystem>
@@ -24,6 +25,7 @@ struct RecoveryNote
     std::string path;   ///< of the project file; empty: it had none yet
     double time = 0.0;  ///< s since 1970 (UTC) when it was written
     double process = 0; ///< id of the process that wrote it
+    WorkPlace place = {};
     bool operator==(const RecoveryNote&) const = default;
 };
 

@@ -32,19 +32,36 @@ void EditorModel::report(const std::string& title, const Error& error) const
 
 // The project.
 
-void EditorModel::take(Document document)
+WorkPlace EditorModel::placeNow() const
 {
+    WorkPlace place = findPlace ? findPlace() : WorkPlace{};
+    place.clip = unanalysed ? beforeUnanalysed : active;
+    return place;
+}
+
+void EditorModel::keepPlace()
+{
+    if (!open->path().empty())
+        (void)recent.setPlace(open->path(), placeNow());
+}
+
+void EditorModel::take(Document document, const WorkPlace& place)
+{
+    keepPlace();
     unanalysed.reset();
     sample = false;
     *open = std::move(document);
     preview = nullptr;
     comparing = false;
     versions.clear();
-    active = isEmpty() ? 0 : open->project().clips.front()->id;
+    const bool known = open->clip(place.clip) != nullptr;
+    active = known ? place.clip : isEmpty() ? 0 : open->project().clips.front()->id;
     opened.emit();
     follow(-1);
     contentChanged.emit();
     projectChanged.emit();
+    if (known && goToPlace)
+        goToPlace(place);
 }
 
 void EditorModel::newProject()
@@ -57,7 +74,8 @@ Result<void> EditorModel::openProject(const std::filesystem::path& file)
     auto read = Document::open(file);
     if (!read)
         return read.error();
-    take(std::move(read).value());
+    const WorkPlace place = recent.placeOf(file);
+    take(std::move(read).value(), place);
     (void)recent.add(file);
     return {};
 }
@@ -78,9 +96,12 @@ Result<void> EditorModel::recover(const Recoverable& entry)
     auto recovered = Document::recover(entry.file);
     if (!recovered)
         return recovered.error();
-    take(std::move(recovered).value());
+    take(std::move(recovered).value(), entry.place);
     if (autosave)
+    {
+        autosaveNow();
         autosave->flush();
+    }
     // Where it could not be written anew, the old file is all there is.
     if (autosave && !autosave->lastError())
         discardRecoverable(entry);
@@ -179,11 +200,19 @@ bool EditorModel::follow(int before)
         if (failure && !autosaveFailed)
             report("Autosave failed. Save the project now", *failure);
         autosaveFailed = failure.has_value();
-        autosave->update(open->snapshot());
     }
     if (active != before)
         shownChanged.emit();
+    if (autosave)
+        autosaveNow(); // with the place in the clip that is shown by now
     return active != before;
+}
+
+void EditorModel::autosaveNow()
+{
+    DocumentSnapshot snapshot = open->snapshot();
+    snapshot.place = placeNow();
+    autosave->update(std::move(snapshot));
 }
 
 void EditorModel::documentChanged()

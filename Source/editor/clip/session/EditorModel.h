@@ -34,6 +34,13 @@ public:
     };
 
     explicit EditorModel(const Folders& folders);
+
+    /// Where the user works, of those who know more than the clip that is shown; null: nobody does.
+    std::function<WorkPlace()> findPlace;
+    /// Goes there, in the clip that is shown by now; null: nobody can.
+    std::function<void(const WorkPlace&)> goToPlace;
+    /// Keeps for the next time where the user works; also done when another project is opened.
+    void keepPlace();
     ~EditorModel();
 
     /// Another project is open; the signals below follow.
@@ -133,8 +140,10 @@ public:
     void goTo(std::size_t state);
 
 private:
-    void take(Document document);
+    void take(Document document, const WorkPlace& place = {});
+    [[nodiscard]] WorkPlace placeNow() const;
     bool follow(int before);
+    void autosaveNow();
     void documentChanged();
     Result<void> saved(Result<void> result);
 

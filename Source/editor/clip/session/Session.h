@@ -21,6 +21,25 @@ struct Session
         : model(folders), actuators(model, std::move(profiles))
     {
         subscriptions.on({&sounds.replaced}, [this] { viewState.fit(); });
+        model.findPlace = [this]
+        {
+            return WorkPlace{model.activeId(), transport.playhead(), clipSelection.timeRange(), viewState.part()};
+        };
+        model.goToPlace = [this](const WorkPlace& place)
+        {
+            clipSelection.setTimeRange(place.range);
+            if (place.view)
+                viewState.showRange(*place.view);
+            transport.setPlayhead(place.playhead);
+        };
+    }
+    Session(const Session&) = delete;
+    Session& operator=(const Session&) = delete;
+    ~Session()
+    {
+        model.keepPlace();
+        model.findPlace = nullptr;
+        model.goToPlace = nullptr;
     }
 
     EditorModel model;

@@ -78,6 +78,13 @@ void ViewState::showRange(TimeRange wanted)
         setAxis(TimeAxis::showing(wanted, width));
 }
 
+std::optional<TimeRange> ViewState::part() const
+{
+    if (length <= 0.0 || shows(length))
+        return std::nullopt;
+    return axisNow.visible(width);
+}
+
 void ViewState::setDrawing(bool wanted)
 {
     drawing = wanted;

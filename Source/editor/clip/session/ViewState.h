@@ -27,6 +27,7 @@ struct ViewOptions
     bool actuator = true;       ///< the rows of what it plays
     Follow follow = Follow::page;
     bool reducedMotion = false;  ///< nothing slides: the view follows by page, and bars stand still
+    bool spoken = false;         ///< speech-dispatcher says what the status bar, notices and questions say
     bool technicalTerms = false; ///< names of lanes as in research, not in the words of designers
     bool operator==(const ViewOptions&) const = default;
 
@@ -53,6 +54,8 @@ public:
     void zoom(double factor, double x);
     void fit();
     void showRange(TimeRange wanted);
+    /// The part that is seen; nothing when that is all of the clip.
+    [[nodiscard]] std::optional<TimeRange> part() const;
 
     [[nodiscard]] bool amplitudesInDecibels() const noexcept { return decibels; }
     void setAmplitudesInDecibels(bool wanted);
