@@ -3,6 +3,7 @@
 
 #include "editor/Text.h"
 #include "editor/Theme.h"
+#include "editor/Translation.h"
 #include "io/ClipFile.h"
 
 #include <algorithm>
@@ -38,7 +39,7 @@ ClipChip::ClipChip()
 void ClipChip::show(const Clip& clip, std::function<juce::File()> file)
 {
     makeFile = std::move(file);
-    text = toText(clip.name) + ", " + juce::String(clip.duration, 1) + " s";
+    text = toText(clip.name) + ", " + numberText(clip.duration, 1) + " s";
     curve.clear();
     curve.startNewSubPath(0.0f, 1.0f);
     double loudest = 1e-9;

@@ -3,6 +3,8 @@
 
 // Sliders, buttons and child components, as all windows have them.
 
+#include "editor/Translation.h"
+
 #include <juce_gui_basics/juce_gui_basics.h>
 
 #include <functional>
@@ -19,6 +21,16 @@ public:
     using juce::Slider::Slider;
 
     std::function<void()> onMenu; ///< the right button was pressed, which moves nothing then
+
+    // Numbers as the language writes them.
+    juce::String getTextFromValue(double value) override
+    {
+        return withDecimalMark(juce::Slider::getTextFromValue(value));
+    }
+    double getValueFromText(const juce::String& text) override
+    {
+        return juce::Slider::getValueFromText(withDecimalPoint(text));
+    }
 
     void mouseDown(const juce::MouseEvent& event) override
     {

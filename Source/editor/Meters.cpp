@@ -38,7 +38,7 @@ void LevelMeter::show(double decibels)
     level = std::max({heard, level - scale.fall, scale.low - 1.0f});
     const bool silent = level < scale.low;
     const juce::String shown = silent ? juce::String::fromUTF8("–")
-                                      : (scale.sign && level > 0.05f ? "+" : "") + juce::String(level, 1) + " dB";
+                                      : (scale.sign && level > 0.05f ? "+" : "") + numberText(static_cast<double>(level), 1) + " dB";
     const int to = pixelOf(level);
     if (to == pixel && shown == text)
         return;

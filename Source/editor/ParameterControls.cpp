@@ -32,7 +32,7 @@ juce::String withRange(const juce::AudioProcessorParameter& parameter, const juc
 {
     const auto text = [&](float normal)
     {
-        return parameter.getText(normal, 0);
+        return withDecimalMark(parameter.getText(normal, 0));
     };
     return tr(help) + "\n" + tr("{0} to {1}, default {2}", {text(0.0f), text(1.0f), text(parameter.getDefaultValue())});
 }
@@ -204,7 +204,7 @@ ParameterChoice::ParameterChoice(juce::AudioProcessorParameter& shownParameter, 
 {
     const float steps = static_cast<float>(parameter.getNumSteps() - 1);
     for (const int value : values)
-        addItem(parameter.getText(static_cast<float>(value) / steps, 0), value + 1);
+        addItem(withDecimalMark(parameter.getText(static_cast<float>(value) / steps, 0)), value + 1);
     setTitle(name);
     setDescription(help);
     setTooltip(help);
@@ -248,7 +248,7 @@ void ParameterChoice::refresh()
     shown = value;
     setSelectedId(value + 1, juce::dontSendNotification);
     if (getSelectedId() != value + 1)
-        setText(parameter.getCurrentValueAsText(), juce::dontSendNotification);
+        setText(withDecimalMark(parameter.getCurrentValueAsText()), juce::dontSendNotification);
 }
 
 } // namespace pacini::editor

@@ -20,7 +20,7 @@ juce::PopupMenu parameterMenu(juce::AudioProcessorParameter& parameter, std::fun
                               const juce::AudioProcessorEditorHostContext* host)
 {
     juce::PopupMenu menu;
-    menu.addItem(tr("Reset to {0}", {parameter.getText(parameter.getDefaultValue(), 0)}),
+    menu.addItem(tr("Reset to {0}", {withDecimalMark(parameter.getText(parameter.getDefaultValue(), 0))}),
                  parameter.getValue() != parameter.getDefaultValue(), false,
                  [&parameter] { setAsGesture(parameter, parameter.getDefaultValue()); });
     if (type)

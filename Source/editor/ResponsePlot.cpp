@@ -3,6 +3,7 @@
 
 #include "editor/Text.h"
 #include "editor/Theme.h"
+#include "editor/Translation.h"
 
 #include <pacini/foundation/Units.h>
 
@@ -24,7 +25,7 @@ constexpr double widestSpan = 80.0; // dB
 juce::String hertz(double f)
 {
     if (f >= 1000.0)
-        return juce::String(f / 1000.0, std::fmod(f, 1000.0) == 0.0 ? 0 : 1) + " k";
+        return numberText(f / 1000.0, std::fmod(f, 1000.0) == 0.0 ? 0 : 1) + " k";
     return juce::String(static_cast<int>(std::lround(f)));
 }
 } // namespace
@@ -148,7 +149,7 @@ void ResponsePlot::paintGrid(juce::Graphics& g) const
         const juce::String text =
             content.unit == Unit::decibels
                 ? juce::String(static_cast<int>(std::lround(value)))
-                : juce::String(Decibels(value).gain(), value < -1.0 ? (value < -21.0 ? 2 : 1) : 0) + " %";
+                : numberText(Decibels(value).gain(), value < -1.0 ? (value < -21.0 ? 2 : 1) : 0) + " %";
         g.drawText(text, juce::Rectangle<float>(0.0f, y - grid, scaleWidth - 6.0f, 2.0f * grid),
                    juce::Justification::centredRight, false);
     }
@@ -243,7 +244,7 @@ void ResponsePlot::paintLegend(juce::Graphics& g) const
 
 juce::String ResponsePlot::valueText(double value) const
 {
-    return content.unit == Unit::decibels ? juce::String(value, 1) + " dB" : juce::String(value, 2) + " %";
+    return content.unit == Unit::decibels ? numberText(value, 1) + " dB" : numberText(value, 2) + " %";
 }
 
 void ResponsePlot::paintReading(juce::Graphics& g) const
@@ -259,7 +260,7 @@ void ResponsePlot::paintReading(juce::Graphics& g) const
     const float x = xOf(*pointed);
     g.setColour(p.dim);
     g.fillRect(x, static_cast<float>(area.getY()), 1.0f, static_cast<float>(area.getHeight()));
-    const juce::String text = juce::String(*pointed, *pointed < 100.0 ? 1 : 0) + " Hz  " + valueText(value);
+    const juce::String text = numberText(*pointed, *pointed < 100.0 ? 1 : 0) + " Hz  " + valueText(value);
     g.setFont(smallFont());
     const int width = smallFont().getStringWidth(text) + 2 * grid;
     auto box = juce::Rectangle<int>(static_cast<int>(x) + grid, area.getY() + grid / 2, width, 3 * grid - 4);

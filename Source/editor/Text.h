@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Conversion of UTF-8 texts, numbers and paths to texts of JUCE, and back; where files are looked for first.
-
-#include <pacini/foundation/NumberText.h>
+// Conversion of UTF-8 texts and paths to texts of JUCE, and back; where files are looked for first.
 
 #include <juce_core/juce_core.h>
 
@@ -18,12 +16,6 @@ namespace pacini::editor
 [[nodiscard]] inline juce::String toText(std::string_view utf8)
 {
     return juce::String::fromUTF8(utf8.data(), static_cast<int>(utf8.size()));
-}
-
-/// A rounded number; with no decimals JUCE would show all there are.
-[[nodiscard]] inline juce::String numberText(double value, int decimals)
-{
-    return toText(decimalText(value, decimals));
 }
 
 [[nodiscard]] inline juce::String pathText(const std::filesystem::path& path)

@@ -5,6 +5,8 @@
 #include "editor/Text.h"
 #include "editor/Theme.h"
 
+#include <pacini/foundation/NumberText.h>
+
 #include <memory>
 #include <optional>
 #include <unordered_map>
@@ -202,6 +204,71 @@ juce::String counted(std::size_t number, const juce::String& one, const juce::St
     return tr(number == 1 ? one : many, {juce::String(static_cast<juce::int64>(number))});
 }
 
+namespace
+{
+/// Puts a mark in the place of another where it stands between two digits, once in each number.
+juce::String withMark(const juce::String& text, juce::juce_wchar from, juce::juce_wchar to)
+{
+    if (from == to || !text.containsChar(from))
+        return text;
+    const auto isDigit = [&](int i)
+    {
+        return i >= 0 && i < text.length() && juce::CharacterFunctions::isDigit(text[i]);
+    };
+    const auto isIn = [&](int i)
+    {
+        return isDigit(i) || (i >= 0 && i < text.length() && text[i] == from);
+    };
+    juce::String result;
+    for (int i = 0; i < text.length();)
+    {
+        if (!isIn(i))
+        {
+            result << juce::String::charToString(text[i++]);
+            continue;
+        }
+        int end = i;
+        while (isIn(end))
+            ++end;
+        const auto run = text.substring(i, end);
+        const int mark = run.indexOfChar(from);
+        const bool one = mark > 0 && mark + 1 < run.length() && run.lastIndexOfChar(from) == mark;
+        result << (one ? run.replaceCharacter(from, to) : run);
+        i = end;
+    }
+    return result;
+}
+
+juce::juce_wchar decimalMark()
+{
+    return tableNow().code == "de" ? ',' : '.';
+}
+
+/// "3.25", "-12.5 dB": numbers that code without windows has put into a message.
+bool isNumber(const juce::String& value)
+{
+    const auto digits = value.trimCharactersAtStart("+-");
+    const int end = digits.indexOfAnyOf(" %");
+    const auto number = end < 0 ? digits : digits.substring(0, end);
+    return number.isNotEmpty() && number.containsOnly("0123456789.") && (end < 0 || !digits.containsChar('/'));
+}
+} // namespace
+
+juce::String numberText(double value, int decimals)
+{
+    return withDecimalMark(toText(decimalText(value, decimals)));
+}
+
+juce::String withDecimalMark(const juce::String& text)
+{
+    return withMark(text, '.', decimalMark());
+}
+
+juce::String withDecimalPoint(const juce::String& typed)
+{
+    return withMark(typed, ',', '.');
+}
+
 juce::String translateMessage(const juce::String& english)
 {
     const Table& table = tableNow();
@@ -223,6 +290,8 @@ juce::String translateMessage(const juce::String& english)
         for (int i = 0; i < values.size(); ++i)
             if (best->translated[static_cast<std::size_t>(i)])
                 values.set(i, translateMessage(values[i]));
+            else if (isNumber(values[i]))
+                values.set(i, withDecimalMark(values[i]));
         return filled(table.texts.at(best->key), best->names, values);
     }
     if (english.containsChar('\n'))

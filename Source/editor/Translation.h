@@ -39,6 +39,17 @@ void useTranslations(const juce::String& table);
 /// "1 point", "3 points": one of two templates with the number as `{0}`.
 [[nodiscard]] juce::String counted(std::size_t number, const juce::String& one, const juce::String& many);
 
+/// A rounded number, with the decimal mark of the language. All numbers that windows show are made here or pass
+/// withDecimalMark().
+[[nodiscard]] juce::String numberText(double value, int decimals);
+
+/// A text of one or several numbers with decimal points, such as "-3.5 dB" or "0.1 to 2.5 s", with the decimal mark of
+/// the language. Points that are not between two digits, and those of "1.2.3", stay.
+[[nodiscard]] juce::String withDecimalMark(const juce::String& text);
+
+/// What was typed in a window with decimal points, as numbers are read. A point or a comma counts in every language.
+[[nodiscard]] juce::String withDecimalPoint(const juce::String& typed);
+
 /// A text that was put together in English by code without windows (documents, writers of formats): whole, by a
 /// template of the table that it fits, or line by line. `{0:text}` in a template stands for a value that is translated
 /// in turn. What comes before ": " may be a name. Costs a search of the table: not for painting.

@@ -53,10 +53,10 @@ public:
                 text.add(editor::tr("Block: {0}", {editor::toText(run->block().name)}));
                 text.add(editor::tr("Stimuli: {0}", {names.joinIntoString(", ")}));
                 if (const auto level = run->session().level())
-                    text.add(editor::tr("Level: {0}", {juce::String(*level, 2)}));
+                    text.add(editor::tr("Level: {0}", {editor::numberText(*level, 2)}));
             }
             text.add(editor::tr("Exposure A(8): {0} of {1} m/s2",
-                                {juce::String(run->exposure(), 3), juce::String(run->study().limits.daily, 2)}));
+                                {editor::numberText(run->exposure(), 3), editor::numberText(run->study().limits.daily, 2)}));
         }
         lines.setText(text.joinIntoString("\n"), false);
     }

@@ -26,7 +26,7 @@ juce::String clockText(double seconds)
 {
     const int minutes = static_cast<int>(seconds / 60.0);
     const double rest = seconds - 60.0 * minutes;
-    return juce::String(minutes) + ":" + (rest < 10.0 ? "0" : "") + juce::String(rest, 2);
+    return juce::String(minutes) + ":" + (rest < 10.0 ? "0" : "") + numberText(rest, 2);
 }
 } // namespace
 

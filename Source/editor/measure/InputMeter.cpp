@@ -73,7 +73,7 @@ void InputMeter::show(float peak)
         --holding;
     else
         held = std::max(level, held - fall);
-    const juce::String now = held > least ? juce::String(held, 1) + " dB" : toText("–");
+    const juce::String now = held > least ? numberText(held, 1) + " dB" : toText("–");
     if (pixelOf(level) == pixelBefore && pixelOf(held) == heldBefore && clipped == clippedBefore && now == text)
         return;
     text = now;

@@ -292,7 +292,7 @@ void StudyPage::buildSetUp()
         const std::string& where = newest.device.empty() ? newest.recording : newest.device;
         addBox(tr("Delay"),
                {tr("Made up for: {0} ms, measured {1}, {2}",
-                   {juce::String(1000.0 * known, 2), toText(newest.time.substr(0, 10)), toText(where)}),
+                   {numberText(1000.0 * known, 2), toText(newest.time.substr(0, 10)), toText(where)}),
                 tr("Not made up for")},
                fits ? 0 : 1, [this, known](int index) { touchLatency = index == 0 ? known : 0.0; });
     }
@@ -365,8 +365,8 @@ void StudyPage::pollDelay()
             const study::Latency& found = **latency;
             return status.setText(tr("The haptic output comes {0} ms after the sound: {1} bursts, SD {2} ms. The delay "
                                      "is stored, and sessions compensate for it.",
-                                     {juce::String(1000.0 * found.delay, 3), juce::String(found.bursts),
-                                      juce::String(1000.0 * found.deviation, 3)}));
+                                     {numberText(1000.0 * found.delay, 3), juce::String(found.bursts),
+                                      numberText(1000.0 * found.deviation, 3)}));
         }
         const Error& error = latency->error();
         return status.setText(

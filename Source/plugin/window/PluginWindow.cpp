@@ -455,7 +455,7 @@ juce::String PluginWindow::statusText() const
         return editor::tr("Bypassed by the host");
     const double milliseconds = 1000.0 * processor.latency() / processor.sampleRate();
     return editor::tr("{0}, latency {1} ms, load {2} %",
-                      {editor::tr(processor.actuatorName()), juce::String(milliseconds, 2),
+                      {editor::tr(processor.actuatorName()), editor::numberText(milliseconds, 2),
                        editor::numberText(100.0 * shownLoad, 2)});
 }
 

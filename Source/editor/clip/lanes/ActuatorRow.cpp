@@ -229,7 +229,7 @@ juce::String ActuatorRow::textAt(juce::Point<float> place) const
     const auto step = shown->stepAt(time);
     if (!step)
         return getDescription();
-    juce::String text = juce::String(time, 3) + " s, ";
+    juce::String text = numberText(time, 3) + " s, ";
     if (lossPlot().contains(place.toInt()) && !shown->sources.empty())
     {
         const auto& source = shown->sources[sourceAt(static_cast<double>(place.y) - lossPlot().getY())];
@@ -243,7 +243,7 @@ juce::String ActuatorRow::textAt(juce::Point<float> place) const
                                                    juce::String(juce::roundToInt(source.levels[*step]))});
     }
     const double level = Decibels::fromGain(std::max(1e-6, static_cast<double>(shown->peaks[*step]))).value;
-    text << (level <= inaudible ? tr("silent") : tr("{0} dB re full drive", {juce::String(level, 1)}));
+    text << (level <= inaudible ? tr("silent") : tr("{0} dB re full drive", {numberText(level, 1)}));
     const auto why = translateMessage(toText(shown->textOf(*step)));
     if (why.isNotEmpty())
         return text + ", " + why;

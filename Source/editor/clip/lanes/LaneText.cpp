@@ -29,8 +29,8 @@ juce::Colour laneColour(const Clip& clip, Lane lane, const Palette& palette, boo
 juce::String hertzText(double frequency)
 {
     if (frequency >= 1000.0)
-        return juce::String(frequency / 1000.0, 2) + " kHz";
-    return (frequency < 100.0 ? juce::String(frequency, 1) : juce::String(juce::roundToInt(frequency))) + " Hz";
+        return numberText(frequency / 1000.0, 2) + " kHz";
+    return (frequency < 100.0 ? numberText(frequency, 1) : juce::String(juce::roundToInt(frequency))) + " Hz";
 }
 
 juce::String rangeText(double low, double high)
@@ -39,7 +39,7 @@ juce::String rangeText(double low, double high)
         return juce::String(juce::roundToInt(low)) + toText("–") + juce::String(juce::roundToInt(high)) + " Hz";
     const auto kilo = [](double f)
     {
-        return juce::String(f / 1000.0, f < 1000.0 ? 2 : 1);
+        return numberText(f / 1000.0, f < 1000.0 ? 2 : 1);
     };
     return kilo(low) + toText("–") + kilo(high) + " kHz";
 }
@@ -48,7 +48,7 @@ juce::String amplitudeText(double amplitude)
 {
     if (amplitude <= 0.0)
         return tr("silent");
-    return juce::String(Decibels::fromGain(amplitude).value, 1) + " dB";
+    return numberText(Decibels::fromGain(amplitude).value, 1) + " dB";
 }
 
 juce::String laneName(const Clip& clip, Lane lane)

@@ -85,7 +85,7 @@ void MarkerStrip::mouseMove(const juce::MouseEvent& event)
     const auto marker = markerAt(event.position);
     setMouseCursor(marker ? juce::MouseCursor::PointingHandCursor : juce::MouseCursor::NormalCursor);
     if (const auto clip = model.clip(); clip && marker)
-        setTooltip(toText(clip->markers[*marker].name) + ", " + juce::String(clip->markers[*marker].time, 3) + " s");
+        setTooltip(toText(clip->markers[*marker].name) + ", " + numberText(clip->markers[*marker].time, 3) + " s");
     else
         setTooltip(tr(help));
 }

@@ -223,9 +223,9 @@ void PlotLane::paintTicks(juce::Graphics& g, juce::Rectangle<int> column, juce::
     {
         const juce::String text = axis.scale == ValueScale::decibels
                                       ? juce::String(juce::roundToInt(Decibels::fromGain(value).value))
-                                  : value >= 1000.0 ? juce::String(value / 1000.0, 0) + "k"
+                                  : value >= 1000.0 ? numberText(value / 1000.0, 0) + "k"
                                   : value >= 10.0   ? juce::String(juce::roundToInt(value))
-                                                    : juce::String(value, value < 0.1 ? 2 : 1);
+                                                    : numberText(value, value < 0.1 ? 2 : 1);
         const int y = plotArea().getY() + juce::roundToInt(axis.yOf(value));
         g.drawText(text, column.withY(y - 6).withHeight(12), side, false);
     }
@@ -261,7 +261,7 @@ void PlotLane::mouseMove(const juce::MouseEvent& event)
     else
     {
         const Breakpoint p = now ? place(*now) : placeAt(event.position);
-        setTooltip(juce::String(p.time, 3) + " s, " + valueText(p.value));
+        setTooltip(numberText(p.time, 3) + " s, " + valueText(p.value));
     }
     if (now == hovered)
         return;
@@ -342,7 +342,7 @@ void PlotLane::mouseDrag(const juce::MouseEvent& event)
     SelectionMove wanted = move(grabbed, target);
     wanted.time = target.time - grabbed.time;
     if (clipSelection.setEdited(stepName(SelectionStep::move, dragged), moveSelected(*start, dragged, wanted), gesture))
-        say(juce::String(target.time, 3) + " s, " + valueText(target.value));
+        say(numberText(target.time, 3) + " s, " + valueText(target.value));
 }
 
 void PlotLane::mouseUp(const juce::MouseEvent& event)
@@ -402,7 +402,7 @@ void PlotLane::scaleByKeys(double pixels, double steps)
     clipSelection.setEdited(stepName(SelectionStep::scale, dragged), scaleSelected(*start, dragged, wanted), nudging);
     nudged = clipSelection.selected();
     say(tr(steps != 0.0 ? "{0} % of the level differences" : "{0} % of the length",
-           {juce::String(100.0 * (steps != 0.0 ? wanted.spread : wanted.timeFactor), 0)}));
+           {numberText(100.0 * (steps != 0.0 ? wanted.spread : wanted.timeFactor), 0)}));
 }
 
 void PlotLane::nudge(double pixels, double steps)
@@ -451,7 +451,7 @@ void PlotLane::step(int direction)
         moved.start = p.time - 0.5 * (shown.to - shown.from);
         viewState.setAxis(moved);
     }
-    say(juce::String(p.time, 3) + " s, " + valueText(p.value));
+    say(numberText(p.time, 3) + " s, " + valueText(p.value));
 }
 
 bool PlotLane::keyPressed(const juce::KeyPress& key)

@@ -4,6 +4,7 @@
 #include "document/view/TimeTicks.h"
 #include "editor/Text.h"
 #include "editor/Theme.h"
+#include "editor/Translation.h"
 #include "editor/clip/lanes/PlotLane.h"
 #include "editor/clip/session/Snapping.h"
 

@@ -109,7 +109,7 @@ void WaveformRow::mouseMove(const juce::MouseEvent& event)
     const double place = (plot.getBottom() - static_cast<double>(event.position.y)) / plot.getHeight();
     const double frequency = spectrum.rows().frequencyAt(place * static_cast<double>(spectrum.rows().count));
     const double level = spectrum.levelAt(time, frequency);
-    setTooltip(juce::String(time, 3) + " s, " + hertzText(frequency) + ", " +
+    setTooltip(numberText(time, 3) + " s, " + hertzText(frequency) + ", " +
                (level <= SpectrumLevel::floor ? tr("silent") : juce::String(juce::roundToInt(level)) + " dB"));
 }
 
@@ -187,7 +187,7 @@ void WaveformRow::paintHead(juce::Graphics& g, const Sound* sound)
     g.drawFittedText(tr("Sound"), head.removeFromTop(19), juce::Justification::centredLeft, 1);
     g.setColour(p.dim);
     g.setFont(smallFont());
-    g.drawFittedText(sound != nullptr ? tr("{0} kHz, {1} ch", {juce::String(sound->audio.rate() / 1000.0, 1),
+    g.drawFittedText(sound != nullptr ? tr("{0} kHz, {1} ch", {numberText(sound->audio.rate() / 1000.0, 1),
                                                                juce::String(sound->audio.channels())})
                                       : tr("none"),
                      head, juce::Justification::centredLeft, 1);

@@ -358,7 +358,7 @@ void AnalysisPanel::show()
             text << tr("The sound file is missing. Locate it to analyse again; everything else works without it.");
         else
             text << tr(source->channels == 1 ? "{0} s, {1} kHz, {2} channel" : "{0} s, {1} kHz, {2} channels",
-                       {juce::String(source->duration, 2), juce::String(source->sampleRate / 1000.0, 1),
+                       {numberText(source->duration, 2), numberText(source->sampleRate / 1000.0, 1),
                         juce::String(source->channels)})
                  << (source->embedded ? "\n" + tr("Embedded in the project") : juce::String())
                  << (!sound ? "\n" + tr(toText("Loading…")) : juce::String());

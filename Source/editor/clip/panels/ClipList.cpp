@@ -23,7 +23,7 @@ constexpr std::size_t fewClips = 8; // are found without a search
 juce::String lengthText(double seconds)
 {
     const int whole = juce::roundToInt(seconds);
-    return seconds < 60.0 ? juce::String(seconds, 2) + " s"
+    return seconds < 60.0 ? numberText(seconds, 2) + " s"
                           : juce::String(whole / 60) + ":" + juce::String(whole % 60).paddedLeft('0', 2);
 }
 } // namespace

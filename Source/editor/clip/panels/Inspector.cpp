@@ -23,7 +23,7 @@ namespace
 /// "0.250 to 1.500 s".
 juce::String stretchText(TimeRange range)
 {
-    return tr("{0} to {1} s", {juce::String(range.from, 3), juce::String(range.to, 3)});
+    return tr("{0} to {1} s", {numberText(range.from, 3), numberText(range.to, 3)});
 }
 
 constexpr int inspectorRowHeight = 3 * grid;
@@ -125,7 +125,7 @@ void Inspector::prepareFields()
             const auto clip = model.clip();
             const auto first = clip ? firstOf(clipSelection.selected(), *clip) : std::nullopt;
             const std::optional<SelectionMove> move =
-                first ? moveOf(*first, typed.getText().getDoubleValue()) : std::nullopt;
+                first ? moveOf(*first, withDecimalPoint(typed.getText()).getDoubleValue()) : std::nullopt;
             if (move)
                 clipSelection.setEdited(stepName(step, clipSelection.selected()),
                                         moveSelected(*clip, clipSelection.selected(), *move));
@@ -219,7 +219,7 @@ void Inspector::showSelection()
         field.setColour(juce::Label::backgroundColourId,
                         shown ? paletteFor(field).well : juce::Colours::transparentBlack);
     };
-    set(timeLabel, timeField, first.has_value(), first ? juce::String(first->time, 4) + " s" : "");
+    set(timeLabel, timeField, first.has_value(), first ? numberText(first->time, 4) + " s" : "");
     const bool hertz = first.has_value() && first->hertz;
     const double value = first.has_value() ? first->value : 0.0;
     valueLabel.setText(tr(hertz ? "Frequency" : "Level"), juce::dontSendNotification);
@@ -249,7 +249,7 @@ void Inspector::showFacts()
     if (!clip)
         return;
     juce::String text;
-    text << juce::String(clip->duration, 2) << " s, " << counted(clip->bands.size(), "{0} band", "{0} bands") << "\n"
+    text << numberText(clip->duration, 2) << " s, " << counted(clip->bands.size(), "{0} band", "{0} bands") << "\n"
          << counted(breakpointCount(*clip), "{0} point", "{0} points") << ", "
          << counted(clip->transients.size(), "{0} transient", "{0} transients");
     if (const auto item = model.item(); item && !item->unfitting.empty())
@@ -299,9 +299,9 @@ void Inspector::simplifyMoved()
     text << tr("{0} to {1} points",
                {juce::String(static_cast<int>(found.before)), juce::String(static_cast<int>(found.after))})
          << "\n"
-         << tr("Max. error {0} % of full drive", {juce::String(100.0 * found.amplitudeError, 2)});
+         << tr("Max. error {0} % of full drive", {numberText(100.0 * found.amplitudeError, 2)});
     if (found.frequencyError > 0.0)
-        text << ", " << juce::String(found.frequencyError, 1) << " Hz";
+        text << ", " << numberText(found.frequencyError, 1) << " Hz";
     cost.setText(text, juce::dontSendNotification);
     clipSelection.setEdited("Simplify", {std::move(simplified->clip), {}}, own);
     if (single)

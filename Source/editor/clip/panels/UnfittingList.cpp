@@ -133,7 +133,7 @@ juce::Component* UnfittingList::refreshComponentForRow(int row, bool, juce::Comp
         owned = std::make_unique<Row>(*this);
     juce::String title = translateMessage(toText(editTitle(*edit)));
     if (const auto time = editTime(*edit))
-        title << ", " << juce::String(time->from, 2) << " s";
+        title << ", " << numberText(time->from, 2) << " s";
     static_cast<Row&>(*owned).set(row, title, reasonOf(row));
     return owned.release();
 }

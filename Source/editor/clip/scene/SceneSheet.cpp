@@ -242,7 +242,7 @@ void SceneSheet::plan()
                           << tr("{0} left out and {1} bands of others; the error is {2} dB",
                                 {juce::String(static_cast<int>(scene.leftOut.size())),
                                  juce::String(static_cast<int>(scene.bands)),
-                                 std::isfinite(scene.error) ? juce::String(scene.error, 1) : toText("−∞")});
+                                 std::isfinite(scene.error) ? numberText(scene.error, 1) : toText("−∞")});
                  note.setText(text, juce::dontSendNotification);
                  line.showLeftOut(scene.leftOut);
              });

@@ -113,7 +113,7 @@ void SceneTimeline::paint(juce::Graphics& g)
         g.setColour(p.line);
         g.fillRect(x, 0, 1, getHeight());
         g.setColour(p.dim);
-        g.drawText(juce::String(i * step, step < 0.1 ? 2 : 1) + " s", x + 4, 2, 80, rulerHeight - 6,
+        g.drawText(numberText(i * step, step < 0.1 ? 2 : 1) + " s", x + 4, 2, 80, rulerHeight - 6,
                    juce::Justification::centredLeft, false);
     }
     const auto& parts = selection.scene().parts;
@@ -327,7 +327,7 @@ void SceneTimeline::say()
     const auto item = model.document().clip(part->clip);
     const juce::String text =
         tr("{0} at {1} s on track {2}", {item ? toText(item->clip->name) : tr("Clip is gone"),
-                                         juce::String(part->play.start, 2), juce::String(part->track + 1)});
+                                         numberText(part->play.start, 2), juce::String(part->track + 1)});
     setDescription(text);
     if (hasKeyboardFocus(false))
         juce::AccessibilityHandler::postAnnouncement(text, juce::AccessibilityHandler::AnnouncementPriority::medium);

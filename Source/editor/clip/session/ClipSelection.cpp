@@ -130,7 +130,7 @@ void ClipSelection::paste(double time, const std::optional<Lane>& into)
     const bool done = pasted->extension ? setEdited("Paste", *pasted->extension, std::move(result))
                                         : setEdited("Paste", std::move(result));
     if (done && pasted->extension && model.onNotice)
-        model.onNotice(tr("Pasted beyond the end: the clip is {0} s longer", {juce::String(longer, 2)}));
+        model.onNotice(tr("Pasted beyond the end: the clip is {0} s longer", {numberText(longer, 2)}));
     if (done && leftOut > 0 && model.onError)
         model.onError("Partly pasted",
                       tr("This clip has no band near {0} of the copied lanes.", {juce::String(leftOut)}));

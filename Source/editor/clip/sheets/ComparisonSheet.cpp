@@ -66,7 +66,7 @@ void ComparisonSheet::showResult(Result<SoundComparison> result)
         found = std::move(*result);
         const auto number = [](double value)
         {
-            return juce::String(value, 1);
+            return numberText(value, 1);
         };
         summary = tr("Likeness {0} (sound itself {1})", {number(found->score), number(found->best)});
         if (found->match)
@@ -140,10 +140,10 @@ void ComparisonSheet::mouseMove(const juce::MouseEvent& event)
                                      static_cast<std::size_t>(x * static_cast<double>(SoundComparison::columns)));
         const auto row =
             std::min(found->rows.count - 1, static_cast<std::size_t>(y * static_cast<double>(found->rows.count)));
-        text = juce::String(x * found->duration, 2) + " s, " +
+        text = numberText(x * found->duration, 2) + " s, " +
                juce::String(juce::roundToInt(found->rows.frequencyAt(static_cast<double>(row) + 0.5))) + " Hz: " +
                tr("{0} dB against the sound",
-                  {juce::String(static_cast<double>(found->difference[column * found->rows.count + row]), 1)});
+                  {numberText(static_cast<double>(found->difference[column * found->rows.count + row]), 1)});
     }
     place.setText(text, juce::dontSendNotification);
 }

@@ -32,7 +32,7 @@ juce::String worstText(const FormatLoss& loss)
     if (!(loss.error > 0.0))
         return {};
     if (loss.kind == LossKind::frequency)
-        return tr("{0} octaves", {juce::String(loss.error, 2)});
+        return tr("{0} octaves", {numberText(loss.error, 2)});
     if (loss.kind == LossKind::timeStep || loss.kind == LossKind::length)
         return numberText(1000.0 * loss.error, 1) + " ms";
     return numberText(100.0 * loss.error, 1) + " %";

@@ -98,7 +98,7 @@ public:
     {
         if (!field.choices.empty())
             return choice.getSelectedId() - 1.0;
-        const double typed = number.getText().replaceCharacter(',', '.').getDoubleValue();
+        const double typed = withDecimalPoint(number.getText()).getDoubleValue();
         return std::isfinite(typed) ? std::clamp(typed, field.low, field.high) : field.value;
     }
 
@@ -234,7 +234,7 @@ juce::String OperationSheet::scopeText() const
     if (operation.wholeClip)
         return tr("Applies to the whole clip");
     const EditScope scope = clipSelection.scope();
-    const auto times = tr("{0} to {1} s", {juce::String(scope.range.from, 3), juce::String(scope.range.to, 3)});
+    const auto times = tr("{0} to {1} s", {numberText(scope.range.from, 3), numberText(scope.range.to, 3)});
     if (!scope.allLanes)
         return tr("Applies to the selection: {0}", {times});
     return clipSelection.timeRange() ? tr("Applies to the time range, all lanes: {0}", {times})
