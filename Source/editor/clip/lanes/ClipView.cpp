@@ -153,6 +153,18 @@ ClipView::ClipView(Session& shared)
                          if (showMarkers() || (actuator.isVisible() && actuator.getHeight() != actuator.wantedHeight()))
                              resized();
                      });
+    brightness.onChanged = [this]
+    {
+        if (auto* row = rowOf({LaneKind::centroid, 0}))
+            row->repaint();
+    };
+    subscriptions.on({&model.contentChanged, &shared.sounds.changed},
+                     [this, &sounds = shared.sounds]
+                     {
+                         const auto item = model.shownItem();
+                         brightness.show(item ? sounds.soundOfClip() : nullptr, item ? item->encoder.lowFrequency : 0.0,
+                                         item ? item->encoder.highFrequency : 0.0);
+                     });
     subscriptions.on({&viewState.lookChanged}, [this] { resized(); });
     subscriptions.on({&viewState.axisChanged, &transport.changed, &model.contentChanged}, [this] { placePlayhead(); });
     rebuild();
@@ -214,7 +226,12 @@ void ClipView::rebuild()
             add(std::make_unique<EventLane>(model, clipSelection, viewState, transport, EventLane::Shows::sharpness));
         }
         for (const Lane& lane : wanted)
-            add(std::make_unique<CurveLane>(model, clipSelection, viewState, transport, lane));
+        {
+            auto curve = std::make_unique<CurveLane>(model, clipSelection, viewState, transport, lane);
+            if (lane.kind == LaneKind::centroid)
+                curve->setBehind(&brightness.curve());
+            add(std::move(curve));
+        }
     }
     layOut();
 }

@@ -5,6 +5,7 @@
 
 #include "editor/clip/commands/Command.h"
 #include "editor/clip/lanes/ActuatorRow.h"
+#include "editor/clip/lanes/BrightnessLine.h"
 #include "editor/clip/lanes/MarkerStrip.h"
 #include "editor/clip/lanes/Overview.h"
 #include "editor/clip/lanes/PlotLane.h"
@@ -92,6 +93,7 @@ private:
     WaveformRow waveform;
     ActuatorRow actuator;
     Overview overview;
+    BrightnessLine brightness;
     LaneViewport viewport;
     juce::Component rows;
     std::vector<std::unique_ptr<PlotLane>> lanes;

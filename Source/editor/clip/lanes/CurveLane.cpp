@@ -3,6 +3,7 @@
 
 #include "document/view/Columns.h"
 #include "document/view/HitTest.h"
+#include "document/view/SoundBrightness.h"
 #include "editor/Controls.h"
 #include "editor/Theme.h"
 #include "editor/Translation.h"
@@ -172,6 +173,8 @@ bool CurveLane::showsHandles() const
 void CurveLane::paintPlot(juce::Graphics& g, juce::Rectangle<int> plot, int firstColumn, int lastColumn)
 {
     const Palette& p = paletteFor(*this);
+    if (behind != nullptr && !behind->empty())
+        paintBehind(g, plot, firstColumn, lastColumn);
     const Curve* points = curve();
     if (points == nullptr || points->empty())
         return;
@@ -193,6 +196,43 @@ void CurveLane::paintPlot(juce::Graphics& g, juce::Rectangle<int> plot, int firs
     paintLine(g, plot, firstColumn, lastColumn, {first, last});
     if (drewHandles)
         paintHandles(g, {first, last}, colour);
+}
+
+/// What the sound has, as a thin line without points, and a word on what it is.
+void CurveLane::paintBehind(juce::Graphics& g, juce::Rectangle<int> plot, int firstColumn, int lastColumn)
+{
+    const Palette& p = paletteFor(*this);
+    const ValueAxis values = scale();
+    const TimeAxis& axis = viewState.axis();
+    const auto yOf = [&](double frequency)
+    {
+        return plot.getY() + juce::roundToInt(std::clamp(values.yOf(frequency), 0.0, values.height));
+    };
+    ColumnFill line(g, p.dim.withAlpha(0.8f));
+    std::optional<std::pair<int, int>> before; // top and bottom of the column on the left
+    for (int column = firstColumn - 1; column < lastColumn; ++column)
+    {
+        const auto found = brightnessIn(*behind, axis.timeAt(column), axis.timeAt(column + 1.0));
+        if (found.greatest <= 0.0)
+        {
+            before.reset();
+            continue;
+        }
+        int top = yOf(found.greatest), bottom = yOf(found.least);
+        const auto own = std::pair(top, bottom);
+        if (before) // joined, also where it is steep
+        {
+            top = std::min(top, before->second);
+            bottom = std::max(bottom, before->first);
+        }
+        before = own;
+        if (column >= firstColumn)
+            line.add(plot.getX() + column, top, std::max(1, bottom - top));
+    }
+    g.setColour(p.dim);
+    g.setFont(captionFont());
+    g.drawText(tr("Thin line: the sound"), plot.reduced(grid / 2, 2).removeFromTop(12), juce::Justification::topRight,
+               true);
 }
 
 /// The area under the curve as a bar in each column; with `bars` also the curve, whose points are too many for lines.

@@ -20,6 +20,10 @@ public:
 
     [[nodiscard]] Lane lane() const noexcept { return shown; }
 
+    /// A curve in Hz that is drawn behind the clip's own, which cannot be edited; see brightnessOf(). Null: none. It
+    /// outlives the lane; repaint() after its change.
+    void setBehind(const Curve* wanted) { behind = wanted; }
+
     void addInside(Selection& selection, juce::Rectangle<float> area) const override;
     void resized() override;
 
@@ -31,6 +35,7 @@ private:
     Style style() const override;
     ValueAxis valueAxis(double height) const override;
     void paintPlot(juce::Graphics& g, juce::Rectangle<int> plot, int firstColumn, int lastColumn) override;
+    void paintBehind(juce::Graphics& g, juce::Rectangle<int> plot, int firstColumn, int lastColumn);
     void paintColumns(juce::Graphics& g, juce::Rectangle<int> plot, int firstColumn, int lastColumn,
                       juce::Colour colour, bool bars);
     void paintLine(juce::Graphics& g, juce::Rectangle<int> plot, int firstColumn, int lastColumn,
@@ -62,6 +67,7 @@ private:
     };
 
     Lane shown;
+    const Curve* behind = nullptr;
     Stroke stroke;
     std::optional<Bend> bent;
     Gesture toolGesture = 0;
