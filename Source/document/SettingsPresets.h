@@ -1,12 +1,16 @@
 #pragma once
 
-// Presets of the analysis that the user has saved: settings files (pacini.settings) in a folder.
+// Presets that the user has saved, of the analysis and of the outputs: settings files (pacini.settings) in a folder.
+
+#include "document/HapticOutput.h"
 
 #include <pacini/analysis/EncoderParams.h>
 #include <pacini/foundation/Result.h>
+#include <pacini/synthesis/Scene.h>
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,32 +18,52 @@
 namespace pacini
 {
 
-/// One file for each preset, `NAME.json`, which `pacini encode --settings` reads too. All of it [message].
-class AnalysisPresets
+/// One file for each preset, `NAME.json`. All of it [message].
+class SettingsPresets
 {
 public:
     static constexpr std::size_t longestName = 80; ///< bytes
     static constexpr std::size_t most = 200;       ///< that are listed
 
     /// The folder need not exist: the first preset makes it.
-    explicit AnalysisPresets(std::filesystem::path wanted) : home(std::move(wanted)) {}
+    explicit SettingsPresets(std::filesystem::path wanted) : home(std::move(wanted)) {}
 
     /// The names of all presets, sorted; their files are not read.
     [[nodiscard]] std::vector<std::string> names() const;
 
     [[nodiscard]] std::filesystem::path pathOf(const std::string& name) const;
 
-    /// Writes a preset as a whole or not at all. Errors: invalidArgument for a name that cannot be one, see
+    /// Writes a preset, the text of a settings file, as a whole or not at all. Errors: invalidArgument for a name that cannot be one, see
     /// presetNameDefect(); io or diskFull for a file that cannot be written, and for one that is there already unless
     /// it may be replaced.
-    [[nodiscard]] Result<void> save(const std::string& name, const EncoderParams& params, bool replace) const;
+    [[nodiscard]] Result<void> save(const std::string& name, const std::string& settings, bool replace) const;
 
 private:
     std::filesystem::path home;
 };
 
+/// The text of a settings file with all parameters of the analysis, which `pacini encode --settings` reads too.
+[[nodiscard]] std::string analysisSettings(const EncoderParams& params);
+
 /// The parameters of the analysis in a settings file. Errors: those of readSettingsFile() and translationOf(), and
 /// invalidArgument at `method` for another method than a2vt.
 [[nodiscard]] Result<EncoderParams> readAnalysisSettings(const std::filesystem::path& path);
+
+/// Haptic outputs beside each other, and how a clip's position counts over them.
+struct OutputSettings
+{
+    static constexpr std::size_t most = 8;
+
+    std::vector<HapticOutput> outputs;
+    std::optional<PanLaw> pan; ///< none: every output plays all of it
+    bool operator==(const OutputSettings&) const = default;
+};
+
+/// The text of a settings file whose part `outputs` has these.
+[[nodiscard]] std::string outputSettings(const OutputSettings& settings);
+
+/// The part `outputs` of a settings file: 1 to 8 of them, with values that are allowed. Errors: io as in readWholeFile,
+/// those of FieldsReader, and invalidData at `outputs` where there is none.
+[[nodiscard]] Result<OutputSettings> readOutputSettings(const std::filesystem::path& path);
 
 } // namespace pacini

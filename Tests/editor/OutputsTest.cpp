@@ -5,11 +5,15 @@
 #include "editor/Pump.h"
 #include "editor/clip/scene/SceneSheet.h"
 #include "editor/clip/sheets/OutputsSheet.h"
+#include "io/SettingsFile.h"
+#include "support/TempFolder.h"
 
 using namespace pacini;
 using test::EditorBench;
 using test::find;
 using test::get;
+using test::put;
+using test::TempFolder;
 
 TEST_CASE("One output plays the clip on the actuator of the project, as long as nobody wants more")
 {
@@ -256,4 +260,52 @@ TEST_CASE("Without a device Play says so, offers to reconnect and does not prete
     CHECK(session.filePreview.file().empty());
     CHECK(view.question() != nullptr);
     view.showSheet(nullptr);
+}
+
+TEST_CASE("Presets of the outputs are settings files that bring all rows and the pan back")
+{
+    const TempFolder folder;
+    EditorBench bench({test::shipped("lra-175"), test::shipped("erm-coin")});
+    auto& outputs = bench.session.outputs;
+    outputs.setPan(PanLaw::delay);
+    outputs.setOutputs({{2, "", -3.5, 0.0, 0.0}, {3, "erm-coin", 0.0, 0.012, 0.75}, {-1, "plain drive", 0.0, 0.0, 1.0}});
+    const auto wanted = outputs.outputs();
+    const auto open = [&]
+    {
+        bench.view.showSheet(
+            std::make_unique<editor::OutputsSheet>(bench.view, juce::StringArray{"a", "b", "c", "d"}, folder / "presets"));
+        return dynamic_cast<editor::OutputsSheet*>(bench.view.sheet());
+    };
+    auto* sheet = open();
+    REQUIRE(sheet != nullptr);
+    sheet->presets()->saveAs("band");
+    outputs.setPan(std::nullopt);
+    outputs.setOutputs({{0, "lra-175", 0.0, 0.0, 0.0}});
+    sheet = open();
+    auto& box = get<juce::ComboBox>(*sheet, "Preset");
+    int item = 0;
+    for (int i = 0; i < box.getNumItems(); ++i)
+        if (box.getItemText(i) == "band")
+            item = box.getItemId(i);
+    REQUIRE(item != 0);
+    box.setSelectedId(item, juce::sendNotificationSync);
+    CHECK(outputs.outputs() == wanted);
+    CHECK(outputs.pan() == PanLaw::delay);
+    // It is a settings file, and one of the analysis, or a broken one, changes nothing.
+    CHECK(readSettingsFile(folder / "presets" / "band.json"));
+    for (const char* text : {"{}", "no JSON", R"({"format": "pacini.settings", "version": 1, "encode": {"bands": 5}})",
+                             R"({"format": "pacini.settings", "version": 1, "outputs": []})",
+                             R"({"format": "pacini.settings", "version": 1, "pan": "left", "outputs": [{"channel": 1}]})",
+                             R"({"format": "pacini.settings", "version": 1, "outputs": [{"channel": -4}]})",
+                             R"({"format": "pacini.settings", "version": 1, "outputs": [{"channel": 1, "gain": 200}]})",
+                             R"({"format": "pacini.settings", "version": 2, "outputs": [{"channel": 1}]})"})
+    {
+        CAPTURE(text);
+        put(folder / "other.json", text);
+        sheet->presets()->open(folder / "other.json");
+        REQUIRE(bench.view.question() != bench.view.sheet());
+        CHECK(bench.view.question()->getTitle() == "other.json not opened");
+        CHECK(outputs.outputs() == wanted);
+        sheet = open();
+    }
 }

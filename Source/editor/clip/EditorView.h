@@ -4,6 +4,7 @@
 // Main view of the clip editor as one component: for a window of its own, or for that of a plugin.
 
 #include "document/measure/MeasureRig.h"
+#include "editor/SpokenStatus.h"
 #include "editor/Theme.h"
 #include "editor/clip/NoticeBar.h"
 #include "editor/clip/ProjectFiles.h"
@@ -28,6 +29,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -45,6 +47,7 @@ struct HostServices
     std::shared_ptr<MeasureRig> measureRig = {};                 ///< null: only simulated actuators can be measured
     std::filesystem::path profileFolder = {};                    ///< where measured profiles are written at first
     std::filesystem::path presetFolder = {}; ///< of the user's analysis presets; empty: none are kept
+    std::filesystem::path outputPresetFolder = {}; ///< of those of haptic outputs
     juce::String language = {};              ///< code of the chosen one; empty: that of the system
     std::function<void(const juce::String&)> chooseLanguage = {};    ///< from the next start on; null: not here
     std::function<void(const std::filesystem::path&)> runStudy = {}; ///< of that file; null: not here
@@ -126,6 +129,8 @@ private:
     void showOpenedScene();
     void tellNowhere();
     void reconnect();
+    void speak(const juce::String& text);
+    void speakStatus();
     bool isInterestedInFileDrag(const juce::StringArray&) override { return true; }
     void fileDragEnter(const juce::StringArray&, int, int) override { start.setDropping(true); }
     void fileDragExit(const juce::StringArray&) override { start.setDropping(false); }
@@ -157,6 +162,9 @@ private:
     SafePointer<juce::Component> focusedBefore;  ///< the sheet
     std::deque<std::unique_ptr<Sheet>> messages; ///< that wait
     HeldSwitch drawKey;
+    SpokenStatus speaker;
+    juce::String spokenPlace; ///< what plays where, as it was said
+    std::optional<bool> spokenPlaying;
     juce::TooltipWindow tooltips{&body, 600};
     Subscriptions subscriptions;
 };

@@ -166,10 +166,11 @@ Menu viewMenu(EditorView& view)
     if (view.hostServices().outputNames)
         menu.add(hapticOutputs, "Haptic outputs...",
                  "Outputs that clips play on: actuator, gain, delay and position of each",
-                 [&view, &session]
+                 [&view]
                  {
-                     view.showSheet(std::make_unique<OutputsSheet>(session.outputs, session.actuators,
-                                                                   view.hostServices().outputNames()));
+                     const HostServices& around = view.hostServices();
+                     view.showSheet(
+                         std::make_unique<OutputsSheet>(view, around.outputNames(), around.outputPresetFolder));
                  });
     return menu;
 }

@@ -6,13 +6,10 @@
 #include "editor/Theme.h"
 #include "editor/Translation.h"
 #include "editor/clip/EditorView.h"
-#include "editor/clip/sheets/NameSheet.h"
 #include "io/EncoderPresets.h"
 
 #include <algorithm>
-#include <memory>
 #include <string_view>
-#include <system_error>
 #include <utility>
 
 namespace pacini::editor
@@ -25,8 +22,6 @@ constexpr int preferredHeight = 88 * grid;
 constexpr int labelWidth = 9 * grid;
 constexpr int pause = 350; // ms without a change
 constexpr int logarithmic = 1, linear = 2;
-// Of the menu of presets; those of the user follow.
-constexpr int savePreset = 1000, loadSettings = 1001, firstOwn = 2000;
 constexpr double leastWidth = 5.0; // Hz between the ends of the bands
 } // namespace
 
@@ -37,11 +32,26 @@ AnalysisPanel::AnalysisPanel(EditorView& shown)
       replaceButton(toText("Replace sound…")),
       findButton(toText("Locate…")),
       resetButton("Reset"),
-      ownPresets(shown.hostServices().presetFolder),
+      ownPresets(shown, shown.hostServices().presetFolder),
       normalise("Scale to full drive"),
       edits(shown.session().model, shown.session().viewState, shown.session().transport)
 {
     setTitle("Analysis");
+    ownPresets.settings = [this]
+    {
+        return analysisSettings(params());
+    };
+    ownPresets.load = [this](const std::filesystem::path& file, const juce::String& name)
+    {
+        return take(file, name);
+    };
+    ownPresets.onSaved = [this](const juce::String& name)
+    {
+        fillPresets();
+        if (name.isNotEmpty())
+            lastOwn = OwnPreset{name, params()};
+        showPreset(params());
+    };
     const auto label = [this](juce::Label& one, const juce::String& text)
     {
         prepareLabel(one, text, smallFont());
@@ -214,16 +224,7 @@ void AnalysisPanel::fillPresets()
     preset.clear(juce::dontSendNotification);
     for (std::size_t i = 0; i < encoderPresets().size(); ++i)
         preset.addItem(tr(toText(encoderPresets()[i].name)), 1 + static_cast<int>(i));
-    const bool keeps = !view.hostServices().presetFolder.empty();
-    ownNames = keeps ? ownPresets.names() : std::vector<std::string>();
-    preset.addSeparator();
-    for (std::size_t i = 0; i < ownNames.size(); ++i)
-        preset.addItem(toText(ownNames[i]), firstOwn + static_cast<int>(i));
-    if (!ownNames.empty())
-        preset.addSeparator();
-    if (keeps)
-        preset.addItem(tr(toText("Save preset…")), savePreset);
-    preset.addItem(tr(toText("Load settings…")), loadSettings);
+    ownPresets.addTo(preset);
 }
 
 void AnalysisPanel::choosePreset()
@@ -231,42 +232,19 @@ void AnalysisPanel::choosePreset()
     const int chosen = preset.getSelectedId();
     if (chosen < 1)
         return;
-    if (chosen >= firstOwn)
-        return load(ownPresets.pathOf(ownNames[static_cast<std::size_t>(chosen - firstOwn)]),
-                    toText(ownNames[static_cast<std::size_t>(chosen - firstOwn)]));
-    if (chosen >= savePreset)
-    {
-        showPreset(params()); // those are no presets
-        if (chosen == loadSettings)
-            return view.files().askForSettings(
-                [self = juce::Component::SafePointer(this)](const auto& file)
-                {
-                    if (self)
-                        self->load(file);
-                });
-        return view.showSheet(std::make_unique<NameSheet>(
-            "Save preset", "Name of the preset", juce::String(),
-            [self = juce::Component::SafePointer(this)](const juce::String& name)
-            {
-                if (self)
-                    self->saveAs(name);
-            },
-            "Save"));
-    }
+    if (chosen >= OwnPresets::firstId)
+        showPreset(params()); // until it is chosen; what saves and loads is no preset
+    if (ownPresets.choose(chosen))
+        return;
     set(encoderPresets()[static_cast<std::size_t>(chosen - 1)].params);
     edited();
 }
 
-void AnalysisPanel::load(const std::filesystem::path& settings, const juce::String& name)
+Result<void> AnalysisPanel::take(const std::filesystem::path& settings, const juce::String& name)
 {
     const auto read = readAnalysisSettings(settings);
     if (!read)
-    {
-        showPreset(params());
-        return view.showMessage(std::make_unique<MessageSheet>(tr("{0} not opened", {pathText(settings.filename())}),
-                                                               translateMessage(toText(read.error().text())),
-                                                               std::vector<Sheet::Answer>{{"Close", {}}}));
-    }
+        return read.error();
     if (name.isNotEmpty())
         lastOwn = OwnPreset{name, *read};
     set(*read);
@@ -274,34 +252,7 @@ void AnalysisPanel::load(const std::filesystem::path& settings, const juce::Stri
     // Also what has no control.
     waiting = *read;
     showPreset(*read);
-}
-
-void AnalysisPanel::saveAs(const juce::String& name)
-{
-    const auto write = [this, name, wanted = params()](bool replace)
-    {
-        const auto saved = ownPresets.save(name.toStdString(), wanted, replace);
-        fillPresets();
-        if (saved)
-            lastOwn = OwnPreset{name, wanted};
-        showPreset(wanted);
-        if (!saved)
-            view.showMessage(std::make_unique<MessageSheet>("Preset not saved",
-                                                            translateMessage(toText(saved.error().text())),
-                                                            std::vector<Sheet::Answer>{{"Close", {}}}));
-        else if (model.onNotice)
-            model.onNotice(tr("Preset saved: {0}", {name}));
-    };
-    std::error_code unknown;
-    if (!std::filesystem::exists(ownPresets.pathOf(name.toStdString()), unknown))
-        return write(false);
-    view.showMessage(std::make_unique<MessageSheet>(tr("Replace the preset {0}?", {name}),
-                                                    "There is a preset of this name.",
-                                                    std::vector<Sheet::Answer>{{"Cancel", {}},
-                                                                               {"Replace", [write]
-                                                                                {
-                                                                                    write(true);
-                                                                                }}}));
+    return {};
 }
 
 void AnalysisPanel::showPreset(const EncoderParams& wanted)

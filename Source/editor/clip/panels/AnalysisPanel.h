@@ -3,10 +3,10 @@
 
 // Analysis panel: encoder parameters of the clip, and the hand edits that found no place over the analysis.
 
-#include "document/AnalysisPresets.h"
 #include "editor/Controls.h"
 #include "editor/clip/panels/UnfittingList.h"
 #include "editor/clip/session/ProjectSounds.h"
+#include "editor/clip/sheets/OwnPresets.h"
 
 #include <juce_gui_basics/juce_gui_basics.h>
 
@@ -33,9 +33,9 @@ public:
     void carryOut();
 
     /// The controls take what a settings file says; `name` is that of a preset of the user.
-    void load(const std::filesystem::path& settings, const juce::String& name = {});
+    void load(const std::filesystem::path& settings, const juce::String& name = {}) { ownPresets.open(settings, name); }
     /// Writes what the controls say as a preset of the user, after a question where there is one of this name.
-    void saveAs(const juce::String& name);
+    void saveAs(const juce::String& name) { ownPresets.saveAs(name); }
 
     void paint(juce::Graphics& g) override;
     void resized() override;
@@ -66,6 +66,7 @@ private:
     void set(const EncoderParams& wanted);
     void fillPresets();
     void choosePreset();
+    Result<void> take(const std::filesystem::path& settings, const juce::String& name);
     void showPreset(const EncoderParams& wanted);
     void show();
     void edited();
@@ -81,8 +82,7 @@ private:
     juce::Label presetLabel, spacingLabel;
     MenuBox preset;
     juce::ComboBox spacing;
-    AnalysisPresets ownPresets;
-    std::vector<std::string> ownNames; ///< in the menu
+    OwnPresets ownPresets;
     struct OwnPreset
     {
         juce::String name;

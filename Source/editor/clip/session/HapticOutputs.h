@@ -4,6 +4,7 @@
 // The haptic outputs that a clip plays on: which actuator is on each, its gain, delay and place. They are the user's
 // and not the project's.
 
+#include "document/HapticOutput.h"
 #include "document/PreviewRow.h"
 #include "editor/clip/session/Actuators.h"
 
@@ -16,15 +17,7 @@
 namespace pacini::editor
 {
 
-struct HapticOutput
-{
-    int channel = 2;      ///< of the device, from 0; see HapticOutputs::channelOf(); -1: none
-    std::string actuator; ///< the name of a profile; empty: that of the project
-    double gain = 0.0;    ///< dB, -60 (silent) to 0
-    double delay = 0.0;   ///< s, 0 to 0.5
-    double place = 0.0;   ///< 0 to 1, for the pan
-    bool operator==(const HapticOutput&) const = default;
-};
+using pacini::HapticOutput;
 
 /// [message]
 class HapticOutputs

@@ -6,8 +6,10 @@
 #include "editor/Text.h"
 #include "editor/Theme.h"
 #include "editor/Translation.h"
+#include "editor/clip/EditorView.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace pacini::editor
 {
@@ -47,6 +49,49 @@ OutputsSheet::OutputsSheet(HapticOutputs& hapticOutputs, const Actuators& profil
     setAnswers({{"Close", {}}});
     subscriptions.on({&outputs.changed, &actuators.changed, &actuators.listChanged}, [this] { show(); });
     show();
+}
+
+OutputsSheet::OutputsSheet(EditorView& view, const juce::StringArray& channels,
+                           const std::filesystem::path& presetFolder)
+    : OutputsSheet(view.session().outputs, view.session().actuators, channels)
+{
+    own = std::make_unique<OwnPresets>(view, presetFolder);
+    own->settings = [this]
+    {
+        return outputSettings({outputs.outputs(), outputs.pan()});
+    };
+    own->load = [this](const std::filesystem::path& file, const juce::String&) -> Result<void>
+    {
+        auto read = readOutputSettings(file);
+        if (!read)
+            return read.error();
+        outputs.setPan(read->pan);
+        outputs.setOutputs(std::move(read->outputs));
+        return {};
+    };
+    own->onSaved = [this](const juce::String&)
+    {
+        fillPresets();
+    };
+    presetBox.setTitle("Preset");
+    presetBox.setTooltip("Presets of all outputs: settings files");
+    presetBox.onChange = [this]
+    {
+        const int chosen = presetBox.getSelectedId();
+        presetBox.setSelectedId(0, juce::dontSendNotification);
+        if (chosen > 0)
+            own->choose(chosen);
+    };
+    addAndMakeVisible(presetBox);
+    fillPresets();
+    resized();
+}
+
+void OutputsSheet::fillPresets()
+{
+    presetBox.clear(juce::dontSendNotification);
+    own->addTo(presetBox);
+    presetBox.setTextWhenNothingSelected(tr("Preset"));
 }
 
 void OutputsSheet::prepare(std::size_t index)
@@ -208,6 +253,11 @@ void OutputsSheet::layOut(juce::Rectangle<int> area)
     last.removeFromLeft(grid);
     removeButton.setBounds(last.removeFromLeft(widthOf(removeButton)).reduced(0, 3));
     last.removeFromLeft(grid);
+    if (own)
+    {
+        presetBox.setBounds(last.removeFromRight(20 * grid).reduced(0, 3));
+        last.removeFromRight(grid);
+    }
     note.setBounds(last);
     for (std::size_t i = 0; i < outputs.outputs().size(); ++i)
     {

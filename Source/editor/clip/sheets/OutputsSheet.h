@@ -5,6 +5,7 @@
 
 #include "editor/Controls.h"
 #include "editor/clip/session/HapticOutputs.h"
+#include "editor/clip/sheets/OwnPresets.h"
 #include "editor/clip/sheets/Sheet.h"
 
 #include <array>
@@ -20,6 +21,10 @@ class OutputsSheet final : public Sheet
 public:
     /// `channels`: the names of the device's outputs.
     OutputsSheet(HapticOutputs& hapticOutputs, const Actuators& profiles, const juce::StringArray& channels);
+    /// The same with presets of all rows in a folder, see OwnPresets.
+    OutputsSheet(EditorView& view, const juce::StringArray& channels, const std::filesystem::path& presetFolder);
+
+    [[nodiscard]] OwnPresets* presets() noexcept { return own.get(); }
 
 private:
     struct Row
@@ -34,6 +39,7 @@ private:
     void prepare(std::size_t index);
     void set(std::size_t index, const std::function<void(HapticOutput&)>& change);
     void show();
+    void fillPresets();
 
     HapticOutputs& outputs;
     const Actuators& actuators;
@@ -41,6 +47,8 @@ private:
     std::array<juce::Label, 5> heads;
     std::array<Row, HapticOutputs::most> rows;
     juce::TextButton addButton, removeButton;
+    MenuBox presetBox;
+    std::unique_ptr<OwnPresets> own; ///< null: there are none
     juce::Label note;
     Subscriptions subscriptions;
 };
