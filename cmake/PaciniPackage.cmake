@@ -95,7 +95,7 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 # Programs that are packaged with libpacini depend on this package, and the linker's list is made anew.
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS_POLICY ">=")
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS "libeigen3-dev, librtaudio6, ffmpeg") # what `pacini live` opens at run time, and what decodes films
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "libeigen3-dev, librtaudio6, ffmpeg, speech-dispatcher") # what `pacini live` opens at run time, what decodes films, and what speaks for the editor
 if(PACINI_DESKTOP_PROGRAMS)
     # What JUCE opens at run time, which dpkg-shlibdeps cannot see.
     set(CPACK_DEBIAN_PACKAGE_DEPENDS "libx11-6, libxcursor1, libxext6, libxinerama1, libxrandr2, libxss1")

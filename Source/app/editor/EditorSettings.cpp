@@ -27,6 +27,7 @@ void forAll(editor::ViewOptions& view, SnapTargets& snap, Visit&& visit)
     visit("actuatorRows", view.actuator);
     visit("technicalTerms", view.technicalTerms);
     visit("reducedMotion", view.reducedMotion);
+    visit("spokenStatus", view.spoken);
     visit("snap", snap.on);
     visit("snapToGrid", snap.grid);
     visit("snapToTransients", snap.transients);

@@ -97,10 +97,12 @@ EditorView::EditorView(Session& shared, HostServices around)
     open.model.onNotice = [this](const juce::String& text)
     {
         notice.show(text);
+        speak(text);
     };
     open.model.onWritten = [this](const std::vector<std::filesystem::path>& files)
     {
         notice.showWritten(files);
+        speak(notice.text());
     };
     open.sounds.onSoundsMissing = [this](const std::vector<AudioReference>& missing)
     {
@@ -120,6 +122,10 @@ EditorView::EditorView(Session& shared, HostServices around)
     {
         takeFocus();
     };
+    speaker.onMissing = [this]
+    {
+        notice.show(tr("Nothing is spoken: spd-say is missing. Install the package speech-dispatcher."));
+    };
     translateTexts(body);
     subscriptions.on({&open.model.contentChanged, &open.model.projectChanged, &open.sounds.workChanged},
                      [this] { arrange(); });
@@ -134,8 +140,40 @@ EditorView::EditorView(Session& shared, HostServices around)
                          if (onTitleChanged)
                              onTitleChanged();
                      });
+    subscriptions.on({&open.model.contentChanged, &open.model.projectChanged, &open.transport.changed,
+                      &open.actuators.changed, &open.outputs.changed, &open.viewState.lookChanged},
+                     [this] { speakStatus(); });
     juce::Desktop::getInstance().addFocusChangeListener(this);
     arrange();
+}
+
+/// Where the user wants that.
+void EditorView::speak(const juce::String& text)
+{
+    if (open.viewState.viewOptions().spoken)
+        speaker.say(text);
+}
+
+/// What has changed of the status: whether something plays, and where.
+void EditorView::speakStatus()
+{
+    if (!open.viewState.viewOptions().spoken)
+    {
+        spokenPlace = {};
+        spokenPlaying.reset();
+        return;
+    }
+    const bool playing = open.transport.isPlaying();
+    const auto place = status.playsOn();
+    juce::StringArray words;
+    if (spokenPlaying && playing != *spokenPlaying)
+        words.add(tr(playing ? "Playing" : "Stopped"));
+    if (place != spokenPlace)
+        words.add(place);
+    spokenPlaying = playing;
+    spokenPlace = place;
+    if (!words.isEmpty())
+        speaker.say(words.joinIntoString(". "));
 }
 
 EditorView::~EditorView()
@@ -357,6 +395,7 @@ void EditorView::showSheet(std::unique_ptr<Sheet> wanted)
     }
     if (!sheetNow)
         return returnFocus();
+    speak(sheetNow->getTitle() + ". " + sheetNow->getDescription());
     sheetNow->onClose = [this]
     {
         // Not from within one of its own functions.
@@ -419,7 +458,10 @@ void EditorView::reconnect()
 void EditorView::ask(std::unique_ptr<Sheet> question)
 {
     if (sheetNow)
+    {
+        speak(question->getTitle() + ". " + question->getDescription());
         over.show(std::move(question));
+    }
     else
         showSheet(std::move(question));
 }

@@ -68,6 +68,10 @@ PreferencesSheet::PreferencesSheet(EditorView& shown) : Sheet("Preferences", 560
               [option](bool on) { option(&ViewOptions::technicalTerms, on); });
     addSwitch("Reduced motion", "The view turns pages instead of sliding, and progress bars stand still",
               options.reducedMotion, [option](bool on) { option(&ViewOptions::reducedMotion, on); });
+#if JUCE_LINUX
+    addSwitch("Spoken status", "Speech-dispatcher says what notices, questions and the status bar say", options.spoken,
+              [option](bool on) { option(&ViewOptions::spoken, on); });
+#endif
     const auto target = [&viewState](bool SnapTargets::*member, bool on)
     {
         SnapTargets targets = viewState.snapTargets();
