@@ -7,6 +7,7 @@
 #include "editor/Translation.h"
 #include "editor/clip/EditorView.h"
 #include "editor/clip/sheets/OverwriteQuestion.h"
+#include "editor/study/StudyMaking.h"
 #include "io/InputFile.h"
 #include "io/ProfileFile.h"
 
@@ -274,6 +275,41 @@ void ProjectFiles::askForStudy()
                if (!chosen.isEmpty())
                    view.hostServices().runStudy(pathOf(chosen[0]));
            });
+}
+
+void ProjectFiles::askForStudyReport()
+{
+    choose(tr("Report of a study"), Purpose::openingJson,
+           [this](const juce::Array<juce::File>& chosen)
+           {
+               if (chosen.isEmpty())
+                   return;
+               auto& model = view.session().model;
+               if (model.onNotice)
+                   model.onNotice(tr(toText("Writing the report…")));
+               jobs.run([file = pathOf(chosen[0])] { return reportStudy(file); },
+                        [&model](const Result<std::filesystem::path>& page)
+                        {
+                            if (!page)
+                                return model.report("No report", page.error());
+                            if (model.onWritten)
+                                model.onWritten({*page});
+                            juce::URL(juce::File(pathText(*page))).launchInDefaultBrowser();
+                        });
+           });
+}
+
+void ProjectFiles::askForFolder(const juce::String& title, const std::filesystem::path& start,
+                                std::function<void(const std::filesystem::path&)> chosen)
+{
+    choose(
+        title, Purpose::openingFolder,
+        [chosen = std::move(chosen)](const juce::Array<juce::File>& files)
+        {
+            if (!files.isEmpty())
+                chosen(pathOf(files[0]));
+        },
+        start);
 }
 
 void ProjectFiles::askForSettings(std::function<void(const std::filesystem::path&)> chosen)

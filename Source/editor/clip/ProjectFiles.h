@@ -3,6 +3,7 @@
 
 // File dialogs of the editor: what to open, whether to save, what to restore.
 
+#include "editor/clip/session/Jobs.h"
 #include "editor/clip/session/Session.h"
 
 #include <juce_gui_basics/juce_gui_basics.h>
@@ -37,6 +38,10 @@ public:
     /// A profile of an actuator, which the project has from then on.
     void askForProfile();
     void askForStudy();
+    /// A study whose report is written, in the background, and opened in the browser.
+    void askForStudyReport();
+    void askForFolder(const juce::String& title, const std::filesystem::path& start,
+                      std::function<void(const std::filesystem::path&)> chosen);
     /// A settings file (pacini.settings).
     void askForSettings(std::function<void(const std::filesystem::path&)> chosen);
     /// Says which sounds are missing, and offers to find them.
@@ -69,6 +74,7 @@ private:
 
     EditorView& view;
     std::unique_ptr<juce::FileChooser> chooser;
+    Jobs jobs; ///< reports of studies
 };
 
 } // namespace pacini::editor

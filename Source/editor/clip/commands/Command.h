@@ -110,7 +110,9 @@ enum Command : int
     addToScene,
     measureActuator,
     loadProfile,
+    newStudy,
     runStudy,
+    reportOnStudy,
     feelOnPhone,
 
     nextPanel,

@@ -3,6 +3,7 @@
 #include "editor/clip/commands/Action.h"
 #include "editor/clip/scene/SceneSheet.h"
 #include "editor/measure/MeasurePage.h"
+#include "editor/study/NewStudySheet.h"
 
 #include <memory>
 
@@ -43,9 +44,14 @@ Menu toolsMenu(EditorView& view)
     menu.add(loadProfile, "Load profile...", "Adds the profile of an actuator from a file, and chooses it",
              [&view] { view.files().askForProfile(); });
     menu.addLine();
+    menu.add(newStudy, "New study...", "Makes a study with people from a template",
+             [&view] { view.showSheet(std::make_unique<NewStudySheet>(view)); });
     menu.add(
         runStudy, "Run a study...", "Opens a study (study.json) in a window for the participant",
         [&view] { view.files().askForStudy(); }, [&view] { return view.hostServices().runStudy != nullptr; });
+    menu.add(reportOnStudy, "Report of a study...", "Writes the statistics of a study's answers and opens them",
+             [&view] { view.files().askForStudyReport(); });
+    menu.addLine();
     menu.add(
         feelOnPhone, "Feel on a phone...", "Makes a phone in the same network vibrate along with playback",
         [&view] { view.hostServices().feelOnPhone(); }, [&view] { return view.hostServices().feelOnPhone != nullptr; });
