@@ -4,6 +4,7 @@
 
 #include "editor/Bench.h"
 #include "editor/Pump.h"
+#include "editor/Translation.h"
 
 #include <array>
 #include <cmath>
@@ -224,4 +225,49 @@ TEST_CASE("Twelve states of the editor look as they were approved")
                 CAPTURE(name, other);
                 CHECK(difference(picture, otherPicture) > tolerance);
             }
+}
+
+// For somebody who looks at all of them: PACINI_LOOK=folder build/release/bin/pacini_editor_tests "[look]"
+TEST_CASE("Pictures of the windows in all sizes, themes and languages", "[.look]")
+{
+    const char* const wanted = std::getenv("PACINI_LOOK");
+    REQUIRE(wanted != nullptr);
+    const juce::File folder(wanted);
+    REQUIRE(folder.createDirectory());
+    const char* const only = std::getenv("PACINI_LOOK_ONLY"); // names that contain this
+    struct Size
+    {
+        int width, height;
+        double scale;
+    };
+    std::vector<State> all = states;
+    for (const auto& [name, command] :
+         {std::pair("outputs", editor::hapticOutputs), std::pair("new-study", editor::newStudy),
+          std::pair("scene", editor::editScene), std::pair("gain", editor::changeGain),
+          std::pair("humanise", editor::humanise), std::pair("about", editor::about),
+          std::pair("history", editor::showHistory), std::pair("palette", editor::searchCommands)})
+        all.push_back({name, [command = command](EditorBench& bench) { openSheet(bench, command); }});
+    all.push_back({"project", [](EditorBench& bench) { openPage(bench, 2); }});
+    for (const char* language : {"en", "de", "ja"})
+        for (const Size& size : {Size{1024, 700, 1.0}, Size{1280, 800, 1.0}, Size{2560, 1440, 2.0}})
+            for (const bool dark : {true, false})
+                for (const State& state : all)
+                {
+                    const auto name = juce::String(state.name) + "-" + language + "-" + juce::String(size.width) +
+                                      (dark ? "-dark" : "-light") + ".png";
+                    if (only != nullptr && !name.contains(only))
+                        continue;
+                    editor::useLanguage(language);
+                    EditorBench bench({shipped("lra-175")});
+                    bench.view.setBounds(0, 0, size.width, size.height);
+                    bench.view.setScale(size.scale);
+                    bench.view.setDark(dark);
+                    state.bring(bench);
+                    bench.view.setBounds(0, 0, size.width, size.height);
+                    const auto image = seen(bench.view);
+                    folder.getChildFile(name).deleteFile();
+                    juce::FileOutputStream out(folder.getChildFile(name));
+                    REQUIRE(juce::PNGImageFormat().writeImageToStream(image, out));
+                }
+    editor::useLanguage("en");
 }

@@ -1,5 +1,6 @@
 // The clip that was worked on is shown again after a crash and when its project is opened again.
 
+#include "document/ProjectEdits.h"
 #include "editor/Bench.h"
 #include "editor/clip/session/ClipSteps.h"
 #include "support/TempFolder.h"
@@ -23,7 +24,7 @@ int workOnSecond(editor::Session& session)
     session.clipSelection.setTimeRange(TimeRange{1.0, 2.0});
     session.transport.setPlayhead(1.25);
     session.viewState.showRange({0.5, 2.5});
-    editor::editClip(session.model, "Gain", GainEdit{TimeRange{1.0, 2.0}, -6.0});
+    editor::editClip(session.model, "Gain", GainEdit{{}, -6.0});
     return second;
 }
 

@@ -24,6 +24,7 @@ LOSSES = re.compile(r"Source/io/formats/(.*Writer|.*/?LossList|VoiceReduction|Cl
 PRESETS = Path("Core/pacini/realtime/TranslatorPresets.h")
 ENCODER_PRESETS = Path("Source/io/EncoderPresets.cpp")
 ERRORS = Path("Core/pacini/foundation/Result.h")  # of the core, which windows show
+STUDY_TEMPLATES = Path("Source/study/StudyTemplates.cpp")  # what each asks
 FILE_NAMES = Path("Source/io/FileNames.h")  # why a preset cannot be called so
 
 # Files without a text for users of windows.
@@ -52,11 +53,11 @@ LITERALS = {
         "IPAGothic", "TakaoPGothic", "VL PGothic", "/usr/share/fonts/opentype/noto/NotoSansCJK-", "DualSense",
         "Joy-Con", "LRA 175 Hz", "LRA 235 Hz", "L5 wristband", "L5 test jig", "Coin ERM", "iPhone (Taptic)", "English", "A Framework for Audio-Tactile Signal Translation"],
     "names of threads, folders, settings and functions of libraries": [
-        "XESetWireToError", "Pacini capture", "Pacini joysticks", "js", "/dev/input", "/dev/snd/seq", "joycon-hd-rumble", "erm-coin", "Pacini set-up", "Pacini clips", "Application Support", "~/.config", "quiet", "primary", "origin", "dark", "true", "GTK_THEME", "gtk-theme-name",
+        "XESetWireToError", "spd-say", "text", "exe", "study", "report", "pacini: ", "folder", "Pacini capture", "Pacini joysticks", "js", "/dev/input", "/dev/snd/seq", "joycon-hd-rumble", "erm-coin", "Pacini set-up", "Pacini clips", "Application Support", "~/.config", "quiet", "primary", "origin", "dark", "true", "GTK_THEME", "gtk-theme-name",
         "gtk-application-prefer-dark-theme", "max ", "fs ", "devices",
         "state", "recovery", "profiles", "Resources/demo", "share/pacini/demo", "pacini", "json", "wav", "pacb",
         "files", "clip", "Presets", "scale", ".sound-", "md", "demo", "pacini-demo", "flac", "plain drive",
-        "analysis presets"],
+        "analysis presets", "output presets"],
     "names that Windows keeps for devices": ["CON", "PRN", "AUX", "NUL", "COM", "LPT"],
     "records of studies, which are the same file in every language": [
         "agreed: ", "the touch starts {:.3f} ms earlier", "stopped by the participant", "comfortable at ", "Pacini "],
@@ -75,7 +76,7 @@ LITERALS = {
         "ui_click", "notification", "heartbeat", "footsteps", "weapon", "explosion", "engine_loop", "rain", "texture",
         "music_bed", "phone-taptic", "l5-wristband", "dualsense-voice-coil"],
     "places in errors and identifiers": [
-        "plays[",         "sample rate", "sound", "strength", "lane", "format", "plays[0]", ".bands", "' is not known",
+        "must be a whole number",        "plays[",         "sample rate", "sound", "strength", "lane", "format", "plays[0]", ".bands", "' is not known",
         "channels[", "sweep.", "measurement.", "sweeps[", "clock", "channels"],
     "names of parameters, by which their descriptions are found": [
         "bands", "low", "high", "breakpoints", "sensitivity", "audible", "quantise"],
@@ -174,6 +175,10 @@ def check(root, tables):
         for line, text in literals(root / presets):
             if re.match(r"[A-Z0-9]", text):
                 wanted.setdefault(text, f"{presets.as_posix()}:{line}")
+    templates = (root / STUDY_TEMPLATES).read_text(encoding="utf-8")
+    for match in re.finditer(r'\{"[\w-]+",\s*("(?:\\.|[^"\\])*"(?:\s*"(?:\\.|[^"\\])*")*),\s*\d+\}', templates):
+        line = templates.count("\n", 0, match.start()) + 1
+        wanted.setdefault("".join(PART.findall(match.group(1))), f"{STUDY_TEMPLATES.as_posix()}:{line}")
     for source in (ERRORS, FILE_NAMES):
         for line, text in literals(root / source):
             if is_text(text, "Source/io"):

@@ -197,15 +197,18 @@ void PlotLane::paintHead(juce::Graphics& g)
     const bool besideButtons = getNumChildComponents() > 0;
     if (!besideButtons)
         paintTicks(g, head.withTrimmedRight(4).removeFromRight(tickWidth), juce::Justification::centredRight);
-    auto text = head.withTrimmedLeft(grid).withTrimmedRight(besideButtons ? grid / 2 : tickWidth);
+    auto text = head.withTrimmedLeft(grid).withTrimmedRight(besideButtons ? 0 : tickWidth);
+    for (const auto* button : getChildren())
+        text.setRight(std::min(text.getRight(), button->getX() - grid / 2));
     g.setColour(p.text);
-    g.setFont(usualFont());
     const bool two = look.note.isNotEmpty() && text.getHeight() >= 38;
     if (two)
         text = text.withSizeKeepingCentre(text.getWidth(), 36);
     const bool technical = viewState.viewOptions().technicalTerms;
-    g.drawFittedText(tr(technical ? look.name : designerWord(look.name)), two ? text.removeFromTop(19) : text,
-                     juce::Justification::centredLeft, 1);
+    const auto name = tr(technical ? look.name : designerWord(look.name));
+    // "1.25 kHz" has the room of "864 Hz" beside buttons.
+    g.setFont(usualFont().getStringWidth(name) <= text.getWidth() ? usualFont() : smallFont());
+    g.drawFittedText(name, two ? text.removeFromTop(19) : text, juce::Justification::centredLeft, 1);
     if (!two)
         return;
     g.setColour(p.dim);
