@@ -2,6 +2,7 @@
 #include "plugin/engine/Lv2Parameters.h"
 
 #include "io/Fields.h"
+#include "plugin/engine/ParameterGroups.h"
 #include "plugin/engine/ParameterTable.h"
 
 #include <algorithm>
@@ -76,44 +77,6 @@ std::string quoted(std::string_view text)
         result += c;
     }
     return result + '"';
-}
-
-/// A group of parameters, by the beginnings of their ids.
-struct Group
-{
-    std::string_view symbol, name;
-    std::vector<std::string_view> ids;
-};
-
-const std::vector<Group>& groups()
-{
-    static const std::vector<Group> all{
-        {"sound", "Sound", {"source", "sourceMix", "inputGain"}},
-        {"output", "Output", {"outputMode", "outputChannel", "outputCount", "bypass"}},
-        {"actuator", "Actuator", {"profile", "strength", "intensity"}},
-        {"layers", "Layers", {"rumble", "texture", "transientLevel", "transientMute"}},
-        {"character", "Character", {"brightness", "audible", "transposition", "direct", "attack", "release"}},
-        {"events", "Events", {"transientSensitivity", "transientSharpness"}},
-        {"gate", "Gate", {"gate"}},
-        {"panning", "Panning", {"pan", "position", "panLaw", "places"}},
-        {"channels", "Haptic channels", {"actuator", "gain", "delay", "place"}},
-    };
-    return all;
-}
-
-/// That with the longest of the beginnings.
-const Group& groupOf(std::string_view id)
-{
-    const Group* best = &groups().back();
-    std::size_t longest = 0;
-    for (const Group& group : groups())
-        for (const std::string_view begin : group.ids)
-            if (begin.size() > longest && id.starts_with(begin))
-            {
-                best = &group;
-                longest = begin.size();
-            }
-    return *best;
 }
 
 constexpr std::string_view groupPrefix = "plug:group_";
@@ -203,7 +166,7 @@ Result<std::string> describeLv2Parameters(std::string_view turtle)
         describe(row, out);
     }
     out << program << "\n\ta rdf:Property ;\n\trdfs:label \"Program\" .\n\n";
-    for (const Group& group : groups())
+    for (const ParameterGroup& group : parameterGroups())
         out << groupPrefix << group.symbol << "\n\ta pg:Group ;\n\tlv2:name " << quoted(group.name)
             << " ;\n\tlv2:symbol " << quoted(group.symbol) << " .\n\n";
     return std::move(out).str();

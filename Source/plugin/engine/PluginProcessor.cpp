@@ -138,7 +138,7 @@ void PluginProcessor::process(juce::AudioBuffer<float>& buffer, bool bypassed) n
     const std::size_t haptics = gather(false, hapticBus, haptic);
     engine.process({std::span<float* const>(main).first(mains), std::span<const float* const>(sidechain).first(sides),
                     std::span<float* const>(haptic).first(haptics), static_cast<std::size_t>(buffer.getNumSamples())},
-                   values(), bypassed);
+                   heardValues(), bypassed);
     const std::chrono::duration<double> worked = std::chrono::steady_clock::now() - begin;
     noteLoad(worked.count(), static_cast<double>(buffer.getNumSamples()) / engine.sampleRate());
 }
@@ -158,6 +158,14 @@ ParameterValues PluginProcessor::values() const noexcept
     ParameterValues result;
     for (const TableParameter* each : table)
         result.set(each->row().parameter, each->value());
+    return result;
+}
+
+ParameterValues PluginProcessor::heardValues() const noexcept
+{
+    ParameterValues result;
+    for (const TableParameter* each : table)
+        result.set(each->row().parameter, each->heard());
     return result;
 }
 
@@ -259,13 +267,17 @@ void PluginProcessor::getStateInformation(juce::MemoryBlock& block)
 
 void PluginProcessor::setStateInformation(const void* data, int size)
 {
-    if (data == nullptr || size <= 0)
-        return;
-    auto read = readState({static_cast<const char*>(data), static_cast<std::size_t>(size)});
+    if (data != nullptr && size > 0)
+        restoreState({static_cast<const char*>(data), static_cast<std::size_t>(size)});
+}
+
+bool PluginProcessor::restoreState(std::string_view text)
+{
+    auto read = readState(text);
     if (!read)
     {
         say("Session settings not used: " + juce::String(read.error().text()));
-        return;
+        return false;
     }
     PluginState& state = read->state;
     juce::String noted = read->note;
@@ -289,6 +301,7 @@ void PluginProcessor::setStateInformation(const void* data, int size)
                  juce::String(restored.error().text());
     say(noted);
     updateHostDisplay(ChangeDetails().withProgramChanged(true));
+    return true;
 }
 
 /// For values that are to be set; what is to be said of it.

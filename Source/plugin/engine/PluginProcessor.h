@@ -19,6 +19,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace pacini::plugin
 {
@@ -49,6 +50,8 @@ public:
         return *table[static_cast<std::size_t>(wanted)];
     }
     [[nodiscard]] ParameterValues values() const noexcept;
+    /// The values with their modulation.
+    [[nodiscard]] ParameterValues heardValues() const noexcept;
     /// None in LV2, whose wrapper would overwrite it with the host's switch in every block: there it is a second
     /// switch.
     juce::AudioProcessorParameter* getBypassParameter() const override
@@ -59,6 +62,8 @@ public:
     [[nodiscard]] bool isBypassedByHost() const noexcept { return bypassedByHost.load(std::memory_order_relaxed); }
     void getStateInformation(juce::MemoryBlock& block) override;
     void setStateInformation(const void* data, int size) override;
+    /// The same; whether the text is a state that can be used. If not, the settings stay, and note() says why.
+    bool restoreState(std::string_view text);
     int getNumPrograms() override;
     int getCurrentProgram() override { return program.load(); }
     void setCurrentProgram(int index) override;

@@ -61,6 +61,23 @@ TableParameter::TableParameter(const ParameterRow& wanted)
 {
 }
 
+double TableParameter::heard() const noexcept
+{
+    return juce::jlimit(tableRow->low, tableRow->high, value() + modulation.load(std::memory_order_relaxed));
+}
+
+void TableParameter::setPlain(double wanted) noexcept
+{
+    if (std::isfinite(wanted))
+        setValue(static_cast<float>(normalOf(*tableRow, wanted)));
+}
+
+void TableParameter::setModulation(double wanted) noexcept
+{
+    if (std::isfinite(wanted))
+        modulation.store(wanted, std::memory_order_relaxed);
+}
+
 void TableParameter::setPlainNotifyingHost(double wanted)
 {
     const auto place = static_cast<float>(normalOf(*tableRow, wanted));

@@ -22,6 +22,13 @@ public:
 
     /// The value in the unit of the row.
     [[nodiscard]] double value() const noexcept { return plain.load(std::memory_order_relaxed); }
+    /// The value with its modulation, within the range of the row: what the engine plays.
+    [[nodiscard]] double heard() const noexcept;
+    /// Sets the value as a host does, without notifying it; one that is not finite is ignored. [any]
+    void setPlain(double wanted) noexcept;
+    /// Sets what a host adds to the value for as long as it modulates it, in the unit of the row: the value stays. One
+    /// that is not finite is ignored. [any]
+    void setModulation(double wanted) noexcept;
     /// Notifies the host and all listeners. [message]
     void setPlainNotifyingHost(double wanted);
 
@@ -40,6 +47,7 @@ private:
     juce::NormalisableRange<float> range;
     std::atomic<float> normal;
     std::atomic<double> plain;
+    std::atomic<double> modulation{0.0};
 };
 
 } // namespace pacini::plugin
