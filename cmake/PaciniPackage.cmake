@@ -59,11 +59,13 @@ if(PACINI_DESKTOP_PROGRAMS)
     # Where every host looks, below /usr as below /usr/local: not CMAKE_INSTALL_LIBDIR.
     install(DIRECTORY "${PROJECT_BINARY_DIR}/plugins/VST3/Pacini.vst3" DESTINATION lib/vst3)
     install(DIRECTORY "${PROJECT_BINARY_DIR}/plugins/LV2/Pacini.lv2" DESTINATION lib/lv2)
+    install(FILES "$<TARGET_FILE:pacini_plugin_CLAP>" DESTINATION lib/clap)
     # CMake strips only what install(TARGETS) installs.
     install(CODE "
         if(CMAKE_INSTALL_DO_STRIP)
             set(prefix \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}\")
-            file(GLOB_RECURSE plugins \"\${prefix}/lib/vst3/Pacini.vst3/*.so\" \"\${prefix}/lib/lv2/Pacini.lv2/*.so\")
+            file(GLOB_RECURSE plugins \"\${prefix}/lib/vst3/Pacini.vst3/*.so\" \"\${prefix}/lib/lv2/Pacini.lv2/*.so\"
+                \"\${prefix}/lib/clap/Pacini.clap\")
             execute_process(COMMAND \"${CMAKE_STRIP}\" --strip-unneeded \${plugins}
                 \"\${prefix}/${CMAKE_INSTALL_BINDIR}/PaciniStandalone\" COMMAND_ERROR_IS_FATAL ANY)
         endif()")
@@ -79,10 +81,10 @@ set(CPACK_PACKAGE_DESCRIPTION
 drives an actuator: for games, music, wearables and research.
 .
 The package holds the command pacini, which encodes, renders, converts,
-compares and measures; the live translator as a VST3 and an LV2 plugin and
-as a program of its own; the clip editor; profiles of actuators, demo sounds,
-libpacini, which plays clips in games and other programs, shared and static
-with its C header; and the headers of the DSP core for C++20.")
+compares and measures; the live translator as a VST3, an LV2 and a CLAP plugin
+and as a program of its own; the clip editor; profiles of actuators, demo
+sounds, libpacini, which plays clips in games and other programs, shared and
+static with its C header; and the headers of the DSP core for C++20.")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
     OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)

@@ -4,8 +4,8 @@
 #   bash cmake/bootstrap.sh demo     install, build, encode and render the demo sounds, print the report
 #   bash cmake/bootstrap.sh test     install, build all of it, run the tests; with CI=true a skipped test is an error
 #   bash cmake/bootstrap.sh build    install and build the command: build/release/bin/pacini
-#   bash cmake/bootstrap.sh plugin   install and build all that people run: the command, the plugin (VST3, LV2), its
-#                                    standalone program and PaciniEditor: build/release/bin, build/release/plugins
+#   bash cmake/bootstrap.sh plugin   install and build all that people run: the command, the plugin (VST3, LV2, CLAP),
+#                                    its standalone program and PaciniEditor: build/release/bin, build/release/plugins
 #   bash cmake/bootstrap.sh package  install, build the same and make a Debian package of it: build/package/pacini_*.deb
 #   bash cmake/bootstrap.sh web      install, build the web page and serve it on this machine alone
 #   bash cmake/bootstrap.sh windows  install, build the command and libpacini for Windows on Linux: build/windows/bin, and
@@ -336,7 +336,7 @@ demo)
 plugin)
     install_packages "${build_packages[@]}" "${plugin_packages[@]}"
     build_programs
-    say "The command is in build/release/bin; VST3, LV2, the standalone program and PaciniEditor are in build/release/plugins"
+    say "The command is in build/release/bin; VST3, LV2, CLAP, the standalone program and PaciniEditor are in build/release/plugins"
     ;;
 package)
     install_packages "${build_packages[@]}" "${plugin_packages[@]}" "${package_packages[@]}"

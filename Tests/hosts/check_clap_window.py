@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""The window of the CLAP plugin in a window of a host of our own: sizes, gestures, many openings, with a timer of the host and
-without, and while sound plays.
+"""The window of the CLAP plugin in a window of a host of our own: sizes, gestures, many openings, with a timer of the
+host and without, and while sound plays.
 
 check_clap_window.py PLUGIN.clap [PICTURE]     exit 0, 1 on a failed check, 77 when something is not there
 """
+
 import ctypes
 import os
 import subprocess
@@ -68,24 +69,41 @@ def closed(plugin, screen, window):
 
 
 def children(window, environment):
-    return subprocess.run(["xwininfo", "-children", "-id", str(window)], capture_output=True, text=True, check=False,
-                          env=environment).stdout
+    return subprocess.run(
+        ["xwininfo", "-children", "-id", str(window)], capture_output=True, text=True, check=False, env=environment
+    ).stdout
 
 
 def colours(display, path):
     """How many different colours are on the screen."""
     picture(display, path)
-    return int(subprocess.run(["identify", "-format", "%k", str(path)], capture_output=True, text=True, check=True).stdout)
+    return int(
+        subprocess.run(["identify", "-format", "%k", str(path)], capture_output=True, text=True, check=True).stdout
+    )
 
 
 def check_window(plugin, screen, display, path, environment):
-    check("X11, embedded, and nothing else", plugin.call("gui", "is_api_supported", X11, False) and not any(
-        plugin.call("gui", "is_api_supported", api, floating) for api, floating in ((X11, True), (b"wayland", False), (None, False))))
+    check(
+        "X11, embedded, and nothing else",
+        plugin.call("gui", "is_api_supported", X11, False)
+        and not any(
+            plugin.call("gui", "is_api_supported", api, floating)
+            for api, floating in ((X11, True), (b"wayland", False), (None, False))
+        ),
+    )
     api, floating = c.c_char_p(), c.c_bool(True)
-    check("which it prefers", plugin.call("gui", "get_preferred_api", c.byref(api), c.byref(floating)) and
-          (api.value, floating.value) == (X11, False))
-    check("without a window there is no size", size(plugin) is None and not plugin.call("gui", "show")
-          and not plugin.call("gui", "set_size", 1000, 700) and not plugin.call("gui", "create", X11, True))
+    check(
+        "which it prefers",
+        plugin.call("gui", "get_preferred_api", c.byref(api), c.byref(floating))
+        and (api.value, floating.value) == (X11, False),
+    )
+    check(
+        "without a window there is no size",
+        size(plugin) is None
+        and not plugin.call("gui", "show")
+        and not plugin.call("gui", "set_size", 1000, 700)
+        and not plugin.call("gui", "create", X11, True),
+    )
     plugin.call("gui", "destroy")
     window = opened(plugin, screen)
     check("it opens", window is not None)
@@ -95,18 +113,36 @@ def check_window(plugin, screen, display, path, environment):
     check("it lies in the host's window and fills it", f"{first[0]}x{first[1]}+0+0" in children(window, environment))
     check("and is painted", colours(display, path) > 100)
     hints = Hints()
-    check("it can be resized", plugin.call("gui", "can_resize") and plugin.call("gui", "get_resize_hints", c.byref(hints))
-          and (hints.across, hints.along, hints.ratio) == (True, True, False))
-    check("to what is possible", (size(plugin, "adjust_size", 10, 10), size(plugin, "adjust_size", 1100, 700),
-                                  size(plugin, "adjust_size", 4000000000, 4000000000)) == ((936, 608), (1100, 700), (2400, 1600)))
+    check(
+        "it can be resized",
+        plugin.call("gui", "can_resize")
+        and plugin.call("gui", "get_resize_hints", c.byref(hints))
+        and (hints.across, hints.along, hints.ratio) == (True, True, False),
+    )
+    check(
+        "to what is possible",
+        (
+            size(plugin, "adjust_size", 10, 10),
+            size(plugin, "adjust_size", 1100, 700),
+            size(plugin, "adjust_size", 4000000000, 4000000000),
+        )
+        == ((936, 608), (1100, 700), (2400, 1600)),
+    )
     screen.resize(window, 1100, 700)
     check("by the host", plugin.call("gui", "set_size", 1100, 700) and size(plugin) == (1100, 700))
     plugin.run(0.5)
     check("on the screen too", "1100x700+0+0" in children(window, environment))
     check("without asking the host in return", not any(what == "resize" for what, *_ in plugin.record))
-    check("a scale of 200 % is double", plugin.call("gui", "set_scale", 2.0) and size(plugin) == (2200, 1400), size(plugin))
+    check(
+        "a scale of 200 % is double",
+        plugin.call("gui", "set_scale", 2.0) and size(plugin) == (2200, 1400),
+        size(plugin),
+    )
     check("and 100 % as before", plugin.call("gui", "set_scale", 1.0) and size(plugin) == (1100, 700), size(plugin))
-    check("no scale is none", not plugin.call("gui", "set_scale", float("nan")) and not plugin.call("gui", "set_scale", 0.0))
+    check(
+        "no scale is none",
+        not plugin.call("gui", "set_scale", float("nan")) and not plugin.call("gui", "set_scale", 0.0),
+    )
     return window
 
 
@@ -139,10 +175,21 @@ def main():
         plugin.activate()
         sent = turned(environment, plugin)
         kinds = [kind for kind, *_ in sent]
-        check("a knob that is turned is a gesture", kinds == [BEGIN, VALUE, END] or kinds[:1] == [BEGIN] and kinds[-1:] == [END], sent)
-        check("of one parameter, with the value that it has now", len({identifier for _, identifier, *_ in sent}) == 1 and
-              any(plugin.value(name) == value for name, info in plugin.parameters.items()
-                  for kind, identifier, value, _ in sent if kind == VALUE and identifier == info.id))
+        check(
+            "a knob that is turned is a gesture",
+            kinds == [BEGIN, VALUE, END] or kinds[:1] == [BEGIN] and kinds[-1:] == [END],
+            sent,
+        )
+        check(
+            "of one parameter, with the value that it has now",
+            len({identifier for _, identifier, *_ in sent}) == 1
+            and any(
+                plugin.value(name) == value
+                for name, info in plugin.parameters.items()
+                for kind, identifier, value, _ in sent
+                if kind == VALUE and identifier == info.id
+            ),
+        )
         check("the host was asked to fetch it", ("flush",) in plugin.record and plugin.flush() == [])
         plugin.record.clear()
         plugin.load(kept)
@@ -161,6 +208,7 @@ def main():
             out = [np.zeros((2, 256), np.float32), np.zeros((1, 256), np.float32)]
             while not ends.is_set():
                 statuses.add(plugin.process([sound[:2], sound[2:]], out, 0, 256))
+
         thread = threading.Thread(target=play)
         thread.start()
         for i in range(15):
@@ -180,7 +228,10 @@ def main():
         closed(two[0], screen, windows[0])
         two[0].destroy()
         two[1].run(0.3)
-        check("one stays when the other goes", children(windows[1], environment).count("x") > 2 and size(two[1]) is not None)
+        check(
+            "one stays when the other goes",
+            children(windows[1], environment).count("x") > 2 and size(two[1]) is not None,
+        )
         two[1].destroy()  # with its window
         screen.close(windows[1])
         plugin.deactivate()

@@ -1,5 +1,6 @@
-"""A host for CLAP plugins in Python, for tests: it declares the interface once more, by its own reading of CLAP 1.2, and keeps
-a record of what the plugin asks of it."""
+"""A host for CLAP plugins in Python, for tests: it declares the interface once more, by its own reading of CLAP 1.2, and
+keeps a record of what the plugin asks of it."""
+
 import ctypes as c
 import time
 
@@ -23,82 +24,211 @@ def function(result, *arguments):
 void, text, u32, i32, f64, yes = c.c_void_p, c.c_char_p, c.c_uint32, c.c_int32, c.c_double, c.c_bool
 Version = structure("Version", ("major", u32), ("minor", u32), ("revision", u32))
 HostStruct = structure(
-    "HostStruct", ("version", Version), ("data", void), ("name", text), ("vendor", text), ("url", text), ("own_version", text),
-    ("get_extension", function(void, void, text)), ("request_restart", function(None, void)),
-    ("request_process", function(None, void)), ("request_callback", function(None, void)))
+    "HostStruct",
+    ("version", Version),
+    ("data", void),
+    ("name", text),
+    ("vendor", text),
+    ("url", text),
+    ("own_version", text),
+    ("get_extension", function(void, void, text)),
+    ("request_restart", function(None, void)),
+    ("request_process", function(None, void)),
+    ("request_callback", function(None, void)),
+)
 Header = structure("Header", ("size", u32), ("time", u32), ("space", c.c_uint16), ("type", c.c_uint16), ("flags", u32))
 ValueEvent = structure(
-    "ValueEvent", ("header", Header), ("id", u32), ("cookie", void), ("note", i32), ("port", c.c_int16),
-    ("channel", c.c_int16), ("key", c.c_int16), ("value", f64))
+    "ValueEvent",
+    ("header", Header),
+    ("id", u32),
+    ("cookie", void),
+    ("note", i32),
+    ("port", c.c_int16),
+    ("channel", c.c_int16),
+    ("key", c.c_int16),
+    ("value", f64),
+)
 GestureEvent = structure("GestureEvent", ("header", Header), ("id", u32))
 InEvents = structure("InEvents", ("ctx", void), ("size", function(u32, void)), ("get", function(void, void, u32)))
 OutEvents = structure("OutEvents", ("ctx", void), ("try_push", function(yes, void, c.POINTER(Header))))
-Buffer = structure("Buffer", ("data32", c.POINTER(void)), ("data64", c.POINTER(void)), ("channels", u32), ("latency", u32),
-                   ("constant", c.c_uint64))
+Buffer = structure(
+    "Buffer",
+    ("data32", c.POINTER(void)),
+    ("data64", c.POINTER(void)),
+    ("channels", u32),
+    ("latency", u32),
+    ("constant", c.c_uint64),
+)
 Process = structure(
-    "Process", ("steady", c.c_int64), ("frames", u32), ("transport", void), ("inputs", c.POINTER(Buffer)),
-    ("outputs", c.POINTER(Buffer)), ("input_count", u32), ("output_count", u32), ("in_events", c.POINTER(InEvents)),
-    ("out_events", c.POINTER(OutEvents)))
+    "Process",
+    ("steady", c.c_int64),
+    ("frames", u32),
+    ("transport", void),
+    ("inputs", c.POINTER(Buffer)),
+    ("outputs", c.POINTER(Buffer)),
+    ("input_count", u32),
+    ("output_count", u32),
+    ("in_events", c.POINTER(InEvents)),
+    ("out_events", c.POINTER(OutEvents)),
+)
 Descriptor = structure(
-    "Descriptor", ("version", Version), ("id", text), ("name", text), ("vendor", text), ("url", text), ("manual", text),
-    ("support", text), ("own_version", text), ("description", text), ("features", c.POINTER(text)))
+    "Descriptor",
+    ("version", Version),
+    ("id", text),
+    ("name", text),
+    ("vendor", text),
+    ("url", text),
+    ("manual", text),
+    ("support", text),
+    ("own_version", text),
+    ("description", text),
+    ("features", c.POINTER(text)),
+)
 PluginStruct = structure(
-    "PluginStruct", ("descriptor", c.POINTER(Descriptor)), ("data", void), ("init", function(yes, void)),
-    ("destroy", function(None, void)), ("activate", function(yes, void, f64, u32, u32)), ("deactivate", function(None, void)),
-    ("start_processing", function(yes, void)), ("stop_processing", function(None, void)), ("reset", function(None, void)),
-    ("process", function(i32, void, c.POINTER(Process))), ("get_extension", function(void, void, text)),
-    ("on_main_thread", function(None, void)))
+    "PluginStruct",
+    ("descriptor", c.POINTER(Descriptor)),
+    ("data", void),
+    ("init", function(yes, void)),
+    ("destroy", function(None, void)),
+    ("activate", function(yes, void, f64, u32, u32)),
+    ("deactivate", function(None, void)),
+    ("start_processing", function(yes, void)),
+    ("stop_processing", function(None, void)),
+    ("reset", function(None, void)),
+    ("process", function(i32, void, c.POINTER(Process))),
+    ("get_extension", function(void, void, text)),
+    ("on_main_thread", function(None, void)),
+)
 Factory = structure(
-    "Factory", ("count", function(u32, void)), ("descriptor", function(c.POINTER(Descriptor), void, u32)),
-    ("create", function(c.POINTER(PluginStruct), void, c.POINTER(HostStruct), text)))
-Entry = structure("Entry", ("version", Version), ("init", function(yes, text)), ("deinit", function(None)),
-                  ("get_factory", function(c.POINTER(Factory), text)))
-Port = structure("Port", ("id", u32), ("name", c.c_char * NAME), ("flags", u32), ("channels", u32), ("type", text),
-                 ("in_place", u32))
-AudioPorts = structure("AudioPorts", ("count", function(u32, void, yes)), ("get", function(yes, void, u32, yes, c.POINTER(Port))))
+    "Factory",
+    ("count", function(u32, void)),
+    ("descriptor", function(c.POINTER(Descriptor), void, u32)),
+    ("create", function(c.POINTER(PluginStruct), void, c.POINTER(HostStruct), text)),
+)
+Entry = structure(
+    "Entry",
+    ("version", Version),
+    ("init", function(yes, text)),
+    ("deinit", function(None)),
+    ("get_factory", function(c.POINTER(Factory), text)),
+)
+Port = structure(
+    "Port",
+    ("id", u32),
+    ("name", c.c_char * NAME),
+    ("flags", u32),
+    ("channels", u32),
+    ("type", text),
+    ("in_place", u32),
+)
+AudioPorts = structure(
+    "AudioPorts", ("count", function(u32, void, yes)), ("get", function(yes, void, u32, yes, c.POINTER(Port)))
+)
 Request = structure("Request", ("is_input", yes), ("port", u32), ("channels", u32), ("type", text), ("details", void))
-ConfigurablePorts = structure("ConfigurablePorts", ("can_apply", function(yes, void, c.POINTER(Request), u32)),
-                              ("apply", function(yes, void, c.POINTER(Request), u32)))
+ConfigurablePorts = structure(
+    "ConfigurablePorts",
+    ("can_apply", function(yes, void, c.POINTER(Request), u32)),
+    ("apply", function(yes, void, c.POINTER(Request), u32)),
+)
 PortsConfig = structure(
-    "PortsConfig", ("id", u32), ("name", c.c_char * NAME), ("inputs", u32), ("outputs", u32), ("has_input", yes),
-    ("input_channels", u32), ("input_type", text), ("has_output", yes), ("output_channels", u32), ("output_type", text))
-PortsConfigs = structure("PortsConfigs", ("count", function(u32, void)), ("get", function(yes, void, u32, c.POINTER(PortsConfig))),
-                         ("select", function(yes, void, u32)))
-Info = structure("Info", ("id", u32), ("flags", u32), ("cookie", void), ("name", c.c_char * NAME), ("module", c.c_char * PATH),
-                 ("low", f64), ("high", f64), ("standard", f64))
+    "PortsConfig",
+    ("id", u32),
+    ("name", c.c_char * NAME),
+    ("inputs", u32),
+    ("outputs", u32),
+    ("has_input", yes),
+    ("input_channels", u32),
+    ("input_type", text),
+    ("has_output", yes),
+    ("output_channels", u32),
+    ("output_type", text),
+)
+PortsConfigs = structure(
+    "PortsConfigs",
+    ("count", function(u32, void)),
+    ("get", function(yes, void, u32, c.POINTER(PortsConfig))),
+    ("select", function(yes, void, u32)),
+)
+Info = structure(
+    "Info",
+    ("id", u32),
+    ("flags", u32),
+    ("cookie", void),
+    ("name", c.c_char * NAME),
+    ("module", c.c_char * PATH),
+    ("low", f64),
+    ("high", f64),
+    ("standard", f64),
+)
 Parameters = structure(
-    "Parameters", ("count", function(u32, void)), ("get_info", function(yes, void, u32, c.POINTER(Info))),
+    "Parameters",
+    ("count", function(u32, void)),
+    ("get_info", function(yes, void, u32, c.POINTER(Info))),
     ("get_value", function(yes, void, u32, c.POINTER(f64))),
     ("value_to_text", function(yes, void, u32, f64, void, u32)),
     ("text_to_value", function(yes, void, u32, text, c.POINTER(f64))),
-    ("flush", function(None, void, c.POINTER(InEvents), c.POINTER(OutEvents))))
+    ("flush", function(None, void, c.POINTER(InEvents), c.POINTER(OutEvents))),
+)
 Stream = structure("Stream", ("ctx", void), ("move", function(c.c_int64, void, void, c.c_uint64)))
-State = structure("State", ("save", function(yes, void, c.POINTER(Stream))), ("load", function(yes, void, c.POINTER(Stream))))
+State = structure(
+    "State", ("save", function(yes, void, c.POINTER(Stream))), ("load", function(yes, void, c.POINTER(Stream)))
+)
 Number = structure("Number", ("get", function(u32, void)))
 Render = structure("Render", ("hard", function(yes, void)), ("set", function(yes, void, i32)))
 Timer = structure("Timer", ("on_timer", function(None, void, u32)))
 Window = structure("Window", ("api", text), ("x11", c.c_ulong))
-Hints = structure("Hints", ("across", yes), ("along", yes), ("ratio", yes), ("ratio_width", u32), ("ratio_height", u32))
+Hints = structure(
+    "Hints", ("across", yes), ("along", yes), ("ratio", yes), ("ratio_width", u32), ("ratio_height", u32)
+)
 Gui = structure(
-    "Gui", ("is_api_supported", function(yes, void, text, yes)),
-    ("get_preferred_api", function(yes, void, c.POINTER(text), c.POINTER(yes))), ("create", function(yes, void, text, yes)),
-    ("destroy", function(None, void)), ("set_scale", function(yes, void, f64)),
-    ("get_size", function(yes, void, c.POINTER(u32), c.POINTER(u32))), ("can_resize", function(yes, void)),
+    "Gui",
+    ("is_api_supported", function(yes, void, text, yes)),
+    ("get_preferred_api", function(yes, void, c.POINTER(text), c.POINTER(yes))),
+    ("create", function(yes, void, text, yes)),
+    ("destroy", function(None, void)),
+    ("set_scale", function(yes, void, f64)),
+    ("get_size", function(yes, void, c.POINTER(u32), c.POINTER(u32))),
+    ("can_resize", function(yes, void)),
     ("get_resize_hints", function(yes, void, c.POINTER(Hints))),
-    ("adjust_size", function(yes, void, c.POINTER(u32), c.POINTER(u32))), ("set_size", function(yes, void, u32, u32)),
-    ("set_parent", function(yes, void, c.POINTER(Window))), ("set_transient", function(yes, void, c.POINTER(Window))),
-    ("suggest_title", function(None, void, text)), ("show", function(yes, void)), ("hide", function(yes, void)))
-HostParameters = structure("HostParameters", ("rescan", function(None, void, u32)), ("clear", function(None, void, u32, u32)),
-                           ("request_flush", function(None, void)))
+    ("adjust_size", function(yes, void, c.POINTER(u32), c.POINTER(u32))),
+    ("set_size", function(yes, void, u32, u32)),
+    ("set_parent", function(yes, void, c.POINTER(Window))),
+    ("set_transient", function(yes, void, c.POINTER(Window))),
+    ("suggest_title", function(None, void, text)),
+    ("show", function(yes, void)),
+    ("hide", function(yes, void)),
+)
+HostParameters = structure(
+    "HostParameters",
+    ("rescan", function(None, void, u32)),
+    ("clear", function(None, void, u32, u32)),
+    ("request_flush", function(None, void)),
+)
 HostCall = structure("HostCall", ("call", function(None, void)))
-HostTimer = structure("HostTimer", ("register", function(yes, void, u32, c.POINTER(u32))), ("unregister", function(yes, void, u32)))
+HostTimer = structure(
+    "HostTimer", ("register", function(yes, void, u32, c.POINTER(u32))), ("unregister", function(yes, void, u32))
+)
 HostGui = structure(
-    "HostGui", ("hints_changed", function(None, void)), ("request_resize", function(yes, void, u32, u32)),
-    ("request_show", function(yes, void)), ("request_hide", function(yes, void)), ("closed", function(None, void, yes)))
+    "HostGui",
+    ("hints_changed", function(None, void)),
+    ("request_resize", function(yes, void, u32, u32)),
+    ("request_show", function(yes, void)),
+    ("request_hide", function(yes, void)),
+    ("closed", function(None, void, yes)),
+)
 
-EXTENSIONS = {b"clap.audio-ports": AudioPorts, b"clap.configurable-audio-ports/1": ConfigurablePorts,
-              b"clap.audio-ports-config": PortsConfigs, b"clap.params": Parameters, b"clap.state": State, b"clap.latency": Number,
-              b"clap.tail": Number, b"clap.render": Render, b"clap.timer-support": Timer, b"clap.gui": Gui}
+EXTENSIONS = {
+    b"clap.audio-ports": AudioPorts,
+    b"clap.configurable-audio-ports/1": ConfigurablePorts,
+    b"clap.audio-ports-config": PortsConfigs,
+    b"clap.params": Parameters,
+    b"clap.state": State,
+    b"clap.latency": Number,
+    b"clap.tail": Number,
+    b"clap.render": Render,
+    b"clap.timer-support": Timer,
+    b"clap.gui": Gui,
+}
 
 
 class Library:
@@ -130,8 +260,11 @@ class Events:
         self.events = list(events)
         self.sent = []
         self.accepts = True
-        self.input = InEvents(None, InEvents._fields_[1][1](lambda _: len(self.events)),
-                              InEvents._fields_[2][1](lambda _, i: c.addressof(self.events[i]) if self.events[i] else None))
+        self.input = InEvents(
+            None,
+            InEvents._fields_[1][1](lambda _: len(self.events)),
+            InEvents._fields_[2][1](lambda _, i: c.addressof(self.events[i]) if self.events[i] else None),
+        )
         self.output = OutEvents(None, OutEvents._fields_[1][1](self.push))
 
     def push(self, _, header):
@@ -151,18 +284,38 @@ class Plugin:
         self.accepts_resize = True
         self.callbacks = []  # kept alive
         self.host_extensions = {
-            b"clap.params": self.keep(HostParameters, lambda _, flags: self.note("rescan", flags),
-                                      lambda *_: self.note("clear"), lambda _: self.note("flush")),
+            b"clap.params": self.keep(
+                HostParameters,
+                lambda _, flags: self.note("rescan", flags),
+                lambda *_: self.note("clear"),
+                lambda _: self.note("flush"),
+            ),
             b"clap.latency": self.keep(HostCall, lambda _: self.note("latency")),
             b"clap.state": self.keep(HostCall, lambda _: self.note("dirty")),
-            b"clap.gui": self.keep(HostGui, lambda _: self.note("hints"), self.resize, lambda _: True, lambda _: True,
-                                   lambda *_: self.note("closed"))}
+            b"clap.gui": self.keep(
+                HostGui,
+                lambda _: self.note("hints"),
+                self.resize,
+                lambda _: True,
+                lambda _: True,
+                lambda *_: self.note("closed"),
+            ),
+        }
         if timers:
             self.host_extensions[b"clap.timer-support"] = self.keep(HostTimer, self.register, self.unregister)
         self.host = self.keep(
-            HostStruct, Version(1, 2, 2), None, b"Pacini's tests", b"Pacini", b"", b"1",
+            HostStruct,
+            Version(1, 2, 2),
+            None,
+            b"Pacini's tests",
+            b"Pacini",
+            b"",
+            b"1",
             lambda _, name: c.addressof(self.host_extensions[name]) if name in self.host_extensions else None,
-            lambda _: self.note("restart"), lambda _: self.note("process"), lambda _: self.note("callback"))
+            lambda _: self.note("restart"),
+            lambda _: self.note("process"),
+            lambda _: self.note("callback"),
+        )
         factory = library.factory
         made = factory.create(c.addressof(factory), c.byref(self.host), library.descriptor().id)
         if not made:
@@ -276,6 +429,7 @@ class Plugin:
                 return -1
             data.extend(c.string_at(buffer, size))
             return size
+
         stream = Stream(None, Stream._fields_[1][1](write))
         return bytes(data) if self.call("state", "save", c.byref(stream)) else None
 
@@ -290,12 +444,12 @@ class Plugin:
             c.memmove(buffer, some, len(some))
             at += len(some)
             return len(some)
+
         stream = Stream(None, Stream._fields_[1][1](read))
         return self.call("state", "load", c.byref(stream))
 
     def process(self, inputs, outputs, begin=0, frames=None, lists=None):
-        """One block. Inputs and outputs are lists of ports, which are arrays of channels and frames, or None for one without
-        samples."""
+        """One block. Inputs and outputs are lists of ports, which are arrays of channels and frames, or None."""
         if frames is None:
             frames = next(port for port in [*inputs, *outputs] if port is not None).shape[1]
 
@@ -310,15 +464,30 @@ class Plugin:
                     buffer.data32, buffer.channels = c.cast(pointers, c.POINTER(void)), len(port)
                 buffer.constant = (1 << 64) - 1
             return made
+
         lists = lists or Events()
         into, out = buffers(inputs), buffers(outputs)
-        status = self.struct.process(self.at, c.byref(Process(-1, frames, None, into, out, len(inputs), len(outputs),
-                                                              c.pointer(lists.input), c.pointer(lists.output))))
+        status = self.struct.process(
+            self.at,
+            c.byref(
+                Process(
+                    -1,
+                    frames,
+                    None,
+                    into,
+                    out,
+                    len(inputs),
+                    len(outputs),
+                    c.pointer(lists.input),
+                    c.pointer(lists.output),
+                )
+            ),
+        )
         self.constants = [port.constant for port in out[: len(outputs)]]
         return status
 
     def render(self, sound, block=512, events=(), sidechain=True, in_place=False, haptics=1):
-        """Left, right and sidechain become left, right and haptic channels; events are (frame, identifier, value, kind)."""
+        """Left, right and sidechain become left, right and haptics; events are (frame, identifier, value, kind)."""
         sound = np.array(sound, dtype=np.float32)
         main = sound[:2] if in_place else np.full((2, sound.shape[1]), np.nan, dtype=np.float32)
         haptic = np.full((haptics, sound.shape[1]), np.nan, dtype=np.float32)
@@ -329,8 +498,13 @@ class Plugin:
         while at < sound.shape[1]:
             frames = min(blocks[number % len(blocks)], sound.shape[1] - at)
             number += 1
-            lists = Events([value_event(identifier, value, frame - at, kind) for frame, identifier, value, kind in events
-                            if at <= frame < at + frames])
+            lists = Events(
+                [
+                    value_event(identifier, value, frame - at, kind)
+                    for frame, identifier, value, kind in events
+                    if at <= frame < at + frames
+                ]
+            )
             self.statuses.add(self.process(inputs, [main, haptic], at, frames, lists))
             self.sent += lists.sent
             at += frames

@@ -65,6 +65,7 @@ def expected_files(architecture):
                                                 "pkgconfig/pacini.pc")}
     files.add("usr/include/pacini.h")
     files |= {f"usr/lib/lv2/Pacini.lv2/{name}" for name in ("libPacini.so", "manifest.ttl", "dsp.ttl", "ui.ttl")}
+    files.add("usr/lib/clap/Pacini.clap")
     return files | {f"usr/lib/vst3/Pacini.vst3/Contents/{architecture}-linux/Pacini.so",
                     "usr/lib/udev/rules.d/70-pacini.rules",
                     "usr/share/pkgconfig/pacini-core.pc",
@@ -107,7 +108,7 @@ def check_fields(package):
 def check_binaries(tree):
     binaries = [path for path in tree.rglob("*")
                 if path.is_file() and not path.is_symlink() and path.read_bytes()[:4] == b"\x7fELF"]
-    check("three programs, two plugins and a library are compiled", len(binaries) == len(PROGRAMS) + 3)
+    check("programs, three plugins and a library are compiled", len(binaries) == len(PROGRAMS) + 4)
     for path in binaries:
         dynamic = run("readelf", "--dynamic", path).decode()
         check(f"{path.name} looks for no library in a place of its own", "RPATH" not in dynamic and "RUNPATH" not in dynamic)
@@ -282,7 +283,8 @@ def check_libraries(root):
     known = root.must("ldconfig", "-p").decode()
     binaries = [f"/usr/bin/{program}" for program in PROGRAMS]
     binaries += ["/" + str(path.relative_to(root.folder)) for path in (root.folder / "usr/lib").glob("*/Pacini.*/**/*.so")]
-    check("programs and plugins are installed", len(binaries) == len(PROGRAMS) + 2)
+    binaries.append("/usr/lib/clap/Pacini.clap")
+    check("programs and plugins are installed", len(binaries) == len(PROGRAMS) + 3)
     check("the linker knows libpacini", "libpacini.so.1 " in known)
     for binary in binaries:
         check(f"{binary} finds its libraries", b"not found" not in root.must("ldd", binary))

@@ -43,6 +43,7 @@ SOURCE = {
     "web": ({"io", "document", "devices", "web"}, NO_JUCE),
     "plugin/engine": ({"io", "document", "devices", "plugin/engine"}, NO_WINDOWS),
     "plugin/window": ({"io", "study", "document", "devices", "editor", "plugin/engine", "plugin/window"}, ()),
+    "plugin/clap": ({"io", "study", "document", "devices", "editor", "plugin/engine", "plugin/window", "plugin/clap"}, ()),
     "editor": ({"io", "study", "document", "devices", "editor"}, ()),
     "app": ({"io", "study", "document", "devices", "phone", "editor", "plugin/engine", "plugin/window", "app"}, ()),
 }

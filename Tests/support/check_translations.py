@@ -42,6 +42,9 @@ FILES = {
     "units and values of parameters, which are the same in every language for hosts": [
         "Source/plugin/engine/ParameterText.cpp"],
     "the description of the LV2, and errors of building it": ["Source/plugin/engine/Lv2Parameters.cpp"],
+    "what hosts show of parameters, ports and the CLAP plugin, the same in every language": [
+        "Source/plugin/engine/ParameterGroups.cpp", "Source/plugin/clap/ClapDeclarations.h", "Source/plugin/clap/ClapEntry.cpp",
+        "Source/plugin/clap/ClapEventLoop.cpp", "Source/plugin/clap/ClapPorts.cpp"],
     "codes of languages and names of fonts": [
         "Source/editor/Fonts.cpp", "Source/editor/Translation.cpp", "Source/editor/Translation.h"],
 }

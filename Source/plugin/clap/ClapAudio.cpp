@@ -36,7 +36,8 @@ std::span<clap_audio_buffer_t> outputsOf(const clap_process_t& block) noexcept
 template <typename Ports>
 bool hasOnlyDoubles(const Ports& ports) noexcept
 {
-    return std::any_of(ports.begin(), ports.end(), [](const clap_audio_buffer_t& port)
+    return std::any_of(ports.begin(), ports.end(),
+                       [](const clap_audio_buffer_t& port)
                        { return port.channel_count > 0 && port.data32 == nullptr && port.data64 != nullptr; });
 }
 } // namespace
@@ -98,8 +99,8 @@ void ClapAudio::piece(const clap_process_t& block, std::uint32_t begin, std::uin
             if (float* to = channelFrom(outputs, bus, c, begin))
             {
                 if (c < made)
-                    std::copy_n(part.getReadPointer(processor.getChannelIndexInProcessBlockBuffer(false, bus, c)), frames,
-                                to);
+                    std::copy_n(part.getReadPointer(processor.getChannelIndexInProcessBlockBuffer(false, bus, c)),
+                                frames, to);
                 else
                     std::fill_n(to, frames, 0.0f);
             }

@@ -2,9 +2,10 @@
 #pragma once
 
 /*
- * The part of CLAP's binary interface that the plugin uses, for machines without its headers: names, layouts and values are
- * those of version 1.2.10 of https://github.com/free-audio/clap, which explains them. Plain C. A test compares all of it with
- * what others declare (Tests/plugin/clap/check_clap_abi.py); CMake takes the headers themselves from PACINI_CLAP_DIR.
+ * The part of CLAP's binary interface that the plugin uses, for machines without its headers: names, layouts and values
+ * are those of version 1.2.10 of https://github.com/free-audio/clap, which explains them. Plain C. A test compares all
+ * of it with what others declare (Tests/plugin/clap/check_clap_abi.py); CMake takes the headers themselves from
+ * PACINI_CLAP_DIR.
  */
 
 #include <stdbool.h>
@@ -28,7 +29,7 @@ extern "C"
 {
 #endif
 
-/* clang-format off */
+    /* clang-format off */
 
 /* Version and identifiers */
 typedef struct clap_version {
@@ -403,7 +404,7 @@ typedef struct clap_host_gui {
     void (CLAP_ABI *closed)(const clap_host_t *host, bool was_destroyed);
 } clap_host_gui_t;
 
-/* clang-format on */
+    /* clang-format on */
 
 #ifdef __cplusplus
 }

@@ -17,8 +17,8 @@ constexpr const char* clapPluginId = "example.pacini.translator";
 constexpr std::array<const char*, 4> features{CLAP_PLUGIN_FEATURE_AUDIO_EFFECT, CLAP_PLUGIN_FEATURE_UTILITY,
                                               CLAP_PLUGIN_FEATURE_STEREO, nullptr};
 constexpr clap_plugin_descriptor_t descriptor{
-    CLAP_VERSION_INIT, clapPluginId,     "Pacini", "Pacini", "", "", "", PACINI_PLUGIN_VERSION,
-    "Sound to touch",  features.data()};
+    CLAP_VERSION_INIT,     clapPluginId,     "Pacini",       "Pacini", "", "", "",
+    PACINI_PLUGIN_VERSION, "Sound to touch", features.data()};
 
 constexpr clap_plugin_factory_t factory{
     [](const clap_plugin_factory_t*) -> std::uint32_t { return 1; },
@@ -36,8 +36,11 @@ constexpr clap_plugin_factory_t factory{
 extern "C"
 {
     CLAP_EXPORT extern const clap_plugin_entry_t clap_entry;
-    const clap_plugin_entry_t clap_entry{
-        CLAP_VERSION_INIT, [](const char*) { return true; }, [] {},
-        [](const char* id) -> const void*
-        { return id != nullptr && std::strcmp(id, CLAP_PLUGIN_FACTORY_ID) == 0 ? &pacini::plugin::factory : nullptr; }};
+    const clap_plugin_entry_t clap_entry{CLAP_VERSION_INIT, [](const char*) { return true; }, [] {},
+                                         [](const char* id) -> const void*
+                                         {
+                                             return id != nullptr && std::strcmp(id, CLAP_PLUGIN_FACTORY_ID) == 0
+                                                        ? &pacini::plugin::factory
+                                                        : nullptr;
+                                         }};
 }

@@ -96,7 +96,9 @@ void ClapEventLoop::onTimer(clap_id) {}
 const clap_plugin_timer_support_t& timerExtension() noexcept
 {
     static constexpr clap_plugin_timer_support_t extension{[](const clap_plugin_t* plugin, clap_id id)
-                                                           { ClapPlugin::of(plugin).onTimer(id); }};
+                                                           {
+                                                               ClapPlugin::of(plugin).onTimer(id);
+                                                           }};
     return extension;
 }
 

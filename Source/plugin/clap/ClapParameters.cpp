@@ -30,7 +30,8 @@ constexpr auto identified = []
     std::sort(all.begin(), all.end(), [](const Identified& a, const Identified& b) { return a.id < b.id; });
     return all;
 }();
-static_assert(std::adjacent_find(identified.begin(), identified.end(), [](const Identified& a, const Identified& b)
+static_assert(std::adjacent_find(identified.begin(), identified.end(),
+                                 [](const Identified& a, const Identified& b)
                                  { return a.id == b.id; }) == identified.end());
 
 template <std::size_t size>
@@ -149,7 +150,9 @@ const clap_plugin_params_t& paramsExtension() noexcept
         [](const clap_plugin_t*, clap_id id, const char* text, double* value)
         { return value != nullptr && parameterValue(id, text, *value); },
         [](const clap_plugin_t* plugin, const clap_input_events_t* in, const clap_output_events_t* out)
-        { ClapPlugin::of(plugin).flush(in, out); }};
+        {
+            ClapPlugin::of(plugin).flush(in, out);
+        }};
     return extension;
 }
 

@@ -19,7 +19,10 @@ namespace
 const clap_plugin_latency_t& latencyExtension() noexcept
 {
     static constexpr clap_plugin_latency_t extension{
-        [](const clap_plugin_t* plugin) { return static_cast<std::uint32_t>(ClapPlugin::of(plugin).processor().latency()); }};
+        [](const clap_plugin_t* plugin)
+        {
+            return static_cast<std::uint32_t>(ClapPlugin::of(plugin).processor().latency());
+        }};
     return extension;
 }
 
@@ -38,7 +41,9 @@ const clap_plugin_render_t& renderExtension() noexcept
 {
     static constexpr clap_plugin_render_t extension{[](const clap_plugin_t*) { return false; },
                                                     [](const clap_plugin_t* plugin, clap_plugin_render_mode mode)
-                                                    { return ClapPlugin::of(plugin).setRenderMode(mode); }};
+                                                    {
+                                                        return ClapPlugin::of(plugin).setRenderMode(mode);
+                                                    }};
     return extension;
 }
 
@@ -85,7 +90,10 @@ ClapPlugin::ClapPlugin(const clap_host_t& wanted, const clap_plugin_descriptor_t
            [](const clap_plugin_t* plugin, const clap_process_t* block) -> clap_process_status
            { return block == nullptr ? CLAP_PROCESS_ERROR : of(plugin).process(*block); },
            [](const clap_plugin_t*, const char* name) { return extensionNamed(name); },
-           [](const clap_plugin_t* plugin) { of(plugin).onMainThread(); }},
+           [](const clap_plugin_t* plugin)
+           {
+               of(plugin).onMainThread();
+           }},
       host(wanted)
 {
 }
@@ -99,18 +107,17 @@ ClapPlugin::~ClapPlugin()
 }
 
 ClapPlugin::Parts::Parts(ClapPlugin& owner)
-    : reports(processor,
-              {[&owner]
-               {
-                   const auto* asked = extensionOf<clap_host_params_t>(owner.host, CLAP_EXT_PARAMS);
-                   if (asked != nullptr && asked->request_flush != nullptr)
-                       asked->request_flush(&owner.host);
-               },
-               [&owner]
-               {
-                   owner.edited.store(true);
-                   owner.host.request_callback(&owner.host);
-               }}),
+    : reports(processor, {[&owner]
+                          {
+                              const auto* asked = extensionOf<clap_host_params_t>(owner.host, CLAP_EXT_PARAMS);
+                              if (asked != nullptr && asked->request_flush != nullptr)
+                                  asked->request_flush(&owner.host);
+                          },
+                          [&owner]
+                          {
+                              owner.edited.store(true);
+                              owner.host.request_callback(&owner.host);
+                          }}),
       window(processor, owner.host)
 {
 }
@@ -131,8 +138,8 @@ bool ClapPlugin::activate(double rate, std::uint32_t mostFrames)
         return false;
     PluginProcessor& prepared = processor();
     const int before = prepared.latency();
-    const auto frames = static_cast<int>(
-        std::min(mostFrames, static_cast<std::uint32_t>(std::numeric_limits<std::int32_t>::max())));
+    const auto frames =
+        static_cast<int>(std::min(mostFrames, static_cast<std::uint32_t>(std::numeric_limits<std::int32_t>::max())));
     prepared.setRateAndBufferSizeDetails(rate, frames);
     {
         const ParameterReports::Pause pause(parts->reports); // that the latency changed is told below

@@ -74,10 +74,9 @@ constexpr std::array<Configuration, 7> configurations{{{"Stereo, 1 actuator", 2,
 
 std::optional<Layout> layoutOf(const juce::AudioProcessor& processor, const Configuration& wanted)
 {
-    const std::array<Request, 4> requests{Request{true, 0, wanted.sound, nullptr, nullptr},
-                                          Request{true, 1, 1, nullptr, nullptr},
-                                          Request{false, 0, wanted.sound, nullptr, nullptr},
-                                          Request{false, 1, wanted.haptic, nullptr, nullptr}};
+    const std::array<Request, 4> requests{
+        Request{true, 0, wanted.sound, nullptr, nullptr}, Request{true, 1, 1, nullptr, nullptr},
+        Request{false, 0, wanted.sound, nullptr, nullptr}, Request{false, 1, wanted.haptic, nullptr, nullptr}};
     return layoutAfter(processor, requests);
 }
 } // namespace
@@ -105,7 +104,9 @@ const clap_plugin_audio_ports_t& audioPortsExtension() noexcept
         [](const clap_plugin_t* plugin, bool isInput)
         { return static_cast<std::uint32_t>(ClapPlugin::of(plugin).processor().getBusCount(isInput)); },
         [](const clap_plugin_t* plugin, std::uint32_t index, bool isInput, clap_audio_port_info_t* info)
-        { return info != nullptr && describePort(ClapPlugin::of(plugin).processor(), isInput, index, *info); }};
+        {
+            return info != nullptr && describePort(ClapPlugin::of(plugin).processor(), isInput, index, *info);
+        }};
     return extension;
 }
 
@@ -115,7 +116,8 @@ const clap_plugin_configurable_audio_ports_t& configurablePortsExtension() noexc
         [](const clap_plugin_t* plugin, const Request* requests, std::uint32_t count)
         {
             const ClapPlugin& asked = ClapPlugin::of(plugin);
-            return !asked.isActive() && requests != nullptr && layoutAfter(asked.processor(), {requests, count}).has_value();
+            return !asked.isActive() && requests != nullptr &&
+                   layoutAfter(asked.processor(), {requests, count}).has_value();
         },
         [](const clap_plugin_t* plugin, const Request* requests, std::uint32_t count)
         {

@@ -43,7 +43,9 @@ const clap_plugin_state_t& stateExtension() noexcept
         [](const clap_plugin_t* plugin, const clap_ostream_t* stream)
         { return stream != nullptr && stream->write != nullptr && ClapPlugin::of(plugin).save(*stream); },
         [](const clap_plugin_t* plugin, const clap_istream_t* stream)
-        { return stream != nullptr && stream->read != nullptr && ClapPlugin::of(plugin).load(*stream); }};
+        {
+            return stream != nullptr && stream->read != nullptr && ClapPlugin::of(plugin).load(*stream);
+        }};
     return extension;
 }
 
