@@ -1,5 +1,5 @@
-"""A host for CLAP plugins in Python, for tests: it declares the interface once more, by its own reading of CLAP 1.2, and
-keeps a record of what the plugin asks of it."""
+"""A host for CLAP plugins in Python, for tests: it declares the interface once more, by its own reading of CLAP 1.2,
+and keeps a record of what the plugin asks of it."""
 
 import ctypes as c
 import time
