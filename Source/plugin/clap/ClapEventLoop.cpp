@@ -32,6 +32,13 @@ void deliverAll()
     while (juce::dispatchNextMessageOnSystemQueue(true))
         ;
 }
+
+void takeOver()
+{
+    auto& manager = *juce::MessageManager::getInstance();
+    if (!manager.isThisTheMessageThread())
+        manager.setCurrentThreadAsMessageThread();
+}
 } // namespace
 
 struct ClapEventLoop::Thread final : private juce::Thread
@@ -44,12 +51,12 @@ struct ClapEventLoop::Thread final : private juce::Thread
     ~Thread() override
     {
         stopThread(-1);
-        juce::MessageManager::getInstance()->setCurrentThreadAsMessageThread(); // what is left to destroy
+        takeOver(); // what is left to destroy
     }
 
     void run() override
     {
-        juce::MessageManager::getInstance()->setCurrentThreadAsMessageThread();
+        takeOver();
         ready.signal();
         while (!threadShouldExit())
         {
@@ -64,7 +71,9 @@ struct ClapEventLoop::Thread final : private juce::Thread
 ClapEventLoop::ClapEventLoop(const clap_host_t& wanted) : host(wanted)
 {
     const auto* timers = extensionOf<clap_host_timer_support_t>(host, CLAP_EXT_TIMER_SUPPORT);
-    if (timers == nullptr || !timers->register_timer(&host, periodMs, &timer))
+    if (timers != nullptr && timers->register_timer(&host, periodMs, &timer))
+        takeOver();
+    else
         thread = std::make_unique<juce::SharedResourcePointer<Thread>>();
 }
 
@@ -80,8 +89,7 @@ void ClapEventLoop::onTimer(clap_id id)
 {
     if (thread != nullptr || id != timer)
         return;
-    if (!juce::MessageManager::getInstance()->isThisTheMessageThread())
-        juce::MessageManager::getInstance()->setCurrentThreadAsMessageThread();
+    takeOver();
     deliverAll();
 }
 #else

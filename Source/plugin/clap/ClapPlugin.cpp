@@ -141,10 +141,7 @@ bool ClapPlugin::activate(double rate, std::uint32_t mostFrames)
     const auto frames =
         static_cast<int>(std::min(mostFrames, static_cast<std::uint32_t>(std::numeric_limits<std::int32_t>::max())));
     prepared.setRateAndBufferSizeDetails(rate, frames);
-    {
-        const ParameterReports::Pause pause(parts->reports); // that the latency changed is told below
-        prepared.prepareToPlay(rate, frames);
-    }
+    prepared.prepareToPlay(rate, frames);
     parts->audio.prepare();
     active = true;
     const auto* told = extensionOf<clap_host_latency_t>(host, CLAP_EXT_LATENCY);
