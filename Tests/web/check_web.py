@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The npm package in Node.js, the page and a phone in Chromium.
 
-check_web.py package|page|work|visit|phone PACINI LIVE_REFERENCE
+check_web.py package|page|work|visit|language|phone PACINI LIVE_REFERENCE
 
 Exit 0, 1 on a failed check, 77 when build/web, Node.js, Chromium or their modules are not there; `bash cmake/bootstrap.sh
 slow-tests` brings them all.
@@ -63,5 +63,6 @@ with tempfile.TemporaryDirectory() as name:
                  "page": [WEB / "page", MODULES, program, live, sound, *pictures],
                  "work": [WEB / "page", MODULES, program, sound, folder / "drums_tabla_pattern.wav", *pictures],
                  "visit": [WEB / "page", MODULES, program, kinds, *pictures],
+                 "language": [WEB / "page", MODULES, sound, *pictures],
                  "phone": [MODULES, program, sound]}[what]
     sys.exit(subprocess.run(["node", script, *arguments]).returncode)

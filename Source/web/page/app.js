@@ -14,6 +14,7 @@ import { History } from './history.js'
 import { startCards } from './cards.js'
 import { byKind, titleOf } from './kinds.js'
 import { plainWords } from './words.js'
+import { counted, language, listed, number, startPage, t, told } from './text.js'
 import { Lanes } from './lanes.js'
 import { Live } from './live.js'
 import { microphone } from './microphone.js'
@@ -25,7 +26,7 @@ import { claim, keep, kept, keptWorks, newId } from './store.js'
 import { zip } from './zip.js'
 
 const element = (id) => document.getElementById(id)
-const counted = (number, what) => `${number} ${what}${number === 1 ? '' : 's'}`
+startPage()
 const core = new Core() // encodes; ended when it works for nothing
 const side = new Core() // everything else
 /**
@@ -61,7 +62,7 @@ const guarded = (work) => async (...parameters) => {
   }
 }
 /** Values of sliders with their units, by their data-shown. */
-const shownAs = { percent: (value) => `${Math.round(100 * value)} %`, perSecond: (value) => `${value} / s`, times: (value) => `\u00d7 ${value}` }
+const shownAs = { percent: (value) => `${number(100 * value, 0)} %`, perSecond: (value) => `${value} / s`, times: (value) => `\u00d7 ${number(Number(value))}` }
 const showValue = (slider) => {
   slider.parentElement.querySelector('output').value = (shownAs[slider.dataset.shown] ?? String)(slider.value)
 }
@@ -117,18 +118,19 @@ const open = async (file, reading) => {
   core.cancel()
   complain()
   const name = file.replace(/\.[^.]+$/, '') || 'clip'
-  say(`Reading ${file}...`)
+  say(t('Reading {0}...', file))
   showProgress()
   try {
     const got = await reading, blob = got instanceof Blob ? got : new Blob([got])
     let document, said
     if (clipExtensions.includes(extensionOf(file))) {
       const { clip, warnings } = await side.call('read', new Uint8Array(await blob.arrayBuffer()), { extension: extensionOf(file) })
+        .catch((error) => { throw error.superseded ? error : new Error(t('{0} cannot be opened: {1}', file, told(error.message))) })
       document = { clip }
-      said = warnings.join(' ')
+      said = warnings.map(told).join(' ')
     } else {
       const sound = await soundOf(blob, file)
-      if (sound.frames === 0) throw new Error(`${file} has no samples.`)
+      if (sound.frames === 0) throw new Error(t('{0} has no samples.', file))
       if (own !== opened) return
       document = { sound, ...await analysed({ name, source: file, sound }, history.now?.sound ? await knobs.values() : {}) }
       said = document.said + cutOff(file, sound)
@@ -136,7 +138,7 @@ const open = async (file, reading) => {
     if (own !== opened) return
     opening = undefined
     if (document.sound) showFilm() // a clip is put to the film that is shown
-    await take(`Open ${file}`, { id: newId(), name, source: file, sound: document.sound, analysis: document.clip, edits: [], clip: document.clip })
+    await take(t('Open {0}', file), { id: newId(), name, source: file, sound: document.sound, analysis: document.clip, edits: [], clip: document.clip })
     if (own === opened && !turned) say(said)
     if (innerWidth <= 600) element('clip').scrollIntoView({ block: 'start' }) // which lies below what a phone shows
   } catch (error) {
@@ -148,7 +150,7 @@ const open = async (file, reading) => {
   }
 }
 const cutOff = (file, { frames, promised }) => promised > frames
-  ? ` ${file} is cut off: ${frames.toLocaleString('en')} of ${promised.toLocaleString('en')} frames.` : ''
+  ? ` ${t('{0} is cut off: {1} of {2} frames.', file, frames, promised)}` : ''
 
 let progressShown // timer
 /** Shows, if it takes long, how much is done, and that it can be cancelled. */
@@ -171,18 +173,18 @@ const cancel = () => {
   core.cancel()
   hideProgress()
   knobs.show()
-  say('Cancelled.')
+  say(t('Cancelled.'))
 }
 
 /** The clip of a sound by values of the knobs, and how long it took in words. */
 const analysed = async ({ name, source, sound }, values) => {
   core.cancel()
   const started = performance.now()
-  say('Analysing...')
+  say(t('Analysing...'))
   const { clip, peaks } = await core.call('encode', { blob: sound.blob, peaks: true }, { name, source, ...values })
   if (!isHeld(sound)) sound.peaks ??= peaks
   if (isLong(clip)) await core.rest()
-  return { clip, said: `Analysed in ${((performance.now() - started) / 1000).toFixed(2)} s.` }
+  return { clip, said: t('Analysed in {0} s.', number((performance.now() - started) / 1000, 2)) }
 }
 
 let turned // values of the knobs that are not analysed yet
@@ -210,11 +212,11 @@ const analyseAgain = async () => {
     } while (now !== history.now)
     if (turned !== own) return
     turned = undefined
-    await take('Analyse', { ...now, analysis, clip: taken.clip, edits: taken.edits }, burst)
+    await take(t('Analyse'), { ...now, analysis, clip: taken.clip, edits: taken.edits }, burst)
     if (turned) return
-    const waiting = taken.unfitting.map(({ reason }) => reason)
+    const waiting = [...new Set(taken.unfitting.map(({ reason }) => told(reason)))]
     say(waiting.length === 0 ? said
-      : `${said} ${waiting.length} of ${taken.edits.length} edits by hand wait for an analysis that they fit: ${[...new Set(waiting)].join('; ')}.`)
+      : `${said} ${counted(taken.unfitting.length, '{0} edit does not fit this analysis and is not applied: {1}.', '{0} edits do not fit this analysis and are not applied: {1}.', waiting.join('; '))}`)
   } finally {
     if (turned === own) turned = undefined
     if (!turned) {
@@ -272,7 +274,7 @@ const take = async (what, document, burst) => {
 /** The channels of the sound device, which is asked for when there is something to play. */
 const listChannels = () => {
   if (element('channel').length > 0) return
-  for (let channel = 1; channel < channelCount(); ++channel) element('channel').add(new Option(channel === 1 ? '2, right' : String(channel + 1), String(channel)))
+  for (let channel = 1; channel < channelCount(); ++channel) element('channel').add(new Option(channel === 1 ? t('2, right') : String(channel + 1), String(channel)))
 }
 
 /** The document that history has now. */
@@ -301,7 +303,8 @@ const show = async () => {
   element('link').parentElement.hidden = true // of what was before
   element('name').value = document.name
   element('lanes').setAttribute('aria-label',
-    `${document.name}: ${view.clip.duration.toFixed(2)} s, ${counted(view.clip.bands.length, 'band')}, ${counted(view.clip.transients.length, 'event')}`)
+    `${document.name}: ${listed([`${number(view.clip.duration, 2)} s`, counted(view.clip.bands.length, '{0} band', '{0} bands'),
+      counted(view.clip.transients.length, '{0} event', '{0} events')])}`)
   for (const id of ['play-sound', 'play-both', 'preset', 'bands', 'breakpoints', 'sensitivity', 'spectrogram', 'with-sound']) element(id).disabled = !sound
   for (const [id, what] of [['undo', history.undoes], ['redo', history.redoes]]) {
     element(id).disabled = what === undefined
@@ -339,10 +342,10 @@ const renderDrive = newestOnly(async () => {
   view.driveRate = drive.sampleRate
   look()
   const points = clip.bands.reduce((sum, band) => sum + band.amplitude.length, 0)
-  element('figures').textContent = `${clip.duration.toFixed(2)} s, ${bytes.length} bytes packed, ` +
-    `${counted(points, 'breakpoint')} in ${counted(clip.bands.length, 'band')}, ${counted(clip.transients.length, 'event')}` +
-    (rendered.reduction > 0.05 ? `; the actuator's protection takes ${rendered.reduction.toFixed(1)} dB` : '') +
-    (clip.duration > longestRendered ? `. This is long: what the actuator plays is rendered, shown and played of the first ${longestRendered / 60} minutes; files hold all of it` : '')
+  element('figures').textContent = listed([`${number(clip.duration, 2)} s`, t('{0} bytes packed', bytes.length),
+    counted(points, '{0} breakpoint', '{0} breakpoints'), counted(clip.bands.length, '{0} band', '{0} bands'), counted(clip.transients.length, '{0} event', '{0} events')]) + '.' +
+    (rendered.reduction > 0.05 ? ` ${t('The protection of the actuator reduces it by {0} dB.', number(rendered.reduction, 1))}` : '') +
+    (clip.duration > longestRendered ? ` ${t('The first {0} minutes are rendered, shown and played; files contain all of the clip.', longestRendered / 60)}` : '')
   await showLosses()
   if (element('comparison').open) await compare()
   if (isLong(clip)) await side.rest()
@@ -385,8 +388,8 @@ const keepAll = newestOnly(async () => {
     await listWorks()
   } catch (error) {
     const full = error?.name === 'QuotaExceededError'
-    element('storage').textContent = (full ? 'This browser has no room to keep the sound and the clip over a reload. Save the clip.'
-      : `This browser does not keep the clip over a reload (${error?.message ?? 'storage is refused'}). Save it.`)
+    element('storage').textContent = (full ? t('This browser has no room to keep the sound and the clip over a reload. Save the clip.')
+      : t('This browser does not keep the clip over a reload ({0}). Save it.', error?.message ?? t('storage is refused')))
   }
 })
 const keepLater = later(() => keepTheRest(), 3000)
@@ -400,13 +403,13 @@ const remember = () => {
 }
 
 /** What else was worked on, to go on with. */
-let listed // beside which document
+let listedBeside // which document
 const listWorks = async () => {
-  if (listed === history.now?.id) return
-  listed = history.now?.id
+  if (listedBeside === history.now?.id) return
+  listedBeside = history.now?.id
   const others = (await keptWorks()).filter(({ id }) => id !== history.now?.id)
-  element('works').replaceChildren(new Option('choose...', ''), ...others.map(({ id, name, changed, clip, soundId }) =>
-    new Option(`${name}, ${clip.duration.toFixed(2)} s${soundId ? '' : ', no sound'}, ${new Date(changed).toLocaleString()}`, id)))
+  element('works').replaceChildren(new Option(t('choose...'), ''), ...others.map(({ id, name, changed, clip, soundId }) =>
+    new Option(listed([name, `${number(clip.duration, 2)} s`, ...(soundId ? [] : [t('no sound')]), new Date(changed).toLocaleString(language)]), id)))
   element('open-work').disabled = true
   element('works').closest('.choice').hidden = others.length === 0
 }
@@ -427,20 +430,20 @@ const resumed = async (id, wait) => {
 
 // What the measures of a comparison say, best first.
 const measures = [
-  ['hts', 'Likeness of envelope, bands, spectrum and events (HTS)', (x, { ceiling }) => `${x.toFixed(1)} (sound itself ${ceiling.toFixed(1)})`],
-  ['match', 'Predicted match, as people would rate it (nothing felt 35)', (x, { matchOfSound }) => `${x.toFixed(1)} (sound itself ${matchOfSound.toFixed(1)})`],
-  ['lsd', 'Distance of the spectra', (x) => `${x.toFixed(2)} dB`],
-  ['centroidError', 'Error of the centre of the spectrum', (x) => `${x.toFixed(2)} semitones`],
-  ['outOfBand', 'Energy outside of what is felt', (x) => `${x.toFixed(1)} dB`]
+  ['hts', t('Likeness of envelope, bands, spectrum and events (HTS)'), (x, { ceiling }) => t('{0} (sound itself {1})', number(x, 1), number(ceiling, 1))],
+  ['match', t('Predicted match, as people would rate it (nothing felt: 35)'), (x, { matchOfSound }) => t('{0} (sound itself {1})', number(x, 1), number(matchOfSound, 1))],
+  ['lsd', t('Distance of the spectra'), (x) => `${number(x, 2)} dB`],
+  ['centroidError', t('Error of the centroid'), (x) => t('{0} semitones', number(x, 2))],
+  ['outOfBand', t('Energy outside the range of touch'), (x) => `${number(x, 1)} dB`]
 ]
 const compare = async () => {
   const status = element('comparison-status'), table = element('measures')
   if (!soundShown) {
     table.hidden = true
-    status.textContent = 'A clip without its sound cannot be compared.'
+    status.textContent = t('A clip without its sound cannot be compared.')
     return
   }
-  status.textContent = 'Comparing...'
+  status.textContent = t('Comparing...')
   const { clip } = view, { sampleRate, blob } = soundShown
   const plain = await side.call('render', firstPart(clip, longestRendered), { sampleRate })
   const figures = await side.call('compare', { blob, ...(clip.duration > longestRendered ? { from: 0, count: plain.samples.length } : {}) }, { samples: plain.samples, sampleRate })
@@ -450,7 +453,7 @@ const compare = async () => {
     head.scope = 'row'
     head.textContent = what
     row.append(head)
-    row.insertCell().textContent = figures[key] === null || figures[key] === undefined ? 'does not apply' : text(figures[key], figures)
+    row.insertCell().textContent = figures[key] === null || figures[key] === undefined ? t('does not apply') : text(figures[key], figures)
     return row
   }))
   table.hidden = false
@@ -471,14 +474,14 @@ const exportOptions = async (format, name = history.now.name) => {
   const chosen = Object.entries({ ...strength(), ...profileOption() }).filter(([option]) => has(option))
   return { format: format.name, name, ...Object.fromEntries(chosen) }
 }
-const lostText = (losses) => `Lost here: ${losses.slice(0, 3).map((loss) => loss.message).join('; ')}${losses.length > 3 ? `; and ${losses.length - 3} more` : ''}.`
+const lostText = (losses) => t('Lost here: {0}.', losses.slice(0, 3).map(({ message }) => told(message)).concat(losses.length > 3 ? [t('and {0} more', losses.length - 3)] : []).join('; '))
 const showLosses = async () => {
   const format = formatNamed(element('format').value)
   if (!format || !view.clip) return
   const isOwn = ['json', 'packed'].includes(format.name) // which keeps everything
   const { losses } = isOwn && isLong(view.clip) ? { losses: [] }
     : await side.call('write', firstPart(view.clip, longestRendered), await exportOptions(format))
-  element('losses').textContent = losses.length === 0 ? format.keeps : `${format.keeps} ${lostText(losses)}`
+  element('losses').textContent = losses.length === 0 ? told(format.keeps) : `${told(format.keeps)} ${lostText(losses)}`
 }
 
 const download = (parts, file) => {
@@ -500,26 +503,26 @@ const saveAll = async () => {
       const { files } = await side.call('write', clip, await exportOptions(format, name))
       for (const { suffix, bytes } of files) all.push({ name: `${name}/${format.name}/${name}${suffix}${format.extension}`, bytes })
     } catch (error) {
-      refused.push(`${format.title} (${error.message})`)
+      refused.push(`${told(format.title)} (${plainWords(error)})`)
     }
   }
   download(zip(all), `${name}.zip`)
-  element('losses').textContent = `${all.length} files in ${name}.zip.${refused.length > 0 ? ` Not in it: ${refused.join('; ')}.` : ''}`
+  element('losses').textContent = t('{0} files in {1}.', all.length, `${name}.zip`) + (refused.length > 0 ? ` ${t('Not in it: {0}.', refused.join('; '))}` : '')
 }
 
 const base64 = (bytes) => btoa(String.fromCharCode(...bytes)).replaceAll('+', '-').replaceAll('/', '_').replaceAll('=', '')
 const bytesOf = (text) => Uint8Array.from(atob(text.replaceAll('-', '+').replaceAll('_', '/')), (c) => c.charCodeAt(0))
 const share = async () => {
   const { files: [{ bytes }] } = await side.call('write', view.clip, { format: 'packed' })
-  if (bytes.length > 20000) throw new Error('The clip is too long for a link; save it as a file.')
+  if (bytes.length > 20000) throw new Error(t('The clip is too long for a link; save it as a file.'))
   // In the clipboard alone: in one's own address it would be opened again by every reload.
   const url = new URL(location.href)
   url.hash = `c=${base64(bytes)}`
   element('link').value = url.href
   element('link').parentElement.hidden = false
   const isCopied = await navigator.clipboard?.writeText(url.href).then(() => true, () => false)
-  element('losses').textContent = isCopied ? `A link of ${url.href.length} characters is in the clipboard; it holds the whole clip.`
-    : `Copy this link of ${url.href.length} characters; it holds the whole clip.`
+  element('losses').textContent = isCopied ? t('A link of {0} characters is in the clipboard; it contains the whole clip.', url.href.length)
+    : t('Copy this link of {0} characters; it contains the whole clip.', url.href.length)
 }
 
 // ---- play
@@ -611,8 +614,8 @@ const openFile = async (file) => {
 
 const live = new Live(() => {
   element('live').setAttribute('aria-pressed', String(live.isOn))
-  element('feel-status').textContent = !live.isOn ? describeFeel() : live.latency === 0 ? 'Waiting for the microphone...'
-    : `What the microphone hears is played as touch on the sound output, ${(1000 * live.latency).toFixed(0)} ms late by itself.`
+  element('feel-status').textContent = !live.isOn ? describeFeel() : live.latency === 0 ? t('Waiting for the microphone...')
+    : t('The microphone is translated and played on the audio device, {0} ms late.', number(1000 * live.latency, 0))
 })
 const switchLive = () => live.isOn ? live.stop() : live.start(profileOption().profile)
 
@@ -635,7 +638,7 @@ const watchLevel = (stream, signal) => {
     }
     analyser.getFloatTimeDomainData(samples)
     meter.value = 20 * Math.log10(Math.max(1e-3, samples.reduce((most, x) => Math.max(most, Math.abs(x)), 0)))
-    say(`Recording: ${((performance.now() - started) / 1000).toFixed(1)} s`)
+    say(t('Recording: {0} s', number((performance.now() - started) / 1000, 1)))
     requestAnimationFrame(tick)
   }
   tick()
@@ -647,7 +650,7 @@ const record = async () => {
   const { signal } = recording = new AbortController()
   const showWhether = (on) => {
     element('record').setAttribute('aria-pressed', String(on))
-    element('record').textContent = on ? 'Stop recording' : 'Record'
+    element('record').textContent = on ? t('Stop recording') : t('Record')
   }
   showWhether(true)
   const recorded = []
@@ -704,12 +707,12 @@ for (const input of document.querySelectorAll('input[type=range]')) {
   showValue(input)
 }
 for (const input of document.querySelectorAll('input[type=number]')) guardNumber(input)
-for (const [key, profile] of Object.entries(profiles)) element('profile').add(new Option(profile.shortName ?? profile.name ?? key, key))
-element('profile').add(new Option('none: plain drive', ''))
+for (const [key, profile] of Object.entries(profiles)) element('profile').add(new Option(told(profile.shortName ?? profile.name ?? key), key))
+element('profile').add(new Option(t('No actuator'), ''))
 element('profile').value = 'l5-wristband'
 for (const { name, purpose } of presets) {
-  const option = new Option(`${name[0].toUpperCase()}${name.slice(1).replaceAll('-', ' ')}`, name)
-  option.title = purpose
+  const option = new Option(told(`${name[0].toUpperCase()}${name.slice(1).replaceAll('-', ' ')}`), name)
+  option.title = told(purpose)
   element('preset').add(option)
 }
 let turns = 0 // of knobs: what one turn changes is one step
@@ -759,7 +762,7 @@ on('loop', 'click', () => element('loop').setAttribute('aria-pressed', String(!i
 on('name', 'change', async ({ target }) => {
   const name = target.value.trim() || history.now.name, { now } = history
   target.value = name
-  if (name !== now.name) await take('Rename', { ...now, name, analysis: { ...now.analysis, name }, clip: { ...now.clip, name } })
+  if (name !== now.name) await take(t('Rename'), { ...now, name, analysis: { ...now.analysis, name }, clip: { ...now.clip, name } })
 })
 on('comparison', 'toggle', () => element('comparison').open ? compare() : undefined)
 on('spectrogram', 'click', () => {
@@ -784,12 +787,12 @@ const openAll = async (files) => {
     const own = opened + 1
     await openFile(file).catch(complain)
     if (own !== opened) return // something else was opened meanwhile
-    if (files.length > 1) say(`${i + 1} of ${files.length} opened. The others are below "continue with".`)
+    if (files.length > 1) say(t('{0} of {1} opened. The others are below "Continue with".', i + 1, files.length))
   }
 }
 const exampleBytes = async (file) => {
   const answer = await fetch(`gallery/${file}`).catch(() => undefined)
-  if (!answer?.ok) throw new Error(`${titleOf(file)} cannot be loaded. Is the network there?`)
+  if (!answer?.ok) throw new Error(t('{0} cannot be loaded. Is the network there?', titleOf(file)))
   return answer.arrayBuffer()
 }
 const openExample = (file) => open(file, exampleBytes(file))
@@ -814,7 +817,7 @@ on('open-work', 'click', async () => {
   const own = ++opened
   stopTurn()
   const work = await resumed(id)
-  if (own === opened && work) await take(`Open ${text}`, work)
+  if (own === opened && work) await take(t('Open {0}', text), work)
 })
 for (const event of ['dragenter', 'dragover'])
   document.addEventListener(event, (dragged) => {
@@ -858,14 +861,14 @@ guarded(async () => {
   const { default: gallery } = await import('./gallery/list.js')
   for (const [kind, files] of byKind(gallery)) {
     const group = document.createElement('optgroup')
-    group.label = kind
+    group.label = t(kind)
     group.append(...files.map((file) => new Option(titleOf(file), file)))
     element('gallery').append(group)
   }
 })()
 guarded(async () => {
   formatList = (await side.call('formats')).filter((format) => format.writes)
-  for (const format of formatList) element('format').add(new Option(`${format.title} (${format.extension})`, format.name))
+  for (const format of formatList) element('format').add(new Option(`${told(format.title)} (${format.extension})`, format.name))
   if (view.clip) await showLosses()
 })()
 guarded(async () => {
@@ -882,7 +885,7 @@ const openLink = async () => {
   try {
     bytes = bytesOf(shared)
   } catch {
-    throw new Error('The link is damaged: it holds no clip.')
+    throw new Error(t('The link is damaged: it contains no clip.'))
   }
   await open('shared.pacb', bytes)
   window.history.replaceState(null, '', location.pathname + location.search)
@@ -894,7 +897,7 @@ guarded(async () => {
     // What this tab had, or what was worked on last.
     const id = sessionStorage.getItem('pacini work')
     const before = (id && await resumed(id, 1000)) || await keptWorks().then(([last]) => last && resumed(last.id))
-    if (before && own === opened) guarded(take)('Open', before) // Undo has it when a link is opened
+    if (before && own === opened) guarded(take)(t('Open'), before) // Undo has it when a link is opened
     else listWorks()
     if (!before) document.documentElement.classList.remove('returning')
   } catch { // A browser without storage.
@@ -908,6 +911,6 @@ const keepTheRest = () => {
   navigator.serviceWorker?.ready.then(({ active }) => active.postMessage('keep the rest'))
 }
 if ('serviceWorker' in navigator && !new URLSearchParams(location.search).has('fresh'))
-  navigator.serviceWorker.register('service-worker.js').catch(() => {})
+  navigator.serviceWorker.register(`service-worker.js${language === 'en' ? '' : `?language=${language}`}`).catch(() => {})
 document.documentElement.dataset.ready = 'true'
 performance.mark('ready')

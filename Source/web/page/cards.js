@@ -2,6 +2,7 @@
 
 import { describeFeel, feelsNow, prepareFeel } from './feel.js'
 import { playPair, wholeSignal } from './sound-player.js'
+import { t } from './text.js'
 import { heldMono, soundOf } from './sounds.js'
 
 /**
@@ -59,20 +60,20 @@ export const startCards = ({ cards, bytesOf, open, playThat, stop, call, drive, 
     for (const button of [play, feeler]) button.setAttribute('aria-pressed', 'false')
     toggle(play, async (how) => {
       const { signal } = await load(file)
-      say(`${name}: the sound.`)
+      say(t('{0}: the sound.', name))
       await playPair(signal, signal, { ...how, from: 0 })
     })
     toggle(feeler, async (how) => {
       const clip = await clipOf(file), { signal } = await load(file)
       if (feelsNow()) {
-        say(`${name}: sound and haptics together. ${describeFeel()}`)
+        say(t('{0}: sound and haptics together. {1}', name, describeFeel()))
         const touch = await prepareFeel(clip, call)
         let feeling
         await playPair(signal, signal, { ...how, from: 0, started: (clock) => { feeling = touch(how.signal, clock) } })
         await feeling
         return
       }
-      say(`${name}: you hear the haptics, as nothing to feel with is connected. ${describeFeel()}`)
+      say(t('{0}: you hear the haptics, as nothing to feel with is connected. {1}', name, describeFeel()))
       const { samples } = await call('render', clip, { ...drive(), sampleRate: 48000 })
       const driven = wholeSignal(samples, 48000)
       await playPair(driven, driven, { ...how, from: 0 })

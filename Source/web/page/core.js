@@ -21,7 +21,7 @@ export class Core {
       else asked.resolve(result)
     }
     this.#worker.onerror = (event) => {
-      for (const { reject } of this.#waiting.values()) reject(new Error(event.message || 'The core could not be loaded.'))
+      for (const { reject } of this.#waiting.values()) reject(new Error(event.message || 'The page\'s module cannot be loaded. Load the page again.'))
       this.#waiting.clear()
       this.#worker = undefined
     }

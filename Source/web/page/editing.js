@@ -1,5 +1,6 @@
 // Editing on the picture and by the numbers beside it: pointer, keyboard, fields.
 
+import { number, t } from './text.js'
 import { valueAt } from './curve.js'
 import { addPoint, lanesOf, movePoint, pointsOf, removePoint } from './edits.js'
 
@@ -15,10 +16,10 @@ export const startEditing = ({ canvas, lanes, state, change, withdraw, look, pla
   const points = () => pointsOf(state.clip, state.lane)
   const described = () => {
     const point = points()[state.selected]
-    if (!point) return 'Nothing is selected.'
-    return `${state.lane === 'events' ? 'Event' : 'Point'} ${state.selected + 1} of ${points().length}: ` +
-      `${point.time.toFixed(3)} s, amplitude ${point.amplitude.toFixed(2)}` +
-      (state.lane === 'events' ? `, sharpness ${point.sharpness.toFixed(2)}` : '')
+    if (!point) return t('Nothing is selected.')
+    const values = [state.selected + 1, points().length, number(point.time, 3), number(point.amplitude, 2)]
+    return state.lane === 'events' ? t('Event {0} of {1}: {2} s, amplitude {3}, sharpness {4}', ...values, number(point.sharpness, 2))
+      : t('Point {0} of {1}: {2} s, amplitude {3}', ...values)
   }
 
   const showFields = () => {
@@ -48,22 +49,22 @@ export const startEditing = ({ canvas, lanes, state, change, withdraw, look, pla
     if (!points()[state.selected]) return
     const moved = movePoint(state.clip, state.lane, state.selected, to)
     state.selected = moved.index
-    change('Move', moved, burst && `${burst} ${selections}`)
+    change(t('Move'), moved, burst && `${burst} ${selections}`)
     showFields()
   }
   const add = (time, amplitude) => {
     const added = addPoint(state.clip, state.lane, { time, amplitude })
-    if (!added) return say('There is a point already.')
+    if (!added) return say(t('There is a point already.'))
     state.selected = added.index
-    change('Add', added)
+    change(t('Add'), added)
     showFields()
   }
   const remove = () => {
     if (!points()[state.selected]) return
     const removed = removePoint(state.clip, state.lane, state.selected)
-    if (!removed) return say('A curve keeps its ends.')
+    if (!removed) return say(t('A curve keeps its ends.'))
     state.selected = removed.index
-    change('Remove', removed)
+    change(t('Remove'), removed)
     showFields()
   }
   const choose = (lane) => {

@@ -1,15 +1,17 @@
 // Changes of a clip's points and events: each gives a new clip, leaves the old one as it is, and says what was done as an
 // edit of a project file, which reapply() of the package takes to another analysis.
 
+import { number, t } from './text.js'
+
 const shortest = 0.001 // s between two points
 const clamp = (value, low, high) => Math.min(high, Math.max(low, value))
 const rounded = (value) => Math.round(value * 1e6) / 1e6
 
 /** The lanes of a clip: its events, its total, its bands. */
 export const lanesOf = (clip) => [
-  { key: 'events', title: `Events (${clip.transients.length})` },
-  ...(clip.envelope.length > 0 ? [{ key: 'total', title: 'Total amplitude' }] : []),
-  ...clip.bands.map((band, i) => ({ key: i, title: `Band ${i + 1}: ${Math.round(band.centreFrequency)} Hz` }))
+  { key: 'events', title: t('Events ({0})', clip.transients.length) },
+  ...(clip.envelope.length > 0 ? [{ key: 'total', title: t('Total amplitude') }] : []),
+  ...clip.bands.map((band, i) => ({ key: i, title: t('Band {0}: {1} Hz', i + 1, number(band.centreFrequency, 0)) }))
 ]
 
 /** The points of a lane: `{time, amplitude}`, events also with `sharpness`. */

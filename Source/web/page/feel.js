@@ -1,6 +1,7 @@
 // Touch: game controllers, and phones that vibrate.
 
 import { atSpeed } from './film.js'
+import { listed, t } from './text.js'
 import { choose, chosen, isBluetooth, playReports } from './hid.js'
 import { touchesOf, vibrateBy, wallClock } from './vibration.js'
 
@@ -14,14 +15,14 @@ export const feelsNow = () => chosen() !== undefined || rumbling().length > 0 ||
 
 /** What is there to feel with, in words. */
 export const describeFeel = () => {
-  if (chosen()) return `On ${chosen().productName || 'the controller'}, with its own reports.`
+  if (chosen()) return chosen().productName ? t('On {0}, with its own reports.', chosen().productName)
+    : t('On the controller, with its own reports.')
   const pads = rumbling()
-  if (pads.length > 0) return `On ${pads.map((pad) => pad.id.replace(/\s*\(.*$/, '')).join(', ')}.`
-  if (canVibrate()) return 'On this phone.'
+  if (pads.length > 0) return t('On {0}.', listed(pads.map((pad) => pad.id.replace(/\s*\(.*$/, ''))))
+  if (canVibrate()) return t('On this phone.')
   if (/iPhone|iPad/.test(navigator.userAgent))
-    return 'Browsers on iPhones cannot vibrate. Connect a game controller, or open this page in Chrome on an Android phone; files in AHAP play in apps on iPhones.'
-  return 'Connect a game controller and press one of its buttons, or open this page on a phone that vibrates. ' +
-    'With an actuator on a sound interface, use "Play sound and haptics together".'
+    return t('Browsers on iPhones cannot vibrate. Connect a game controller, or open this page in Chrome on an Android phone; files in AHAP play in apps on iPhones.')
+  return t('Connect a game controller and press one of its buttons, or open this page on a phone that vibrates. With an actuator on an audio device, use "Play sound and haptics together".')
 }
 
 /** Asks for a controller that understands reports. */

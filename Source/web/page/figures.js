@@ -8,6 +8,8 @@ import { valueAt } from './curve.js'
 import { guardSlider } from './fields.js'
 import { Peaks } from './peaks.js'
 import { playPair, wholeSignal } from './sound-player.js'
+import { counted, listed, number, t, told } from './text.js'
+import { plainWords } from './words.js'
 
 const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim()
 const rate = 44100
@@ -16,7 +18,7 @@ const core = new Core()
 /** One of the sounds of the guide, at its own rate. */
 const soundOf = async (name) => {
   const answer = await fetch(`guide/${name}.flac`).catch(() => undefined)
-  if (!answer?.ok) throw new Error('The sound of this figure cannot be loaded. Is the network there?')
+  if (!answer?.ok) throw new Error(t('The sound of this figure cannot be loaded. Is the network there?'))
   const buffer = await new OfflineAudioContext(1, 1, rate).decodeAudioData(await answer.arrayBuffer())
   return { samples: buffer.getChannelData(0).slice(), sampleRate: rate }
 }
@@ -60,7 +62,7 @@ const knob = (place, text, { min, max, step, value, shown = String }, changed) =
 /** A picture with what it says in words beneath. */
 const picture = (place, label) => {
   const canvas = made(place, 'canvas', { class: 'small', role: 'img', 'aria-label': label })
-  const words = made(place, 'p', { role: 'status', class: 'words', text: 'Computing...' })
+  const words = made(place, 'p', { role: 'status', class: 'words', text: t('Computing...') })
   let work
   const paint = () => {
     if (!work) return
@@ -119,7 +121,7 @@ const ways = (place, signal, all) => {
         } })
         await feeling
       } catch (error) {
-        words.textContent = error.message
+        words.textContent = plainWords(error)
       } finally {
         if (own === control) stop()
       }
@@ -149,7 +151,7 @@ const chart = (context, width, height, points, { across, up, line, low = 0, high
     context.moveTo(left, yAt(value))
     context.lineTo(right, yAt(value))
     context.stroke()
-    context.fillText(value.toFixed(0), 12, yAt(value) + 4)
+    context.fillText(number(value, 0), 12, yAt(value) + 4)
   }
   context.fillText(across, Math.max(left, right - context.measureText(across).width), height - 4)
   context.fillText(up, 12, 12)
@@ -189,11 +191,11 @@ const loud = (samples) => {
 
 const bands = async (place, signal) => {
   const sound = await soundOf('knock_wood_bridge')
-  const count = knob(place, 'Bands', { min: 1, max: 24, step: 1, value: 12 }, () => update())
-  const view = picture(place, 'The sound, and what is played of a clip with so many bands')
+  const count = knob(place, t('Bands'), { min: 1, max: 24, step: 1, value: 12 }, () => update())
+  const view = picture(place, t('The sound, and what is played of a clip with so many bands'))
   let clip, drive
-  ways(place, signal, [['Play the sound', () => sound.samples], ['Listen to the haptics', () => drive],
-    ['Feel it', () => ({ clip, samples: sound.samples })]])
+  ways(place, signal, [[t('Play the sound'), () => sound.samples], [t('Listen to the haptics'), () => drive],
+    [t('Feel it'), () => ({ clip, samples: sound.samples })]])
   const update = async () => {
     clip = await core.call('encode', sound, { bands: Number(count.value) })
     drive = (await played(clip)).samples
@@ -216,7 +218,7 @@ const bands = async (place, signal) => {
       wave(context, heard, { x: 0, y: height * 0.66, width, height: height * 0.34 }, colour('drive'))
     })
     const points = clip.bands.reduce((sum, { amplitude }) => sum + amplitude.length, 0)
-    view.say(`${count.value} ${count.value === '1' ? 'band' : 'bands'}, ${points} points: likeness (HTS) ${hts.toFixed(1)} of 100.`)
+    view.say(counted(Number(count.value), '{0} band, {1} points: likeness (HTS) {2} of 100.', '{0} bands, {1} points: likeness (HTS) {2} of 100.', points, number(hts, 1)))
   }
   await update()
 }
@@ -224,14 +226,14 @@ const bands = async (place, signal) => {
 const breakpoints = async (place, signal) => {
   const sound = await soundOf('knock_wood_bridge')
   const counts = [1, 2, 4, 6, 10, 15, 20, 30, 45, 60]
-  const chosen = knob(place, 'Breakpoints per second to hear', { min: 0, max: counts.length - 1, step: 1, value: 6, shown: (i) => counts[i] }, () => draw())
-  const view = picture(place, 'Likeness over the number of breakpoints a second')
+  const chosen = knob(place, t('Breakpoints per second to hear'), { min: 0, max: counts.length - 1, step: 1, value: 6, shown: (i) => counts[i] }, () => draw())
+  const view = picture(place, t('Likeness over the number of breakpoints per second'))
   const points = []
   const one = () => points[Math.min(Number(chosen.value), points.length - 1)]
-  ways(place, signal, [['Play the sound', () => sound.samples], ['Listen to the haptics', () => one().drive],
-    ['Feel it', () => ({ clip: one().packed, samples: sound.samples })]])
+  ways(place, signal, [[t('Play the sound'), () => sound.samples], [t('Listen to the haptics'), () => one().drive],
+    [t('Feel it'), () => ({ clip: one().packed, samples: sound.samples })]])
   const draw = () => view.draw((context, width, height) => chart(context, width, height, points.map((point) => ({ ...point, isOn: point === one() })),
-    { across: 'breakpoints per second and band', up: 'likeness (HTS)', line: true, high: 100, logarithmic: true }))
+    { across: t('breakpoints per second and band'), up: t('likeness (HTS)'), line: true, high: 100, logarithmic: true }))
   for (const count of counts) {
     const packed = await core.call('encode', sound, { breakpoints: count, format: 'packed' })
     const drive = (await played(packed)).samples
@@ -240,22 +242,22 @@ const breakpoints = async (place, signal) => {
     points.push({ x: count, y: hts, label: String(count), bytes: packed.length, packed, drive })
     draw()
   }
-  view.say(points.map(({ x, y, bytes }) => `${x}: ${y.toFixed(1)} (${bytes} bytes)`).join(', '))
+  view.say(points.map(({ x, y, bytes }) => t('{0}: {1} ({2} bytes)', x, number(y, 1), bytes)).join('; '))
 }
 
 const actuators = async (place, signal) => {
   const sound = await soundOf('knock_wood_bridge')
   const clip = await core.call('encode', sound)
   const names = ['l5-wristband', 'dualsense-voice-coil', 'joycon-hd-rumble', 'lra-175', 'erm-coin']
-  const titleOf = (profile) => profiles[profile].name ?? profile
-  const strength = knob(place, 'Strength', { min: 0, max: 1, step: 0.1, value: 0.4, shown: (value) => `${Math.round(100 * value)} %` }, () => update())
-  const label = made(place, 'label', { text: 'Actuator to listen to ' }), chosen = made(label, 'select')
+  const titleOf = (profile) => told(profiles[profile].name ?? profile)
+  const strength = knob(place, t('Strength'), { min: 0, max: 1, step: 0.1, value: 0.4, shown: (value) => `${number(100 * value, 0)} %` }, () => update())
+  const label = made(place, 'label', { text: `${t('Actuator to listen to')} ` }), chosen = made(label, 'select')
   for (const name of names) chosen.add(new Option(titleOf(name), name))
-  const view = picture(place, 'How close what is felt is to the sound, for five actuators')
+  const view = picture(place, t('How close what is felt is to the sound, for five actuators'))
   const felt = (profile) => core.call('felt', clip, { profile, strength: Number(strength.value), sampleRate: rate })
-  ways(place, signal, [['Play the sound', () => sound.samples],
-    ['Listen to what is felt', async () => loud((await felt(chosen.value)).samples)],
-    ['Feel it', () => ({ clip, samples: sound.samples })]])
+  ways(place, signal, [[t('Play the sound'), () => sound.samples],
+    [t('Listen to what is felt'), async () => loud((await felt(chosen.value)).samples)],
+    [t('Feel it'), () => ({ clip, samples: sound.samples })]])
   let newest = 0
   const update = async () => {
     const own = ++newest, results = []
@@ -269,12 +271,12 @@ const actuators = async (place, signal) => {
       results.forEach(({ profile, hts }, i) => {
         context.fillStyle = colour('text')
         context.fillText(titleOf(profile), 0, i * row + 14)
-        context.fillText(hts.toFixed(1), 6 + right * Math.max(0, hts) / 100, i * row + row / 2 + 12)
+        context.fillText(number(hts, 1), 6 + right * Math.max(0, hts) / 100, i * row + row / 2 + 12)
         context.fillStyle = colour('accent')
         context.fillRect(0, i * row + 20, right * Math.max(0, hts) / 100, row - 28)
       })
     })
-    view.say(results.map(({ profile, hts }) => `${titleOf(profile)}: likeness (HTS) ${hts.toFixed(1)}`).join(', '))
+    view.say(listed(results.map(({ profile, hts }) => t('{0}: likeness (HTS) {1}', titleOf(profile), number(hts, 1)))))
   }
   await update()
 }
@@ -282,10 +284,10 @@ const actuators = async (place, signal) => {
 const scenes = async (place, signal) => {
   const knock = await core.call('encode', await soundOf('knock_wood_bridge'))
   const button = await core.call('encode', await soundOf('ui_click'))
-  const count = knob(place, 'Parts', { min: 10, max: 200, step: 10, value: 100 }, () => update())
-  const view = picture(place, 'The parts of a scene, those that are left out pale')
+  const count = knob(place, t('Parts'), { min: 10, max: 200, step: 10, value: 100 }, () => update())
+  const view = picture(place, t('The parts of a scene; those left out are pale'))
   let all, few
-  ways(place, signal, [['Listen to all parts', () => loud(all.samples)], ['Listen without those left out', () => loud(few.samples)]])
+  ways(place, signal, [[t('Listen to all parts'), () => loud(all.samples)], [t('Listen without those left out'), () => loud(few.samples)]])
   const update = async () => {
     const parts = Number(count.value), duration = 6
     // One in ten is near by; the others are far away, in a fixed disorder.
@@ -321,9 +323,9 @@ const scenes = async (place, signal) => {
       difference += (whole.samples[n] - part.samples[n]) ** 2
       energy += whole.samples[n] ** 2
     }
-    view.say(`${out.size} of ${parts} parts are left out: ${(whole.milliseconds / part.milliseconds).toFixed(1)} times as fast ` +
-      `(${part.milliseconds.toFixed(0)} ms instead of ${whole.milliseconds.toFixed(0)}). What is missing lies ` +
-      `${(-10 * Math.log10(difference / energy)).toFixed(0)} dB below the scene; promised were ${(-part.predictedError).toFixed(0)}.`)
+    view.say(t('{0} of {1} parts are left out: {2} times as fast ({3} ms instead of {4} ms). The missing parts are {5} dB below the scene; {6} dB was predicted.',
+      out.size, parts, number(whole.milliseconds / part.milliseconds, 1), number(part.milliseconds, 0), number(whole.milliseconds, 0),
+      number(-10 * Math.log10(difference / energy), 0), number(-part.predictedError, 0)))
   }
   await update()
 }
@@ -331,12 +333,12 @@ const scenes = async (place, signal) => {
 const protection = async (place, signal) => {
   const sound = boom()
   const clip = await core.call('encode', sound)
-  const gain = knob(place, 'Gain', { min: -12, max: 24, step: 1, value: 12, shown: (value) => `${value} dB` }, () => update())
-  const view = picture(place, 'The drive signal without and with protection')
+  const gain = knob(place, t('Gain'), { min: -12, max: 24, step: 1, value: 12, shown: (value) => `${number(Number(value))} dB` }, () => update())
+  const view = picture(place, t('The drive signal without and with protection'))
   let free, safe, full
   const scaled = (samples) => samples.map((sample) => sample / full)
-  ways(place, signal, [['Listen without protection', () => scaled(free.samples)], ['Listen with it', () => scaled(safe.samples)],
-    ['Feel it', () => ({ clip, samples: sound.samples })]])
+  ways(place, signal, [[t('Listen without protection'), () => scaled(free.samples)], [t('Listen with protection'), () => scaled(safe.samples)],
+    [t('Feel it'), () => ({ clip, samples: sound.samples })]])
   const update = async () => {
     const options = { profile: 'l5-wristband', gain: Number(gain.value) }
     free = await played(clip, { ...options, protect: false })
@@ -348,11 +350,11 @@ const protection = async (place, signal) => {
       wave(context, loudest, { x: 0, y: 18, width, height: height / 2 - 20 }, colour('bad'), most)
       wave(context, limited, { x: 0, y: height / 2 + 18, width, height: height / 2 - 20 }, colour('drive'), most)
       context.fillStyle = colour('dim')
-      context.fillText('without protection', 0, 12)
-      context.fillText('with protection', 0, height / 2 + 12)
+      context.fillText(t('without protection'), 0, 12)
+      context.fillText(t('with protection'), 0, height / 2 + 12)
     })
-    view.say(`Without protection the largest sample is ${peakOf(free.samples).toFixed(2)}, with it ${peakOf(safe.samples).toFixed(2)}; ` +
-      `at most ${safe.reduction.toFixed(1)} dB were taken back.`)
+    view.say(t('The largest sample is {0} without protection and {1} with it, which reduces the signal by up to {2} dB.',
+      number(peakOf(free.samples), 2), number(peakOf(safe.samples), 2), number(safe.reduction, 1)))
   }
   await update()
 }
@@ -360,7 +362,7 @@ const protection = async (place, signal) => {
 const time = async (place, signal) => {
   // Long enough that the clock of a browser tells settings apart, and in turns, so that whatever else runs meets all of them.
   const length = 30, short = await soundOf('knock_wood_bridge'), sound = repeated(short, length)
-  const view = picture(place, 'Likeness over the time that encoding took, from the best run to the middle one')
+  const view = picture(place, t('Likeness over the time that encoding took, from the best run to the middle one'))
   const settings = [{ bands: 1, breakpoints: 2 }, { bands: 2, breakpoints: 5 }, { bands: 4, breakpoints: 10 }, { bands: 8, breakpoints: 15 },
     { bands: 12, breakpoints: 20 }, { bands: 24, breakpoints: 45 }, { bands: 32, breakpoints: 60 }]
   const points = []
@@ -369,9 +371,9 @@ const time = async (place, signal) => {
     points.push({ y: await likeness(short, drive), setting, clip, drive, runs: [] })
     if (signal.aborted) return
   }
-  ways(place, signal, [['Play the sound', () => short.samples],
-    ['Listen to the fastest', () => points[0].drive], ['Listen to the default', () => points[4].drive],
-    ['Feel the default', () => ({ clip: points[4].clip, samples: short.samples })]])
+  ways(place, signal, [[t('Play the sound'), () => short.samples],
+    [t('Listen to the fastest'), () => points[0].drive], [t('Listen to the default'), () => points[4].drive],
+    [t('Feel the default'), () => ({ clip: points[4].clip, samples: short.samples })]])
   await core.call('encode', sound, settings.at(-1)) // once to be warm
   for (let run = 0; run < 7; ++run) {
     for (const point of points) {
@@ -380,14 +382,15 @@ const time = async (place, signal) => {
       if (signal.aborted) return
       point.x = point.runs[0]
       point.to = point.runs[Math.floor(point.runs.length / 2)]
-      point.label = point.x.toFixed(0)
+      point.label = number(point.x, 0)
     }
     view.draw((context, width, height) =>
-      chart(context, width, height, points, { across: `ms for ${length} s of sound`, up: 'likeness (HTS)', line: false, high: 100, logarithmic: true }))
+      chart(context, width, height, points, { across: t('ms for {0} s of sound', length), up: t('likeness (HTS)'), line: false, high: 100, logarithmic: true }))
   }
   const { x } = points[4]
-  view.say(`The default takes ${x.toFixed(0)} ms, ${Math.round(1000 * length / x)} times faster than the sound plays. ` +
-    points.map(({ x: ms, y, setting: { bands: b, breakpoints: p } }) => `${b} ${b === 1 ? 'band' : 'bands'}, ${p} points: ${ms.toFixed(0)} ms, ${y.toFixed(1)}`).join('; ') + '.')
+  view.say(`${t('The default takes {0} ms, {1} times faster than the sound plays.', number(x, 0), number(1000 * length / x, 0))} ` +
+    points.map(({ x: ms, y, setting: { bands: b, breakpoints: p } }) =>
+      counted(b, '{0} band, {1} points: {2} ms, {3}', '{0} bands, {1} points: {2} ms, {3}', p, number(ms, 0), number(y, 1))).join('; ') + '.')
 }
 
 export const figures = { bands, breakpoints, actuators, scenes, protection, time }

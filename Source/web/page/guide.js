@@ -2,8 +2,11 @@
 
 import { figures } from './figures.js'
 import pages from './guide/list.js'
+import { language, startPage, t } from './text.js'
+import { plainWords } from './words.js'
 
 const element = (id) => document.getElementById(id)
+startPage()
 let leave = new AbortController()
 
 const show = async () => {
@@ -11,13 +14,13 @@ const show = async () => {
   leave = new AbortController()
   const name = location.hash.slice(1) || pages[0].name
   const page = pages.find((one) => one.name === name) ?? pages[0]
-  const answer = await fetch(`guide/${page.name}.html`)
-  element('page').innerHTML = answer.ok ? await answer.text() : '<p role="alert">This page is not there.</p>'
-  document.title = `Pacini: ${page.title}`
+  const answer = await fetch(`guide/${language === 'en' ? '' : `${language}/`}${page.name}.html`)
+  element('page').innerHTML = answer.ok ? await answer.text() : `<p role="alert">${t('This page is not there.')}</p>`
+  document.title = `Pacini: ${t(page.title)}`
   const at = pages.indexOf(page)
-  element('steps').replaceChildren(...[[pages[at - 1], 'Back', 'prev'], [pages[at + 1], 'Next', 'next']].filter(([other]) => other)
-    .map(([other, word, rel]) => Object.assign(document.createElement('a'), { href: `#${other.name}`, textContent: `${word}: ${other.title}`, className: 'button', rel })),
-  ...(at === pages.length - 1 ? [Object.assign(document.createElement('a'), { href: './', textContent: 'Try it with your own sound', className: 'button primary' })] : []))
+  element('steps').replaceChildren(...[[pages[at - 1], t('Back'), 'prev'], [pages[at + 1], t('Next'), 'next']].filter(([other]) => other)
+    .map(([other, word, rel]) => Object.assign(document.createElement('a'), { href: `#${other.name}`, textContent: `${word}: ${t(other.title)}`, className: 'button', rel })),
+  ...(at === pages.length - 1 ? [Object.assign(document.createElement('a'), { href: './', textContent: t('Try it with your own sound'), className: 'button primary' })] : []))
   for (const link of document.querySelectorAll('#pages a'))
     if (link.hash === `#${page.name}`) {
       link.setAttribute('aria-current', 'page')
@@ -28,7 +31,7 @@ const show = async () => {
       if (leave.signal.aborted || error?.superseded) return
       const told = document.createElement('p')
       told.role = 'alert'
-      told.textContent = error.message
+      told.textContent = plainWords(error)
       place.append(told)
     })
 }
@@ -36,7 +39,7 @@ const show = async () => {
 element('pages').append(...pages.map(({ name, title }) => {
   const item = document.createElement('li'), link = document.createElement('a')
   link.href = `#${name}`
-  link.textContent = title
+  link.textContent = t(title)
   item.append(link)
   return item
 }))

@@ -1,5 +1,7 @@
 // The gallery by kinds of sound.
 
+import { t } from './text.js'
+
 const kinds = {
   'Hits': { knock_wood_bridge: 'Knock on wood', impact_boom: 'Boom', explosion: 'Explosion', weapon: 'Shot' },
   'Clicks and messages': { click_clock: 'Clock', ui_click: 'Button', notification: 'Notification' },
@@ -11,7 +13,7 @@ const kinds = {
 const nameOf = (file) => file.replace(/\.flac$/, '')
 
 /** The name of a file of the gallery, for people. */
-export const titleOf = (file) => Object.assign({}, ...Object.values(kinds))[nameOf(file)] ?? nameOf(file).replaceAll('_', ' ')
+export const titleOf = (file) => t(Object.assign({}, ...Object.values(kinds))[nameOf(file)] ?? nameOf(file).replaceAll('_', ' '))
 
 /** `[kind, files]` of a gallery; what has no kind comes last. */
 export const byKind = (files) => {

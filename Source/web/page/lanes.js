@@ -1,6 +1,7 @@
 // The picture of a clip: the sound, the lane that is edited, its bands, its events, and what the actuator plays.
 
 import { valueAt } from './curve.js'
+import { counted, number, t } from './text.js'
 import { pointsOf } from './edits.js'
 
 const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim()
@@ -107,10 +108,11 @@ export class Lanes {
       context.fillRect(this.xAt(time), 0, 1.5, height)
     }
     context.restore()
-    this.#label(context, picture ? 'sound, 20 Hz to 2 kHz' : sound ? 'sound' : 'no sound with this clip', soundBox)
-    this.#label(context, `${lane === 'events' ? 'events' : lane === 'total' ? 'total amplitude' : `band ${lane + 1}`}, 0 to ${this.top}`, edited)
-    this.#label(context, clip.bands.length === 1 ? '1 band' : `${clip.bands.length} bands${this.#span(clip.bands)}`, bandBox)
-    this.#label(context, 'what the actuator plays', driveBox)
+    this.#label(context, picture ? t('sound, 20 Hz to 2 kHz') : sound ? t('sound') : t('no sound with this clip'), soundBox)
+    this.#label(context, lane === 'events' ? t('events, 0 to {0}', this.top) : lane === 'total' ? t('total amplitude, 0 to {0}', this.top)
+      : t('band {0}, 0 to {1}', lane + 1, this.top), edited)
+    this.#label(context, this.#bandsText(clip.bands), bandBox)
+    this.#label(context, t('what the actuator plays'), driveBox)
     this.#times(context, clip.duration)
   }
 
@@ -135,7 +137,7 @@ export class Lanes {
     for (let i = Math.ceil(this.range.from / step); i * step <= Math.min(this.range.to, duration); ++i) {
       const x = this.xAt(i * step)
       context.fillRect(x, y - 4, 1, 4)
-      const text = `${+(i * step).toFixed(3)} s`, size = context.measureText(text).width
+      const text = `${number(+(i * step).toFixed(3))} s`, size = context.measureText(text).width
       context.fillText(text, Math.min(x + 3, left + this.#width - size), y - 3)
     }
   }
@@ -204,10 +206,11 @@ export class Lanes {
     context.strokeRect(box.x, box.y - 0.5, box.width, box.height)
   }
 
-  /** Where bands lie, such as ", 30 to 1000 Hz from below". */
-  #span(bands) {
+  /** How many bands there are and where they lie, such as "12 bands, 30 to 1000 Hz from below". */
+  #bandsText(bands) {
     const edges = bands.flatMap(({ lowFrequency, highFrequency }) => [lowFrequency, highFrequency]).filter(Number.isFinite)
-    return edges.length === 0 ? '' : `, ${Math.round(Math.min(...edges))} to ${Math.round(Math.max(...edges))} Hz from below`
+    return bands.length < 2 || edges.length === 0 ? counted(bands.length, '{0} band', '{0} bands')
+      : t('{0} bands, {1} to {2} Hz from below', bands.length, `${Math.round(Math.min(...edges))}`, `${Math.round(Math.max(...edges))}`)
   }
 
   #events(context, clip, box, opacity) {

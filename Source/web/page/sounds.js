@@ -1,6 +1,7 @@
 // Sounds of the page: files of which parts are read, kept as Blobs, so that neither length nor Undo takes memory.
 
 import { isSoundFile } from './pacini/sound-file.js'
+import { t } from './text.js'
 import { Core } from './core.js'
 import { newId } from './store.js'
 
@@ -42,9 +43,9 @@ export const soundOf = async (blob, file) => {
   try {
     buffer = await context.decodeAudioData(await blob.arrayBuffer())
   } catch {
-    throw new Error(`${file} cannot be opened. Try WAV, FLAC or MP3.`)
+    throw new Error(t('{0} cannot be opened. Try WAV, FLAC or MP3.', file))
   }
-  if (buffer.length === 0) throw new Error(`${file} has no samples.`)
+  if (buffer.length === 0) throw new Error(t('{0} has no samples.', file))
   return opened(wavOf(Array.from({ length: buffer.numberOfChannels }, (_, c) => buffer.getChannelData(c)), buffer.sampleRate))
 }
 

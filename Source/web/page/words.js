@@ -1,5 +1,7 @@
 // What browsers say of errors, in the words of the page.
 
+import { t, told } from './text.js'
+
 const words = {
   NotAllowedError: 'The browser does not let this page use that. Allow the microphone or the controller in the address bar, then try again.',
   NotFoundError: 'No microphone or controller was found. Connect one, then try again.',
@@ -12,6 +14,6 @@ const words = {
 
 /** An error for people; `where` of the package comes first, as it names what is wrong. */
 export const plainWords = (error) => {
-  if (error instanceof TypeError && /fetch|load/i.test(error.message)) return 'A part of the page cannot be loaded. Is the network there?'
-  return words[error?.name] ?? error?.message ?? String(error)
+  if (error instanceof TypeError && /fetch|load/i.test(error.message)) return t('A part of the page cannot be loaded. Is the network there?')
+  return told(words[error?.name] ?? error?.message ?? String(error))
 }
