@@ -12,9 +12,10 @@
 #                                    make its installer and a zip: build/windows/package
 #   bash cmake/bootstrap.sh release  install, build and make the packages for every system and language from the newest commit,
 #                                    with checksums and a list of licences: build/release-packages
+#   bash cmake/bootstrap.sh wheels   install, make wheels for each Python from 3.9 to 3.14 that is at hand and try them: build/wheels
 #   bash cmake/bootstrap.sh deps     only install what building and testing need
 set -euo pipefail
-help=$(sed -n '2,15p' "${BASH_SOURCE[0]}" | sed 's/^# \{0,1\}//')
+help=$(sed -n '2,16p' "${BASH_SOURCE[0]}" | sed 's/^# \{0,1\}//')
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 build_packages=(g++ cmake ninja-build ccache pkg-config nlohmann-json3-dev libfmt-dev libboost-dev libcli11-dev libsndfile1-dev
@@ -374,6 +375,14 @@ release)
     build/python-venv/bin/python -B cmake/make_release.py build/release-packages
     say "The packages are in build/release-packages, with SHA256SUMS and a list of what is in them"
     ;;
+wheels)
+    install_packages "${build_packages[@]}" git python3-venv python3-dev
+    install_python_modules
+    [ -e build/python-venv/modules ] || fail "without these modules there is no wheel"
+    need_room 1000
+    build/python-venv/bin/python -B cmake/make_wheels.py build/wheels
+    say "The wheels are in build/wheels"
+    ;;
 test)
     install_packages "${build_packages[@]}" "${test_packages[@]}"
     install_host_modules
@@ -459,7 +468,7 @@ sanitized-tests)
     usage
     ;;
 *)
-    [ $# -eq 0 ] || printf "bootstrap: '%s' is not one of demo, test, build, plugin, package, web, windows, release and deps\n\n" "$1" >&2
+    [ $# -eq 0 ] || printf "bootstrap: '%s' is not one of demo, test, build, plugin, package, web, windows, release, wheels and deps\n\n" "$1" >&2
     usage >&2
     exit 2
     ;;

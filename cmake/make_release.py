@@ -117,15 +117,16 @@ class Release:
     def sdist(self):
         self.keep("sdist", self.make_sdist())
 
-    def wheel(self):
-        """Of the sdist, as for those who have no wheel for their Python; at a place where ccache knows its objects."""
+    def wheel(self, python=sys.executable):
+        """Of the sdist, as for those who have no wheel for their Python; at a place where ccache knows its objects. `python` is the
+        interpreter that it is for, with what builds it."""
         place = ROOT / "build/wheel-of-release"
         shutil.rmtree(place, ignore_errors=True)
         place.mkdir(parents=True)
         with tarfile.open(self.make_sdist()) as archive:
             archive.extractall(place)
-        folder = self.work / "wheel"
-        run(sys.executable, "-m", "pip", "wheel", place / self.name, "--no-deps", "--no-build-isolation", "-q",
+        folder = Path(tempfile.mkdtemp(dir=self.work))
+        run(python, "-m", "pip", "wheel", place / self.name, "--no-deps", "--no-build-isolation", "-q",
             "--disable-pip-version-check", "-w", folder)
         tools = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
         run(sys.executable, "-m", "auditwheel", "repair", only(folder, "*.whl", "the wheel"), "-w", folder / "repaired",

@@ -6,6 +6,7 @@
 #include "io/FileHandle.h"
 #include "io/JsonTree.h"
 #include "phone/PairingCode.h"
+#include "phone/QrText.h"
 
 #include <pacini/foundation/ParseNumber.h>
 
@@ -134,13 +135,23 @@ public:
     [[nodiscard]] virtual std::string newCookie() = 0;                                 ///< uses the code up
     [[nodiscard]] virtual bool knows(std::string_view cookies) const = 0;
     [[nodiscard]] virtual const Film& film() const = 0;
+    [[nodiscard]] virtual std::string codePicture() const = 0; ///< SVG of the address for the next phone
 };
+
+/// Whether the other end of a connection is this machine.
+bool isHere(const Tcp::socket& socket)
+{
+    error_code failed;
+    const auto there = socket.remote_endpoint(failed);
+    const auto here = failed ? Tcp::endpoint() : socket.local_endpoint(failed);
+    return !failed && there.address() == here.address();
+}
 
 /// One phone, from its upgrade on.
 class Phone : public std::enable_shared_from_this<Phone>
 {
 public:
-    explicit Phone(Tcp::socket&& socket) : stream(std::move(socket)) {}
+    explicit Phone(Tcp::socket&& socket) : isOfThisMachine(isHere(socket)), stream(std::move(socket)) {}
 
     template <typename Request, typename Ready>
     void accept(const Request& request, Ready ready)
@@ -186,6 +197,7 @@ public:
     [[nodiscard]] bool isOpen() const noexcept { return open; }
     [[nodiscard]] const ConnectedPhone& what() const noexcept { return about; }
     std::function<void()> ended, changed;
+    const bool isOfThisMachine; ///< such as the screen beside the program, which shows the code
 
 private:
     void read()
@@ -329,7 +341,7 @@ private:
                          fmt::format("{}{}; Path=/; HttpOnly; SameSite=Lax", cookieName, host.newCookie()));
             return send(std::move(response));
         }
-        constexpr std::string_view ofPairing[] = {"/pair.js", "/phone.css"};
+        constexpr std::string_view ofPairing[] = {"/pair.js", "/texts.js", "/phone.css"};
         if (std::find(std::begin(ofPairing), std::end(ofPairing), target) != std::end(ofPairing))
             return sendFile(target);
         if (!isKnown)
@@ -343,6 +355,9 @@ private:
         }
         if (target == "/film" && !host.film().path.empty())
             return sendFilm();
+        // Who is let in may not let in others: that is for the machine that plays.
+        if (target.starts_with("/code.svg") && isHere(stream.socket()))
+            return sendCode();
         sendFile(target == "/" ? "/index.html" : target);
     }
 
@@ -386,6 +401,16 @@ private:
         send(std::move(response));
     }
 
+    void sendCode()
+    {
+        Response response{http::status::ok, parser.get().version()};
+        response.set(http::field::content_type, "image/svg+xml");
+        response.body() = host.codePicture();
+        if (response.body().empty())
+            return refuse(http::status::not_found, "Pacini was built without QR codes.");
+        send(std::move(response));
+    }
+
     void sendFile(std::string_view name)
     {
         for (const PageFile& file : pageFiles)
@@ -414,9 +439,10 @@ private:
         response.set(http::field::cache_control, "no-store");
         response.set(
             "Content-Security-Policy",
-            fmt::format("default-src 'none'; script-src 'self'; style-src 'self'; img-src data:; media-src 'self'; "
-                        "connect-src ws://{}; frame-ancestors 'none'; base-uri 'none'; form-action 'self'",
-                        host.place()));
+            fmt::format(
+                "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data:; media-src 'self'; "
+                "connect-src ws://{}; frame-ancestors 'none'; base-uri 'none'; form-action 'self'",
+                host.place()));
         response.set("X-Content-Type-Options", "nosniff");
         response.set("Referrer-Policy", "no-referrer");
         response.keep_alive(false);
@@ -580,6 +606,10 @@ private:
             const std::lock_guard lock(mutex);
             code = randomWord(codeLength);
         }
+        ++codeNumber;
+        for (const auto& phone : connected)
+            if (phone->isOpen())
+                sendCode(*phone);
         return remember(cookies, randomWord(2 * codeLength));
     }
 
@@ -597,6 +627,14 @@ private:
     }
 
     [[nodiscard]] const Film& film() const override { return shown; }
+    [[nodiscard]] std::string codePicture() const override { return qrSvg(qrModules(url())); }
+
+    /// Tells a browser on this machine that there is a code to show, if codes can be drawn.
+    void sendCode(Phone& phone) const
+    {
+        if (phone.isOfThisMachine && !qrModules("").empty())
+            phone.send(std::make_shared<const std::string>(Json{{"kind", "code"}, {"number", codeNumber}}.dump()));
+    }
 
     [[nodiscard]] bool knows(std::string_view header) const override
     {
@@ -662,6 +700,7 @@ private:
                       [this, raw]
                       {
                           note();
+                          sendCode(*raw);
                           for (const Text& text : {clipText, playText})
                               if (text)
                                   raw->send(text);
@@ -703,6 +742,7 @@ private:
     std::array<std::atomic<std::size_t>, 3> refusals{}; ///< by their reasons
     // Of the thread.
     std::deque<std::string> cookies, usedCodes;
+    std::size_t codeNumber = 0; ///< of codes before this one
     std::vector<std::shared_ptr<Phone>> connected;
     Film shown;
     Text clipText, playText; ///< for phones that come later

@@ -58,9 +58,10 @@ inline constexpr std::size_t mostPhones = 64;
 
 /// A page that vibrates, for browsers that have the pairing code: it is in the address, works once, and is then
 /// another. It is used up by a tap on the page that it opens, not by a preview of the link. Nothing else is served but
-/// the film that is shown, and only the time of the phone's clock and whether it feels are accepted; unpaired phones
-/// are refused. The server runs on its own thread and ends with the object. Protocol: HTTP and WebSocket (RFC 9110, RFC
-/// 6455), not encrypted, so for networks that are trusted.
+/// the film that is shown and, to paired browsers on this machine, a picture of the address for the next phone; and
+/// only the time of the phone's clock and whether it feels are accepted; unpaired phones are refused. The server runs
+/// on its own thread and ends with the object. Protocol: HTTP and WebSocket (RFC 9110, RFC 6455), not encrypted, so for
+/// networks that are trusted.
 class PhoneServer
 {
 public:

@@ -1,5 +1,7 @@
 #include "phone/QrText.h"
 
+#include <fmt/format.h>
+
 #if PACINI_HAS_QRCODEGEN
 #include <qrcodegen/qrcodegen.hpp>
 #endif
@@ -47,6 +49,23 @@ std::string qrText(const QrModules& modules, bool inverted)
         text += "\n";
     }
     return text;
+}
+
+std::string qrSvg(const QrModules& modules)
+{
+    constexpr std::size_t border = 4;
+    if (modules.empty())
+        return {};
+    const std::size_t side = modules.size() + 2 * border;
+    std::string svg =
+        fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {0}\" "
+                    "shape-rendering=\"crispEdges\"><path fill=\"#fff\" d=\"M0 0h{0}v{0}H0z\"/><path d=\"",
+                    side);
+    for (std::size_t y = 0; y < modules.size(); ++y)
+        for (std::size_t x = 0; x < modules.size(); ++x)
+            if (modules[y][x])
+                svg += fmt::format("M{} {}h1v1h-1z", x + border, y + border);
+    return svg + "\"/></svg>";
 }
 
 } // namespace pacini::phone

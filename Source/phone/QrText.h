@@ -18,4 +18,7 @@ using QrModules = std::vector<std::vector<bool>>;
 /// For terminals, two rows of modules a line, with the border; light on dark unless that is `inverted`. [any]
 [[nodiscard]] std::string qrText(const QrModules& modules, bool inverted = false);
 
+/// As an SVG with the border, dark on white; empty for no modules. [any]
+[[nodiscard]] std::string qrSvg(const QrModules& modules);
+
 } // namespace pacini::phone

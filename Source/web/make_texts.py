@@ -185,8 +185,31 @@ def check():
                 plain = re.sub(r"\$\{(?:[^{}]|\{[^{}]*\})*\}", "", match.group(0))
                 if "${" not in plain and re.search(r"[A-Za-z]{2,} [a-z]{2,}", plain) and not re.search(r"pacini work|rgb|<p", plain):
                     problems.append(f"{path.name}: a sentence that is not translated: {plain[:60]}")
+    problems += phone_problems()
     print("\n".join([*problems, f"{len(wanted)} texts, {len(problems)} problems"]))
     return 1 if problems else 0
+
+
+def phone_problems(folder=ROOT / "Source/phone/page"):
+    """The same of the page for phones, which has both languages in one file."""
+    wanted = set()
+    for name in ("index.html", "pair.html"):
+        markup = Markup()
+        markup.feed((folder / name).read_text(encoding="utf-8"))
+        wanted.update(markup.texts)
+        wanted.update(re.findall(r' alt="([^"]+)"', (folder / name).read_text(encoding="utf-8")))
+    script = (folder / "phone.js").read_text(encoding="utf-8")
+    wanted.update(word for before, word in literals(script) if re.search(r"\bt\($", before))
+    for before, word in literals(script):
+        if re.search(r"[a-z]{2,} [a-z]{2,}", word) and word not in wanted:
+            yield f"phone.js: a sentence that is not translated: {word!r}"
+    parts = re.split(r"^  (de|ja): \{$", (folder / "texts.js").read_text(encoding="utf-8"), flags=re.M)
+    for code, part in zip(parts[1::2], parts[2::2]):
+        there = dict(re.findall(r"^    '((?:\\.|[^'])*)': '((?:\\.|[^'])*)',?$", part, re.M))
+        yield from (f"phone/page/texts.js: not in {code}: {key!r}" for key in sorted(wanted - set(there)))
+        yield from (f"phone/page/texts.js: not used in {code}: {key!r}" for key in sorted(set(there) - wanted))
+        yield from (f"phone/page/texts.js: other placeholders in {code}: {key!r}" for key, value in there.items()
+                    if sorted(PLACEHOLDER.findall(key)) != sorted(PLACEHOLDER.findall(value)))
 
 
 def selftest():

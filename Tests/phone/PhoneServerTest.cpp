@@ -1,5 +1,6 @@
 #include "phone/PhoneServer.h"
 
+#include "phone/QrText.h"
 #include "support/Catch.h"
 #include "support/ClipSamples.h"
 
@@ -25,13 +26,18 @@ namespace
 class Caller
 {
 public:
-    explicit Caller(const std::string& url) : place(url.substr(7, url.find("/?") - 7))
+    /// From 127.0.0.`from`: another one than 1 is another machine for the server.
+    explicit Caller(const std::string& url, unsigned from = 1) : place(url.substr(7, url.find("/?") - 7))
     {
         sockaddr_in to{};
         to.sin_family = AF_INET;
         to.sin_port = htons(static_cast<std::uint16_t>(std::stoi(place.substr(place.find(':') + 1))));
         to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
         handle = socket(AF_INET, SOCK_STREAM, 0);
+        sockaddr_in own{};
+        own.sin_family = AF_INET;
+        own.sin_addr.s_addr = htonl(INADDR_LOOPBACK - 1 + from);
+        bind(handle, reinterpret_cast<const sockaddr*>(&own), sizeof own);
         isThere = connect(handle, reinterpret_cast<const sockaddr*>(&to), sizeof to) == 0;
         const timeval patience{10, 0};
         setsockopt(handle, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
@@ -102,6 +108,36 @@ std::string upgrade(Caller& caller, const std::string& cookie)
                       "\r\n\r\n");
 }
 } // namespace
+
+TEST_CASE("A paired browser on this machine gets a picture of the next code, and nobody else does", "[phone]")
+{
+    const auto host = server();
+    const auto picture = [&](const std::string& cookie, unsigned from = 1)
+    {
+        return Caller(host->url(), from).ask("GET", "/code.svg?1", cookie.empty() ? "" : "Cookie: " + cookie + "\r\n");
+    };
+    CHECK(picture("").find(" 403 ") != std::string::npos);
+    CHECK(picture("pacini=22222222222222222222222222222222").find(" 403 ") != std::string::npos);
+    const std::string cookie = pair(host->url());
+    CHECK(picture(cookie, 2).find(" 404 ") != std::string::npos);
+    const std::string first = picture(cookie);
+    if (phone::qrModules("").empty())
+    {
+        CHECK(first.find(" 404 ") != std::string::npos);
+        return;
+    }
+    CHECK(first.find("image/svg+xml") != std::string::npos);
+    CHECK(first.find(phone::qrSvg(phone::qrModules(host->url()))) != std::string::npos);
+    Caller here(host->url()), elsewhere(host->url(), 2);
+    CHECK(upgrade(here, cookie).find(" 101 ") != std::string::npos);
+    CHECK(upgrade(elsewhere, cookie).find(" 101 ") != std::string::npos);
+    CHECK(here.hear(R"({"kind":"code","number":1})").find(R"({"kind":"code","number":1})") != std::string::npos);
+    CHECK_FALSE(pair(host->url()).empty());
+    CHECK(here.hear(R"("number":2})").find(R"({"kind":"code","number":2})") != std::string::npos);
+    CHECK(picture(cookie) != first);
+    host->stop();
+    CHECK(elsewhere.hear(R"("stop"})").find("code") == std::string::npos);
+}
 
 TEST_CASE("Thirty phones pair in turn, and looking at the address uses no code up", "[phone]")
 {

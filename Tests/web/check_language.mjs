@@ -76,7 +76,7 @@ const cut = ({ tab }) => tab.evaluate(() => {
     if (!element.checkVisibility() || element.closest('#pages')) continue
     const { left, right, width } = element.getBoundingClientRect()
     if (width > 0 && (right > innerWidth + 1 || left < -1)) say(element, 'outside')
-    if (element.scrollWidth > element.clientWidth + 1 && ['BUTTON', 'LABEL', 'SUMMARY', 'LEGEND'].includes(element.tagName)) say(element, 'wider than its box')
+    if (element.scrollWidth > element.clientWidth + 1 && ['BUTTON', 'LABEL', 'SUMMARY', 'LEGEND', 'LI'].includes(element.tagName)) say(element, 'wider than its box')
     if (element.scrollHeight > element.clientHeight + 2 && element.tagName === 'BUTTON') say(element, 'higher than its box')
     if (element.tagName === 'SELECT' && element.selectedIndex >= 0) {
       const style = getComputedStyle(element)

@@ -310,7 +310,7 @@ try {
   }
   for (const [what, end] of [['Stop', () => tab.$eval('#stop', (button) => button.click())], ['Escape', () => tab.keyboard.press('Escape')]]) {
     await tab.$eval('#live', (button) => button.click())
-    check(`live hears (${what})`, await until(async () => (await main.text('feel-status')).includes('late by itself')) && await heard() === 1)
+    check(`live hears (${what})`, await until(async () => (await main.text('feel-status')).includes('ms late')) && await heard() === 1)
     await end()
     check(`${what} ends it`, await heard() === 0 && await pressed('live') === 'false')
     await tab.$eval('#live', (button) => button.click())
@@ -401,7 +401,7 @@ try {
   })
   const started = Date.now()
   const long = await open(undefined, day)
-  const told = await until(async () => (await long.text('figures')).includes('86400.00 s'), 60)
+  const told = await until(async () => (await long.text('figures')).includes('86,400.00 s'), 60)
   const took = (Date.now() - started) / 1000
   check('a link that states a day is told to be long', told && (await long.text('figures')).includes('first 20 minutes'), `${day.length} characters; ${await long.text('figures')}`)
   // A figure, not a bar, but for what would be a minute of a fast machine.

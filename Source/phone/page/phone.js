@@ -1,7 +1,10 @@
 // The phone: plays what the program at the other end plays, as near to its time as the clocks are known.
 
 import { atSpeed, follow } from './film.js'
+import { seconds, t, translate } from './texts.js'
 import { touchesOf, vibrateBy } from './vibration.js'
+
+translate()
 
 const element = (id) => document.getElementById(id)
 const say = (text) => { element('status').textContent = text }
@@ -34,8 +37,8 @@ const connect = () => {
   socket.onopen = () => {
     lost = 0
     bestDelay = Infinity
-    say(!canVibrate ? 'Connected, but this browser cannot vibrate: those of iPhones and Firefox cannot. Chrome on Android can.'
-      : ready ? 'Connected again. Feels what is played.' : 'Connected. Touch the button once; browsers vibrate only then.')
+    say(!canVibrate ? t('Connected, but this browser cannot vibrate: those of iPhones and Firefox cannot. Chrome on Android can.')
+      : ready ? t('Connected again. Feels what is played.') : t('Connected. Touch the button once; browsers vibrate only then.'))
     for (let i = 0; i < 5; ++i) setTimeout(ping, 100 * i)
     timer = setInterval(ping, 5000)
   }
@@ -45,8 +48,9 @@ const connect = () => {
     stop()
     if (goodbye) return say(goodbye)
     ++lost
-    say(lost < 2 ? 'The connection is lost. Trying again...'
-      : 'The session has ended, or the network is away. Trying again... Scan the new code for another session.')
+    element('others').hidden = true
+    say(lost < 2 ? t('The connection is lost. Trying again...')
+      : t('The session has ended, or the network is away. Trying again... Scan the new code for another session.'))
     if (lost < 60) setTimeout(connect, Math.min(1000 * 2 ** Math.min(lost - 1, 4), 15000))
   }
   socket.onmessage = ({ data }) => {
@@ -64,8 +68,9 @@ const connect = () => {
       touches = touchesOf(message.touches)
       name = message.name || 'clip'
       const { duration, longest, leftOut } = message
-      element('clip').textContent = `${name}, ${duration.toFixed(2)} s${duration > longest ? ', of which the first hour is felt' : ''}` +
-        (leftOut > 0 ? `; ${leftOut} ${leftOut === 1 ? 'event comes' : 'events come'} too soon after another for a phone` : '')
+      element('clip').textContent = [t('{0}, {1} s', name, seconds(duration)), ...(duration > longest ? [t('The first hour is felt.')] : []),
+        ...(leftOut === 0 ? [] : leftOut === 1 ? [t('{0} event is left out: it comes too soon after another for a phone.', leftOut)]
+          : [t('{0} events are left out: they come too soon after others for a phone.', leftOut)])].join('. ').replaceAll('..', '.')
       element('alone').disabled = !canVibrate
       if (message.film && !film.src) {
         film.src = '/film'
@@ -75,8 +80,12 @@ const connect = () => {
       // At `at` of the other end's clock, `from` s of the clip were played there.
       const began = message.at - (offset ?? message.now - performance.now()) - 1000 * message.from
       play(() => (performance.now() - began) / 1000)
+    } else if (message.kind === 'code') {
+      // On the machine that plays, for others to scan; the program says it whenever there is another one.
+      element('code').src = `/code.svg?${message.number}`
+      element('others').hidden = false
     } else if (message.kind === 'stop') stop()
-    else if (message.kind === 'full') goodbye = `${message.most} phones are connected already. Load this page again when one of them has left.`
+    else if (message.kind === 'full') goodbye = t('{0} phones are connected already. Load this page again when one of them has left.', message.most)
   }
 }
 
@@ -94,7 +103,7 @@ element('ready').addEventListener('click', () => {
   ping()
   if (canVibrate) {
     navigator.vibrate(30)
-    say(ready ? 'Feels what is played.' : 'Feels nothing until you touch the button again.')
+    say(ready ? t('Feels what is played.') : t('Feels nothing until you touch the button again.'))
   }
 })
 element('ready').setAttribute('aria-pressed', 'false')

@@ -303,7 +303,7 @@ const show = async () => {
   element('link').parentElement.hidden = true // of what was before
   element('name').value = document.name
   element('lanes').setAttribute('aria-label',
-    `${document.name}: ${listed([`${number(view.clip.duration, 2)} s`, counted(view.clip.bands.length, '{0} band', '{0} bands'),
+    `${document.name}: ${listed([t('{0} s', number(view.clip.duration, 2)), counted(view.clip.bands.length, '{0} band', '{0} bands'),
       counted(view.clip.transients.length, '{0} event', '{0} events')])}`)
   for (const id of ['play-sound', 'play-both', 'preset', 'bands', 'breakpoints', 'sensitivity', 'spectrogram', 'with-sound']) element(id).disabled = !sound
   for (const [id, what] of [['undo', history.undoes], ['redo', history.redoes]]) {
@@ -342,8 +342,8 @@ const renderDrive = newestOnly(async () => {
   view.driveRate = drive.sampleRate
   look()
   const points = clip.bands.reduce((sum, band) => sum + band.amplitude.length, 0)
-  element('figures').textContent = listed([`${number(clip.duration, 2)} s`, t('{0} bytes packed', bytes.length),
-    counted(points, '{0} breakpoint', '{0} breakpoints'), counted(clip.bands.length, '{0} band', '{0} bands'), counted(clip.transients.length, '{0} event', '{0} events')]) + '.' +
+  element('figures').textContent = t('{0}.', listed([t('{0} s', number(clip.duration, 2)), t('{0} bytes packed', bytes.length),
+    counted(points, '{0} breakpoint', '{0} breakpoints'), counted(clip.bands.length, '{0} band', '{0} bands'), counted(clip.transients.length, '{0} event', '{0} events')])) +
     (rendered.reduction > 0.05 ? ` ${t('The protection of the actuator reduces it by {0} dB.', number(rendered.reduction, 1))}` : '') +
     (clip.duration > longestRendered ? ` ${t('The first {0} minutes are rendered, shown and played; files contain all of the clip.', longestRendered / 60)}` : '')
   await showLosses()
@@ -409,7 +409,7 @@ const listWorks = async () => {
   listedBeside = history.now?.id
   const others = (await keptWorks()).filter(({ id }) => id !== history.now?.id)
   element('works').replaceChildren(new Option(t('choose...'), ''), ...others.map(({ id, name, changed, clip, soundId }) =>
-    new Option(listed([name, `${number(clip.duration, 2)} s`, ...(soundId ? [] : [t('no sound')]), new Date(changed).toLocaleString(language)]), id)))
+    new Option(listed([name, t('{0} s', number(clip.duration, 2)), ...(soundId ? [] : [t('no sound')]), new Date(changed).toLocaleString(language)]), id)))
   element('open-work').disabled = true
   element('works').closest('.choice').hidden = others.length === 0
 }
