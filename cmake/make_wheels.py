@@ -28,15 +28,21 @@ SOUND = make_release.ROOT / "Resources/demo/knock_wood_bridge.flac"
 FIRST_SOUND = "import pacini, sys; sys.stdout.buffer.write(pacini.encode(sys.argv[1]).to_bytes())"
 
 
+def run_version(python):
+    """The version that a CPython with pip and venv says of itself; nothing for anything else."""
+    asked = "import sys, ensurepip, venv; print(*sys.version_info[:2], sys.implementation.name)"
+    done = subprocess.run([python, "-c", asked], capture_output=True, check=False, text=True)
+    words = done.stdout.split() if done.returncode == 0 else []
+    return (int(words[0]), int(words[1])) if words[2:] == ["cpython"] else None
+
+
 def interpreters():
     """Those at hand by their minor versions."""
     found = {}
     for minor in VERSIONS:
         named = [shutil.which(f"python3.{minor}"), *sorted((Path.home() / ".pyenv/versions").glob(f"3.{minor}.*/bin/python3.{minor}"))]
         for path in filter(None, named):
-            asked = "import sys, ensurepip, venv; print(*sys.version_info[:2], sys.implementation.name)"
-            done = subprocess.run([path, "-c", asked], capture_output=True, check=False, text=True)
-            if done.returncode == 0 and done.stdout.split() == ["3", str(minor), "cpython"]:
+            if run_version(path) == (3, minor):
                 found[minor] = Path(path)
                 break
     return found

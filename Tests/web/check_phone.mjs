@@ -75,6 +75,32 @@ try {
   check('which the terminal says', await until(() => said.includes('a phone was refused: this code let another phone in')))
   await phone.goto(url)
   check('a phone that is known needs no other', await until(async () => (await text('status')).startsWith('Connected')) && !phone.url().includes('code'))
+  // On the machine that plays, the page shows the code for the next phone, and the next one when that is used up.
+  const shownCode = async () => {
+    const image = await phone.$('#code')
+    await until(() => image.evaluate(({ complete, naturalWidth }) => complete && naturalWidth > 0))
+    await image.screenshot({ path: join(folder, 'code.png') })
+    try {
+      return execFileSync('zbarimg', ['--quiet', '--raw', join(folder, 'code.png')], { encoding: 'utf8' }).trim()
+    } catch { return 'no code' }
+  }
+  const last = () => said.match(/http:\S+/g)?.at(-1)
+  check('its page shows the code for the next phone', await until(() => phone.$eval('#others', ({ hidden }) => !hidden)))
+  const first = await shownCode()
+  check('which others can scan', first.startsWith(`${place}/?code=`) && first !== url && await status(first.slice(place.length)) === 200, first)
+  check('and nobody sees who is not let in', await status('/code.svg') === 403)
+  const german = await (await browser.createBrowserContext()).newPage()
+  await german.evaluateOnNewDocument(() => Object.defineProperty(navigator, 'languages', { get: () => ['de-CH', 'en'] }))
+  await german.goto(first)
+  check('the page is in the language of its browser', await german.$eval('#pair', ({ textContent }) => textContent) === 'Dieses Telefon verbinden')
+  await german.click('#pair')
+  await german.waitForSelector('#status')
+  check('also what it says', await until(() => german.$eval('#status', ({ textContent }) => textContent.startsWith('Verbunden.') || textContent.startsWith('Verbunden,'))) &&
+    await until(() => german.$eval('#clip', ({ textContent }) => /knock, \d,\d\d s/.test(textContent))) && await german.$eval('html', ({ lang }) => lang) === 'de',
+  await german.$eval('#clip', ({ textContent }) => textContent))
+  check('then another code is shown', await until(async () => ![first, 'no code'].includes(await shownCode())) && (await shownCode()).startsWith(place), last())
+  if (process.env.PACINI_WEB_PICTURES) await german.screenshot({ path: join(process.env.PACINI_WEB_PICTURES, 'phone-page-de.png') })
+  await german.browserContext().close()
   check('the program knows', await until(() => said.includes('1 phone connected')))
   check('and that its button was not touched', await until(() => said.includes('1 phone connected: 1 computer waits for a touch of its button')), said)
   await phone.click('#ready')
