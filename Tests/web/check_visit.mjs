@@ -78,6 +78,18 @@ try {
   check('a first visit takes at most 500 kB, with all that it keeps', cost > 100000 && cost <= 500000, `${(cost / 1000).toFixed(0)} kB`)
   check('nothing moves while it loads', await first.tab.evaluate(() => globalThis.shift) < 0.01, `${await first.tab.evaluate(() => globalThis.shift)}`)
 
+  for (const code of ['de', 'ja']) {
+    const from = sent(), other = await visit(`${place}?language=${code}`, { prepare: () => {
+      globalThis.shift = 0
+      new PerformanceObserver((list) => { for (const { value } of list.getEntries()) globalThis.shift += value }).observe({ type: 'layout-shift', buffered: true })
+    } })
+    await until(() => other.tab.evaluate(async () => (await navigator.serviceWorker.getRegistration())?.active?.state === 'activated'))
+    await wait(1500)
+    check(`and in ${code}`, sent() - from > 100000 && sent() - from <= 500000 && await other.tab.evaluate(() => globalThis.shift) < 0.01,
+      `${((sent() - from) / 1000).toFixed(0)} kB, ${await other.tab.evaluate(() => globalThis.shift)}`)
+    await other.tab.close()
+  }
+
   const looked = await visit(`${place}?fresh`)
   await looked.tab.evaluate(readFileSync(join(modules, 'node_modules/axe-core/axe.min.js'), 'utf8'))
   for (const scheme of ['dark', 'light']) {
