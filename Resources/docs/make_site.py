@@ -153,6 +153,8 @@ def write_pages(pages):
 
 
 def main():
+    if sys.argv[1:2] and sys.argv[1].startswith("-"):
+        sys.exit(__doc__)
     site = Path(sys.argv[1]).resolve() if len(sys.argv) > 1 else ROOT / "build" / "site"
     work = site.with_name(site.name + "-source")
     write_pages(work / "pages")
