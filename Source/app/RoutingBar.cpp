@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/RoutingBar.h"
 
+#include "editor/Controls.h"
 #include "editor/Translation.h"
 #include "io/AudioExtensions.h"
 
@@ -84,12 +85,13 @@ void RoutingBar::paint(juce::Graphics& g)
 void RoutingBar::resized()
 {
     auto area = getLocalBounds().reduced(2 * grid, grid);
-    devicesButton.setBounds(area.removeFromLeft(11 * grid));
+    devicesButton.setBounds(area.removeFromLeft(editor::buttonWidth(devicesButton, 11 * grid)));
     area.removeFromLeft(2 * grid);
     const std::array<std::pair<juce::Label*, juce::ComboBox*>, 4> groups{
         {{&inputLabel, &input}, {&sidechainLabel, &sidechain}, {&heardLabel, &heard}, {&hapticLabel, &haptic}}};
     std::array<int, 4> labels{};
-    int left = area.getWidth() - (8 + 2 + 4) * grid;
+    const int file = editor::buttonWidth(fileButton, 8 * grid);
+    int left = area.getWidth() - file - (2 + 4) * grid;
     for (std::size_t i = 0; i < groups.size(); ++i)
     {
         labels[i] = groups[i].first->getFont().getStringWidth(groups[i].first->getText()) + grid;
@@ -103,7 +105,7 @@ void RoutingBar::resized()
         area.removeFromLeft(grid);
         if (i == 0)
         {
-            fileButton.setBounds(area.removeFromLeft(8 * grid));
+            fileButton.setBounds(area.removeFromLeft(file));
             area.removeFromLeft(2 * grid);
         }
     }
@@ -146,7 +148,7 @@ void RoutingBar::fillMenus()
     const bool missing = rig.devices().getCurrentAudioDevice() == nullptr;
     for (juce::ComboBox* box : {&heard, &haptic})
     {
-        box->setTextWhenNothingSelected(missing ? "No audio device" : "");
+        box->setTextWhenNothingSelected(missing ? tr("No audio device") : juce::String());
         if (missing)
             box->setSelectedId(0, juce::dontSendNotification);
         box->setEnabled(!missing);

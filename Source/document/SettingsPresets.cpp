@@ -127,8 +127,8 @@ std::string outputSettings(const OutputSettings& settings)
 Result<OutputSettings> readOutputSettings(const std::filesystem::path& path)
 {
     const auto text = readWholeFile(path, largestSettingsText);
-    const auto document =
-        text ? readJsonObject(*text, largestSettingsText, "must be an object in braces") : Result<nlohmann::json>(text.error());
+    const auto document = text ? readJsonObject(*text, largestSettingsText, "must be an object in braces")
+                               : Result<nlohmann::json>(text.error());
     if (!document)
         return document.error();
     FieldsReader reader(*document);

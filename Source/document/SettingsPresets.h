@@ -33,9 +33,9 @@ public:
 
     [[nodiscard]] std::filesystem::path pathOf(const std::string& name) const;
 
-    /// Writes a preset, the text of a settings file, as a whole or not at all. Errors: invalidArgument for a name that cannot be one, see
-    /// presetNameDefect(); io or diskFull for a file that cannot be written, and for one that is there already unless
-    /// it may be replaced.
+    /// Writes a preset, the text of a settings file, as a whole or not at all. Errors: invalidArgument for a name that
+    /// cannot be one, see presetNameDefect(); io or diskFull for a file that cannot be written, and for one that is
+    /// there already unless it may be replaced.
     [[nodiscard]] Result<void> save(const std::string& name, const std::string& settings, bool replace) const;
 
 private:

@@ -14,13 +14,21 @@ namespace pacini::editor
 
 namespace
 {
-constexpr int labelWidth = 7 * grid;
 constexpr int valueWidth = 6 * grid;
 constexpr int eventHeight = 2 * grid;
 
 juce::String frequencyText(double hertz)
 {
     return juce::String(static_cast<int>(std::lround(hertz))) + " Hz";
+}
+
+/// Of the names beside the plot, with the gap behind them.
+int nameWidth()
+{
+    constexpr double longest = 1000.0; // Hz
+    const juce::Font font = smallFont();
+    return std::max({7 * grid, font.getStringWidth(frequencyText(longest)) + grid + 4,
+                     font.getStringWidth(tr("Events")) + grid + 4});
 }
 } // namespace
 
@@ -66,6 +74,7 @@ void BandView::paint(juce::Graphics& g)
 {
     const Palette& p = paletteFor(*this);
     auto area = getLocalBounds();
+    const int labelWidth = nameWidth();
     g.setColour(p.well);
     const auto plot = area.withTrimmedLeft(labelWidth).withTrimmedRight(valueWidth);
     g.fillRoundedRectangle(plot.toFloat(), 4.0f);

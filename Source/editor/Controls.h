@@ -7,6 +7,7 @@
 
 #include <juce_gui_basics/juce_gui_basics.h>
 
+#include <algorithm>
 #include <functional>
 #include <initializer_list>
 #include <utility>
@@ -94,6 +95,13 @@ inline void prepareLabel(juce::Label& label, const juce::String& text, const juc
     label.setText(text, juce::dontSendNotification);
     label.setFont(font);
     label.setAccessible(false);
+}
+
+/// The width of a button that shows all of its text, at least `least`.
+[[nodiscard]] inline int buttonWidth(juce::TextButton& button, int least = 0)
+{
+    const auto font = button.getLookAndFeel().getTextButtonFont(button, 24);
+    return std::max(least, font.getStringWidth(button.getButtonText()) + 24);
 }
 
 /// Adds children in this order, visible.

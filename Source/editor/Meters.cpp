@@ -37,8 +37,9 @@ void LevelMeter::show(double decibels)
     const auto heard = static_cast<float>(std::isfinite(decibels) ? decibels : static_cast<double>(scale.low) - 1.0);
     level = std::max({heard, level - scale.fall, scale.low - 1.0f});
     const bool silent = level < scale.low;
-    const juce::String shown = silent ? juce::String::fromUTF8("–")
-                                      : (scale.sign && level > 0.05f ? "+" : "") + numberText(static_cast<double>(level), 1) + " dB";
+    const juce::String shown =
+        silent ? juce::String::fromUTF8("–")
+               : (scale.sign && level > 0.05f ? "+" : "") + numberText(static_cast<double>(level), 1) + " dB";
     const int to = pixelOf(level);
     if (to == pixel && shown == text)
         return;

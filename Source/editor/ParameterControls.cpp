@@ -53,6 +53,7 @@ ParameterSlider::ParameterSlider(juce::AudioProcessorParameter& shown, Shape wan
     title.setText(label, juce::dontSendNotification);
     title.setFont(smallFont());
     title.setJustificationType(knob ? juce::Justification::centred : juce::Justification::centredLeft);
+    title.setBorderSize(knob ? juce::BorderSize<int>() : title.getBorderSize());
     title.setInterceptsMouseClicks(false, false);
     title.setAccessible(false);
     addAndMakeVisible(title);
@@ -146,6 +147,10 @@ void ParameterSlider::resized()
         title.setBounds(area.removeFromTop(2 * grid + 2));
     else
         title.setBounds(area.removeFromLeft(title.getText().isEmpty() ? 0 : 11 * grid - 2));
+    // Names that are too long in a language are a size smaller before they are cut.
+    const bool fits =
+        smallFont().getStringWidth(title.getText()) <= title.getWidth() - title.getBorderSize().getLeftAndRight();
+    title.setFont(fits ? smallFont() : captionFont());
     slider.setBounds(area);
 }
 

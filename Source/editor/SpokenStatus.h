@@ -51,7 +51,7 @@ private:
     std::optional<Words> waiting;
     bool ending = false;
     juce::String last;
-    juce::uint32 lastTime = 0; ///< ms
+    juce::uint32 lastTime = 0;                                  ///< ms
     std::shared_ptr<bool> told = std::make_shared<bool>(false); ///< that it is missing
     std::thread thread;                                         ///< since the first text
 };

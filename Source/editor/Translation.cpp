@@ -114,6 +114,20 @@ juce::String textOfFile(const juce::String& code)
     return {};
 }
 
+/// The code of the system's language, perhaps with more behind it. On Linux JUCE has the English name of the locale's
+/// language, of which "Ge" is left.
+juce::String systemLanguage()
+{
+#if JUCE_LINUX || JUCE_BSD
+    for (const char* name : {"LC_ALL", "LC_MESSAGES", "LANG"})
+        if (const auto value = juce::SystemStats::getEnvironmentVariable(name, {}); value.isNotEmpty())
+            return value;
+    return {};
+#else
+    return juce::SystemStats::getUserLanguage();
+#endif
+}
+
 void translateItems(juce::ComboBox& box)
 {
     for (int i = 0; i < box.getNumItems(); ++i)
@@ -168,7 +182,7 @@ void useTranslations(const juce::String& text)
 
 void useLanguage(const juce::String& code)
 {
-    const auto wanted = (code.isNotEmpty() ? code : juce::SystemStats::getUserLanguage()).substring(0, 2).toLowerCase();
+    const auto wanted = (code.isNotEmpty() ? code : systemLanguage()).substring(0, 2).toLowerCase();
     const juce::String text = canShow(wanted) ? textOfFile(wanted) : juce::String();
     useTranslations(text);
     if (text.isNotEmpty())

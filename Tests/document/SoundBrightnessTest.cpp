@@ -1,6 +1,7 @@
 // The brightness that views show of a sound follows its frequency, and is not there in silence.
 
 #include "document/view/SoundBrightness.h"
+
 #include "support/Catch.h"
 
 #include <cmath>

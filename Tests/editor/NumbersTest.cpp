@@ -1,13 +1,17 @@
 // Numbers in windows have the decimal mark of the language, shown and typed.
 
 #include "editor/Bench.h"
-#include "editor/Pump.h"
 #include "editor/Controls.h"
+#include "editor/Pump.h"
 #include "editor/Translation.h"
 #include "editor/clip/lanes/LaneText.h"
 #include "editor/clip/session/ClipSteps.h"
 
+#include <cstdlib>
+#include <map>
+#include <optional>
 #include <regex>
+#include <string>
 
 using namespace pacini;
 using namespace pacini::test;
@@ -51,19 +55,51 @@ TEST_CASE("A number has the decimal mark of the language, and only between two d
     CHECK(editor::numberText(1.5, 2) == "1,50");
     CHECK(editor::numberText(-0.04, 1) == "0,0");
     CHECK(editor::numberText(1234.0, 0) == "1234");
-    for (const auto& [given, wanted] : std::initializer_list<std::pair<const char*, const char*>>{
-             {"-3.5 dB", "-3,5 dB"},
-             {"0.1 to 2.5 s", "0,1 to 2,5 s"},
-             {"Pacini 0.1.0", "Pacini 0.1.0"},
-             {"one. 2 three", "one. 2 three"},
-             {".5", ".5"},
-             {"5.", "5."},
-             {"", ""},
-             {"1..2", "1..2"}})
+    for (const auto& [given, wanted] :
+         std::initializer_list<std::pair<const char*, const char*>>{{"-3.5 dB", "-3,5 dB"},
+                                                                    {"0.1 to 2.5 s", "0,1 to 2,5 s"},
+                                                                    {"Pacini 0.1.0", "Pacini 0.1.0"},
+                                                                    {"one. 2 three", "one. 2 three"},
+                                                                    {".5", ".5"},
+                                                                    {"5.", "5."},
+                                                                    {"", ""},
+                                                                    {"1..2", "1..2"}})
         CHECK(editor::withDecimalMark(given) == juce::String(wanted));
     CHECK(editor::hertzText(52.25) == "52,3 Hz");
     CHECK(editor::amplitudeText(0.5) == "-6,0 dB");
 }
+
+#if JUCE_LINUX
+TEST_CASE("The system's language is that of its locale, in the order that locales have")
+{
+    const juce::ScopedJuceInitialiser_GUI gui;
+    const auto before = [](const char* name)
+    {
+        const char* value = std::getenv(name);
+        return value != nullptr ? std::optional<std::string>(value) : std::nullopt;
+    };
+    const std::map<std::string, std::optional<std::string>> saved{
+        {"LC_ALL", before("LC_ALL")}, {"LC_MESSAGES", before("LC_MESSAGES")}, {"LANG", before("LANG")}};
+    const auto in = [](const char* all, const char* messages, const char* language)
+    {
+        setenv("LC_ALL", all, 1);
+        setenv("LC_MESSAGES", messages, 1);
+        setenv("LANG", language, 1);
+        editor::useLanguage({});
+        return editor::languageInUse().toStdString();
+    };
+    CHECK(in("", "", "de_DE.UTF-8") == "de");
+    CHECK(in("", "de_AT.UTF-8", "en_GB.UTF-8") == "de");
+    CHECK(in("C", "de_DE.UTF-8", "de_DE.UTF-8") == "en");
+    CHECK(in("", "", "C.UTF-8") == "en");
+    CHECK(in("", "", "") == "en");
+    if (editor::canShow("ja"))
+        CHECK(in("ja_JP.UTF-8", "", "de_DE.UTF-8") == "ja");
+    for (const auto& [name, value] : saved)
+        value ? setenv(name.c_str(), value->c_str(), 1) : unsetenv(name.c_str());
+    editor::useLanguage("en");
+}
+#endif
 
 TEST_CASE("A comma and a point count in what is typed")
 {

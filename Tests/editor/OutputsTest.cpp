@@ -268,12 +268,13 @@ TEST_CASE("Presets of the outputs are settings files that bring all rows and the
     EditorBench bench({test::shipped("lra-175"), test::shipped("erm-coin")});
     auto& outputs = bench.session.outputs;
     outputs.setPan(PanLaw::delay);
-    outputs.setOutputs({{2, "", -3.5, 0.0, 0.0}, {3, "erm-coin", 0.0, 0.012, 0.75}, {-1, "plain drive", 0.0, 0.0, 1.0}});
+    outputs.setOutputs(
+        {{2, "", -3.5, 0.0, 0.0}, {3, "erm-coin", 0.0, 0.012, 0.75}, {-1, "plain drive", 0.0, 0.0, 1.0}});
     const auto wanted = outputs.outputs();
     const auto open = [&]
     {
-        bench.view.showSheet(
-            std::make_unique<editor::OutputsSheet>(bench.view, juce::StringArray{"a", "b", "c", "d"}, folder / "presets"));
+        bench.view.showSheet(std::make_unique<editor::OutputsSheet>(bench.view, juce::StringArray{"a", "b", "c", "d"},
+                                                                    folder / "presets"));
         return dynamic_cast<editor::OutputsSheet*>(bench.view.sheet());
     };
     auto* sheet = open();
@@ -293,12 +294,13 @@ TEST_CASE("Presets of the outputs are settings files that bring all rows and the
     CHECK(outputs.pan() == PanLaw::delay);
     // It is a settings file, and one of the analysis, or a broken one, changes nothing.
     CHECK(readSettingsFile(folder / "presets" / "band.json"));
-    for (const char* text : {"{}", "no JSON", R"({"format": "pacini.settings", "version": 1, "encode": {"bands": 5}})",
-                             R"({"format": "pacini.settings", "version": 1, "outputs": []})",
-                             R"({"format": "pacini.settings", "version": 1, "pan": "left", "outputs": [{"channel": 1}]})",
-                             R"({"format": "pacini.settings", "version": 1, "outputs": [{"channel": -4}]})",
-                             R"({"format": "pacini.settings", "version": 1, "outputs": [{"channel": 1, "gain": 200}]})",
-                             R"({"format": "pacini.settings", "version": 2, "outputs": [{"channel": 1}]})"})
+    for (const char* text :
+         {"{}", "no JSON", R"({"format": "pacini.settings", "version": 1, "encode": {"bands": 5}})",
+          R"({"format": "pacini.settings", "version": 1, "outputs": []})",
+          R"({"format": "pacini.settings", "version": 1, "pan": "left", "outputs": [{"channel": 1}]})",
+          R"({"format": "pacini.settings", "version": 1, "outputs": [{"channel": -4}]})",
+          R"({"format": "pacini.settings", "version": 1, "outputs": [{"channel": 1, "gain": 200}]})",
+          R"({"format": "pacini.settings", "version": 2, "outputs": [{"channel": 1}]})"})
     {
         CAPTURE(text);
         put(folder / "other.json", text);

@@ -246,8 +246,14 @@ TEST_CASE("Pictures of the windows in all sizes, themes and languages", "[.look]
           std::pair("scene", editor::editScene), std::pair("gain", editor::changeGain),
           std::pair("humanise", editor::humanise), std::pair("about", editor::about),
           std::pair("history", editor::showHistory), std::pair("palette", editor::searchCommands)})
-        all.push_back({name, [command = command](EditorBench& bench) { openSheet(bench, command); }});
-    all.push_back({"project", [](EditorBench& bench) { openPage(bench, 2); }});
+        all.push_back({name, [command = command](EditorBench& bench)
+                       {
+                           openSheet(bench, command);
+                       }});
+    all.push_back({"project", [](EditorBench& bench)
+                   {
+                       openPage(bench, 2);
+                   }});
     for (const char* language : {"en", "de", "ja"})
         for (const Size& size : {Size{1024, 700, 1.0}, Size{1280, 800, 1.0}, Size{2560, 1440, 2.0}})
             for (const bool dark : {true, false})

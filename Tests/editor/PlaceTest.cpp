@@ -77,8 +77,8 @@ TEST_CASE("A project that is opened again shows the clip that was worked on; ano
         REQUIRE(session.model.openProject(file).ok());
         checkPlace(session, second);
         // The clip may have gone since.
-        REQUIRE(session.model.change([&](Document& document)
-                                     { return document.commit("Remove", withoutClips(document.project(), {second})); }));
+        REQUIRE(session.model.change(
+            [&](Document& document) { return document.commit("Remove", withoutClips(document.project(), {second})); }));
         REQUIRE(session.model.saveAs(folder.path() / "q.pacini").ok());
     }
     editor::Session fresh({{}, folder.path() / "other.json"}, {});

@@ -2,9 +2,10 @@
 
 #if !defined(_WIN32)
 
+#include "editor/SpokenStatus.h"
+
 #include "editor/Bench.h"
 #include "editor/Pump.h"
-#include "editor/SpokenStatus.h"
 #include "editor/Translation.h"
 #include "support/TempFolder.h"
 

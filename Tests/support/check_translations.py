@@ -86,7 +86,6 @@ LITERALS = {
     "errors of settings that the windows cannot make": ["must be 8 to 768 kHz to be encoded", "must be 0 to 1",
         "must have 1 to 8 actuators",
         "is not one of the project's sounds"],
-    "errors of hosts' names of buses": ["Main", "Sidechain"],
     "names in files of formats": ["Simple Parametric", "noise {} {}"],
     "codes of languages": ["en", "ja"],
 }

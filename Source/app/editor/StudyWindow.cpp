@@ -55,8 +55,8 @@ public:
                 if (const auto level = run->session().level())
                     text.add(editor::tr("Level: {0}", {editor::numberText(*level, 2)}));
             }
-            text.add(editor::tr("Exposure A(8): {0} of {1} m/s2",
-                                {editor::numberText(run->exposure(), 3), editor::numberText(run->study().limits.daily, 2)}));
+            text.add(editor::tr("Exposure A(8): {0} of {1} m/s2", {editor::numberText(run->exposure(), 3),
+                                                                   editor::numberText(run->study().limits.daily, 2)}));
         }
         lines.setText(text.joinIntoString("\n"), false);
     }

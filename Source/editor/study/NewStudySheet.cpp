@@ -153,8 +153,8 @@ void NewStudySheet::make()
                            juce::File(pathText(file)).revealToUser();
                        }});
     answers.push_back({"Close", {}});
-    const auto text = pathText(*made) + "\n" + counted(people, "For {0} participant.", "For {0} participants.") + "\n\n" +
-                      tr("Questions, scales and texts can be changed in this file before the first session.");
+    const auto text = pathText(*made) + "\n" + counted(people, "For {0} participant.", "For {0} participants.") +
+                      "\n\n" + tr("Questions, scales and texts can be changed in this file before the first session.");
     shown.showMessage(std::make_unique<MessageSheet>("Study made", text, std::move(answers)));
     close();
 }

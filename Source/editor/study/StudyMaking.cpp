@@ -30,11 +30,11 @@ std::string utf8Of(const fs::path& path)
 /// The command beside this program, else that of PATH.
 std::string commandProgram()
 {
-    const auto beside = juce::File::getSpecialLocation(juce::File::currentExecutableFile)
-                            .getSiblingFile(juce::File::getSpecialLocation(juce::File::currentExecutableFile)
-                                                        .hasFileExtension("exe")
-                                                    ? "pacini.exe"
-                                                    : "pacini");
+    const auto beside =
+        juce::File::getSpecialLocation(juce::File::currentExecutableFile)
+            .getSiblingFile(juce::File::getSpecialLocation(juce::File::currentExecutableFile).hasFileExtension("exe")
+                                ? "pacini.exe"
+                                : "pacini");
     return beside.existsAsFile() ? beside.getFullPathName().toStdString() : std::string("pacini");
 }
 } // namespace

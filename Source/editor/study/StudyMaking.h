@@ -17,10 +17,10 @@ namespace pacini::editor
 /// What a study is made of.
 struct StudyWish
 {
-    std::string kind;                   ///< a template of studyTemplates()
-    std::filesystem::path folder;       ///< for study.json and the answers; made where it is missing
-    std::filesystem::path sounds;       ///< a folder, or one sound; empty: none
-    std::vector<study::Group> groups;   ///< empty: those of the template
+    std::string kind;                 ///< a template of studyTemplates()
+    std::filesystem::path folder;     ///< for study.json and the answers; made where it is missing
+    std::filesystem::path sounds;     ///< a folder, or one sound; empty: none
+    std::vector<study::Group> groups; ///< empty: those of the template
 };
 
 /// Writes `study.json` as `pacini study new` does; returns its path. Errors: those of makeStudy(), setGroups() and

@@ -570,16 +570,16 @@ void PluginWindow::placeHeader(juce::Rectangle<int> area)
     area.removeFromLeft(9 * grid);
     const auto atRight = [&area](juce::Component& component, int width)
     {
-        component.setBounds(area.removeFromRight(width * grid));
+        component.setBounds(area.removeFromRight(width));
         area.removeFromRight(grid);
     };
-    atRight(menuButton, 4);
-    atRight(*bypassToggle, 9);
-    atRight(clipsButton, 8);
-    atRight(actuatorsButton, 11);
+    atRight(menuButton, 4 * grid);
+    atRight(*bypassToggle, 9 * grid);
+    atRight(clipsButton, editor::buttonWidth(clipsButton, 8 * grid));
+    atRight(actuatorsButton, editor::buttonWidth(actuatorsButton, 11 * grid));
     area.removeFromRight(grid);
     constexpr int edits = 4 * 4 * grid + 3 * grid; // and what is around them
-    constexpr int load = 8 * grid;
+    const int load = editor::buttonWidth(loadButton, 8 * grid);
     const int box = std::min(editor::space::widestBox, (area.getWidth() - edits - load - 2 * grid) / 2);
     presets.setBounds(area.removeFromLeft(box));
     area.removeFromLeft(grid);

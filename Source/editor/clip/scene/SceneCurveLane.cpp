@@ -131,8 +131,8 @@ void SceneCurveLane::movePoint(std::size_t index, Breakpoint to, const Curve& fr
     const double before = index + 1 < points.size() ? points[index + 1].time : length();
     points[index] = {std::clamp(to.time, after, std::max(after, before)), to.value};
     setPoints("Move point of curve", std::move(points), of);
-    const juce::String text = numberText(points.empty() ? to.time : to.time, 2) + " s, " + numberText(to.value, 2) +
-                              sceneRangeOf(shown).unit;
+    const juce::String text =
+        numberText(points.empty() ? to.time : to.time, 2) + " s, " + numberText(to.value, 2) + sceneRangeOf(shown).unit;
     setDescription(text);
     setTooltip(text);
 }

@@ -68,14 +68,14 @@ void OwnPresets::saveAs(const juce::String& name)
     std::error_code unknown;
     if (!std::filesystem::exists(files.pathOf(name.toStdString()), unknown))
         return write(name, false);
-    view.ask(std::make_unique<MessageSheet>(tr("Replace the preset {0}?", {name}), "There is a preset of this name.",
-                                            std::vector<Sheet::Answer>{{"Cancel", {}},
-                                                                       {"Replace",
-                                                                        [this, name, watch = std::weak_ptr<int>(alive)]
-                                                                        {
-                                                                            if (!watch.expired())
-                                                                                write(name, true);
-                                                                        }}}));
+    view.ask(std::make_unique<MessageSheet>(
+        tr("Replace the preset {0}?", {name}), "There is a preset of this name.",
+        std::vector<Sheet::Answer>{{"Cancel", {}},
+                                   {"Replace", [this, name, watch = std::weak_ptr<int>(alive)]
+                                    {
+                                        if (!watch.expired())
+                                            write(name, true);
+                                    }}}));
 }
 
 void OwnPresets::write(const juce::String& name, bool replace)
