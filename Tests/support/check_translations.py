@@ -91,7 +91,11 @@ LITERALS = {
 }
 
 # Texts of JUCE's own components, which look in the table, too.
-JUCE = {"OK", "(no choices)", "Select All"}
+JUCE = {"OK", "(no choices)", "Select All",
+        "file:", "Open", "New Folder", "Create Folder",
+        "Go up to parent directory", "Overwrite", "File already exists", "There's already a file called: FLNM",
+        "Are you sure you want to overwrite it?", "Please enter the name for the folder", "Couldn't create the folder!", "Home folder",
+        "Documents", "Desktop", "Pictures", "Choose"}
 
 UNITS = {"Hz", "kHz", "dB", "ms", "s", "W", "ppm", "bit", "ch", "st", "k", "x", "Q", "m", "s²"}
 
