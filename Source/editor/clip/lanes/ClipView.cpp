@@ -158,13 +158,14 @@ ClipView::ClipView(Session& shared)
         if (auto* row = rowOf({LaneKind::centroid, 0}))
             row->repaint();
     };
-    subscriptions.on({&model.contentChanged, &shared.sounds.changed},
-                     [this, &sounds = shared.sounds]
-                     {
-                         const auto item = model.shownItem();
-                         brightness.show(item ? sounds.soundOfClip() : nullptr, item ? item->encoder.lowFrequency : 0.0,
-                                         item ? item->encoder.highFrequency : 0.0);
-                     });
+    const auto showBrightness = [this, &sounds = shared.sounds]
+    {
+        const auto item = model.shownItem();
+        brightness.show(item ? sounds.soundOfClip() : nullptr, item ? item->encoder.lowFrequency : 0.0,
+                        item ? item->encoder.highFrequency : 0.0);
+    };
+    subscriptions.on({&model.contentChanged, &shared.sounds.changed}, showBrightness);
+    showBrightness();
     subscriptions.on({&viewState.lookChanged}, [this] { resized(); });
     subscriptions.on({&viewState.axisChanged, &transport.changed, &model.contentChanged}, [this] { placePlayhead(); });
     rebuild();
