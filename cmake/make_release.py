@@ -118,8 +118,8 @@ class Release:
         self.keep("sdist", self.make_sdist())
 
     def wheel(self, python=sys.executable):
-        """Of the sdist, as for those who have no wheel for their Python; at a place where ccache knows its objects. `python` is the
-        interpreter that it is for, with what builds it."""
+        """Of the sdist, as for those who have no wheel for their Python; at a place where ccache knows its objects.
+        `python` is the interpreter that it is for, with what builds it."""
         place = ROOT / "build/wheel-of-release"
         shutil.rmtree(place, ignore_errors=True)
         place.mkdir(parents=True)

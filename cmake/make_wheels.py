@@ -3,13 +3,15 @@
 
 make_wheels.py FOLDER [--changed] [--try]    `bash cmake/bootstrap.sh wheels` installs what is needed and calls it
 
-Wheels for 3.9, 3.10 and 3.11 are for one version each, as they are compiled against its headers; one wheel of the stable interface
-(abi3) is for 3.12 and all later ones. Of these, those are made whose Python is at hand: by the name python3.N, or below
-~/.pyenv/versions. What cannot be made or tried for want of a Python is told. With --try the wheels that FOLDER holds are tried alone.
+Wheels for 3.9, 3.10 and 3.11 are for one version each, as they are compiled against its headers; one wheel of the
+stable interface (abi3) is for 3.12 and all later ones. Those are made whose Python is at hand: by the name python3.N, or
+below ~/.pyenv/versions. What cannot be made or tried for want of a Python is told. With --try the wheels of FOLDER are
+tried, and none is made.
 
-Tried means: a virtual environment of its own with numpy alone, `pip install --no-index` of the folder, which chooses the wheel, PATH
-without a compiler, and a first sound that becomes the same clip in each.
+Tried means: a virtual environment of its own with numpy alone, `pip install --no-index` of the folder, which chooses
+the wheel, PATH without a compiler, and a first sound that becomes the same clip in each.
 """
+
 import argparse
 import hashlib
 import os
@@ -40,7 +42,10 @@ def interpreters():
     """Those at hand by their minor versions."""
     found = {}
     for minor in VERSIONS:
-        named = [shutil.which(f"python3.{minor}"), *sorted((Path.home() / ".pyenv/versions").glob(f"3.{minor}.*/bin/python3.{minor}"))]
+        named = [
+            shutil.which(f"python3.{minor}"),
+            *sorted((Path.home() / ".pyenv/versions").glob(f"3.{minor}.*/bin/python3.{minor}")),
+        ]
         for path in filter(None, named):
             if run_version(path) == (3, minor):
                 found[minor] = Path(path)
@@ -57,7 +62,9 @@ def environment(python, folder, *modules):
     """The interpreter of a virtual environment with these modules."""
     make_release.run(python, "-m", "venv", "--clear", folder)
     inside = folder / "bin/python"
-    make_release.run(inside, "-m", "pip", "install", "-q", "--disable-pip-version-check", "--only-binary=:all:", *modules)
+    make_release.run(
+        inside, "-m", "pip", "install", "-q", "--disable-pip-version-check", "--only-binary=:all:", *modules
+    )
     return inside
 
 
@@ -67,8 +74,15 @@ def tag(minor):
 
 def builders(at_hand):
     """Which Python makes which wheel: a list of (tag, Python), and tags of those that none makes."""
-    made = [(tag(minor), at_hand[minor]) for minor in VERSIONS if minor < STABLE and minor in at_hand and has_headers(at_hand[minor])]
-    stable = next((at_hand[minor] for minor in VERSIONS if minor >= STABLE and minor in at_hand and has_headers(at_hand[minor])), None)
+    made = [
+        (tag(minor), at_hand[minor])
+        for minor in VERSIONS
+        if minor < STABLE and minor in at_hand and has_headers(at_hand[minor])
+    ]
+    stable = next(
+        (at_hand[minor] for minor in VERSIONS if minor >= STABLE and minor in at_hand and has_headers(at_hand[minor])),
+        None,
+    )
     made += [(tag(STABLE), stable)] if stable else []
     return made, [name for name in dict.fromkeys(map(tag, VERSIONS)) if name not in dict(made)]
 
@@ -100,10 +114,25 @@ def attempt(folder):
         with tempfile.TemporaryDirectory() as name:
             python = environment(at_hand[minor], Path(name) / "env", "numpy")
             bare = {"PATH": str(python.parent), "HOME": name, "LC_ALL": "C.UTF-8"}
-            steps = ([python, "-m", "pip", "install", "-q", "--disable-pip-version-check", "--no-index", "--find-links", folder, "pacini"],
-                     [python, "-c", FIRST_SOUND, SOUND])
+            steps = (
+                [
+                    python,
+                    "-m",
+                    "pip",
+                    "install",
+                    "-q",
+                    "--disable-pip-version-check",
+                    "--no-index",
+                    "--find-links",
+                    folder,
+                    "pacini",
+                ],
+                [python, "-c", FIRST_SOUND, SOUND],
+            )
             for step in steps:
-                done = subprocess.run([str(word) for word in step], capture_output=True, check=False, env=bare, cwd=name)
+                done = subprocess.run(
+                    [str(word) for word in step], capture_output=True, check=False, env=bare, cwd=name
+                )
                 if done.returncode != 0:
                     break
         if done.returncode != 0 or len(done.stdout) < 100:
@@ -111,7 +140,10 @@ def attempt(folder):
             print(f"FAILED: Python 3.{minor}: {done.stderr.decode(errors='replace')[-1500:]}")
             continue
         clips[minor] = done.stdout
-        print(f"ok: Python 3.{minor} encodes its first sound: {len(done.stdout)} bytes, {hashlib.sha256(done.stdout).hexdigest()[:12]}")
+        print(
+            f"ok: Python 3.{minor} encodes its first sound: {len(done.stdout)} bytes,",
+            hashlib.sha256(done.stdout).hexdigest()[:12],
+        )
     if len(set(clips.values())) > 1:
         failed += 1
         print("FAILED: the clips differ")
@@ -121,7 +153,9 @@ def attempt(folder):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder", type=Path)
-    parser.add_argument("--changed", action="store_true", help="although files differ from the commit, whose wheels are made")
+    parser.add_argument(
+        "--changed", action="store_true", help="although files differ from the commit, whose wheels are made"
+    )
     parser.add_argument("--try", dest="only_try", action="store_true", help="make none, only try those of the folder")
     options = parser.parse_args()
     os.environ.setdefault("PIP_NO_INPUT", "1")

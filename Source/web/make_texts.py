@@ -6,9 +6,10 @@ make_texts.py --check      every text that people read has a translation, and no
 make_texts.py --selftest   each kind of mistake is found
 make_texts.py --list       the texts, in English
 
-A text stands in Source/web/translations, or in Resources/translations when the windows have it too: one source for each. The format
-is that of the windows' tables.
+A text stands in Source/web/translations, or in Resources/translations when the windows have it too: one source for
+each. The format is that of the windows' tables.
 """
+
 import html.parser
 import json
 import re
@@ -21,12 +22,19 @@ LANGUAGES = ("de", "ja")
 
 # Literals that nobody reads, or that are the same in every language.
 NO_TEXTS = {
-    "names": {"English", "Deutsch", "Pacini", "Pacini:", "RIFF", "WAVE", "fmt ", "data", "CC0", "DualSense", "HTS"},
+    "names": {"Pacini", "CC0", "DualSense", "HTS"},
     "names of settings, keys and policies": {
-        "pacini returns", "pacini work", "pacini work {0}", "pacini language", "keep the rest", "button primary", "row ways", "12px system-ui, sans-serif",
-        "11px system-ui, sans-serif", "script, style, [lang]:not(html)", "input[type=range]", "input[type=number]", "#gallery optgroup",
-        ".choice.examples", ".choice", ".card", ".open", ".play", ".feel", "#pages a", ".figure", ".ways button", "use strict", "select, input",
-        "Shift+", "Escape", "Arrow", "Shift+ArrowRight", "Shift+ArrowLeft", "(prefers-color-scheme: light)", "en"},
+        "pacini language",
+        "pacini returns",
+        "pacini work",
+        "keep the rest",
+        "button primary",
+        "row ways",
+        "11px system-ui, sans-serif",
+        "12px system-ui, sans-serif",
+        "Escape",
+        "Arrow",
+    },
 }
 # Errors of the package and the core that a visitor may see, and what programs say besides.
 SHARED = {"package/sound-file.js", "package/module.js"}
@@ -64,20 +72,24 @@ def literals(text):
     """String literals of a script with what stands before each."""
     for match in LITERAL.finditer(text):
         word = match.group(1) if match.group(1) is not None else match.group(2)
-        if match.group(0).startswith("`"): # calls within a template
+        if match.group(0).startswith("`"):  # calls within a template
             for inner in re.finditer(r"\$\{((?:[^{}]|\{[^{}]*\})*)\}", match.group(0)):
                 yield from literals(inner.group(1))
         if word is not None:
-            yield text[max(0, match.start() - 400):match.start()], word.replace("\\'", "'").replace('\\"', '"')
+            yield text[max(0, match.start() - 400) : match.start()], word.replace("\\'", "'").replace('\\"', '"')
 
 
 def is_text(word, before):
     """Whether a literal is read by people: marked so, or a sentence."""
-    if re.search(r"\b(t|told)\($", before) or re.search(r"\bcounted\((?:[^;'()]|\([^()]*\))*, (?:'[^']*',\s+)?$", before):
+    if re.search(r"\b(t|told)\($", before) or re.search(
+        r"\bcounted\((?:[^;'()]|\([^()]*\))*, (?:'[^']*',\s+)?$", before
+    ):
         return True
     if re.search(r"(from|import|import\() ?$", before) or word in set().union(*NO_TEXTS.values()):
         return False
-    return bool(re.search(r"[a-z]{2,} [a-z]{2,}|^[A-Z][a-z]+\b.* |^[A-Z][a-z]{3,}$", word)) and not re.search(r"^[.#\[(<]|[<>{]|^\w+Error$|^[A-Z][a-z]+[A-Z]", word)
+    return bool(re.search(r"[a-z]{2,} [a-z]{2,}|^[A-Z][a-z]+\b.* |^[A-Z][a-z]{3,}$", word)) and not re.search(
+        r"^[.#\[(<]|[<>{]|^\w+Error$|^[A-Z][a-z]+[A-Z]", word
+    )
 
 
 def keys(root=ROOT):
@@ -86,13 +98,18 @@ def keys(root=ROOT):
 
     def take(text, place):
         found.setdefault(text, place)
+
     for name in ("index.html", "guide.html"):
         markup = Markup()
         markup.feed((PAGE / name).read_text(encoding="utf-8"))
         for text in markup.texts:
             # Cards have their length in their words, and their names in those of their buttons.
             text = re.sub(r"^\d+\.\d s, ", "{0} s, ", text)
-            text = re.sub(r"^(Play|Feel) (?=(?:Heartbeat|Knock|Footsteps|Tabla|Engine|Explosion|Rain|Button)).*", r"\1 {0:text}", text)
+            text = re.sub(
+                r"^(Play|Feel) (?=(?:Heartbeat|Knock|Footsteps|Tabla|Engine|Explosion|Rain|Button)).*",
+                r"\1 {0:text}",
+                text,
+            )
             if text not in set().union(*NO_TEXTS.values()):
                 take(text, name)
     for path in sorted(PAGE.glob("*.js")):
@@ -106,17 +123,23 @@ def keys(root=ROOT):
         for before, word in literals((ROOT / "Source/web" / name).read_text(encoding="utf-8")):
             if re.search(r"(bad\(|message: )$", before):
                 take(word, name)
-    for template in ("has a format that is not read here ({0}, {1} bits)", "The page's module cannot be loaded ({0}). Load the page again.",
-                     "{0:text} cannot be read any more: it was moved or changed. Open it again."):
+    for template in (
+        "has a format that is not read here ({0}, {1} bits)",
+        "The page's module cannot be loaded ({0}). Load the page again.",
+        "{0:text} cannot be read any more: it was moved or changed. Open it again.",
+    ):
         take(template, "worker.js")
     for path in sorted((ROOT / "Resources/docs/guide").glob("*.md")):
         take(path.read_text(encoding="utf-8").split("\n")[0].removeprefix("# "), path.name)
     for path in sorted((ROOT / "profiles").glob("*.json")):
         profile = json.loads(path.read_text(encoding="utf-8"))
         take(profile.get("shortName", profile["name"]), path.name)
-    for name in ("l5-wristband", "dualsense-voice-coil", "joycon-hd-rumble", "lra-175", "erm-coin"): # of a figure
+    for name in ("l5-wristband", "dualsense-voice-coil", "joycon-hd-rumble", "lra-175", "erm-coin"):  # of a figure
         take(json.loads((ROOT / f"profiles/{name}.json").read_text(encoding="utf-8"))["name"], name)
-    for preset in re.findall(r'"name": "([\w-]+)", "purpose": "([^"]+)"', (ROOT / "Source/web/package/presets.js").read_text(encoding="utf-8")):
+    for preset in re.findall(
+        r'"name": "([\w-]+)", "purpose": "([^"]+)"',
+        (ROOT / "Source/web/package/presets.js").read_text(encoding="utf-8"),
+    ):
         take(preset[0].capitalize().replace("-", " "), "presets.js")
         take(preset[1], "presets.js")
     return found
@@ -129,7 +152,7 @@ def table(path):
             continue
         match = re.fullmatch(r'"((?:\\.|[^"\\])*)" = "((?:\\.|[^"\\])*)"', line)
         if not match:
-            raise SystemExit(f"{path}:{number}: not \"text\" = \"translation\"")
+            raise SystemExit(f'{path}:{number}: not "text" = "translation"')
         key, value = (part.replace('\\"', '"') for part in match.groups())
         if key in pairs:
             raise SystemExit(f"{path}:{number}: a second time: {key}")
@@ -171,11 +194,18 @@ def problems_of(wanted, own, windows, code):
 
 def check():
     wanted = keys()
-    problems = [one for code in LANGUAGES for one in problems_of(wanted, table(OWN / f"{code}.txt"), table(WINDOWS / f"{code}.txt"), code)]
+    problems = [
+        one
+        for code in LANGUAGES
+        for one in problems_of(wanted, table(OWN / f"{code}.txt"), table(WINDOWS / f"{code}.txt"), code)
+    ]
     for code in LANGUAGES:
         there = {path.name for path in (OWN / "guide" / code).glob("*.md")}
-        problems += [f"translations/guide/{code}: {path.name} is missing" for path in sorted((ROOT / "Resources/docs/guide").glob("*.md"))
-                     if path.name not in there]
+        problems += [
+            f"translations/guide/{code}: {path.name} is missing"
+            for path in sorted((ROOT / "Resources/docs/guide").glob("*.md"))
+            if path.name not in there
+        ]
     for path in sorted(PAGE.glob("*.js")):
         # A sentence with values in it is a template of t(), so that it can be translated.
         if path.name in ("service-worker.js", "text.js", "worker.js"):
@@ -183,7 +213,11 @@ def check():
         for match in LITERAL.finditer(path.read_text(encoding="utf-8")):
             if match.group(0).startswith("`"):
                 plain = re.sub(r"\$\{(?:[^{}]|\{[^{}]*\})*\}", "", match.group(0))
-                if "${" not in plain and re.search(r"[A-Za-z]{2,} [a-z]{2,}", plain) and not re.search(r"pacini work|rgb|<p", plain):
+                if (
+                    "${" not in plain
+                    and re.search(r"[A-Za-z]{2,} [a-z]{2,}", plain)
+                    and not re.search(r"pacini work|rgb|<p", plain)
+                ):
                     problems.append(f"{path.name}: a sentence that is not translated: {plain[:60]}")
     problems += phone_problems()
     print("\n".join([*problems, f"{len(wanted)} texts, {len(problems)} problems"]))
@@ -208,8 +242,11 @@ def phone_problems(folder=ROOT / "Source/phone/page"):
         there = dict(re.findall(r"^    '((?:\\.|[^'])*)': '((?:\\.|[^'])*)',?$", part, re.M))
         yield from (f"phone/page/texts.js: not in {code}: {key!r}" for key in sorted(wanted - set(there)))
         yield from (f"phone/page/texts.js: not used in {code}: {key!r}" for key in sorted(set(there) - wanted))
-        yield from (f"phone/page/texts.js: other placeholders in {code}: {key!r}" for key, value in there.items()
-                    if sorted(PLACEHOLDER.findall(key)) != sorted(PLACEHOLDER.findall(value)))
+        yield from (
+            f"phone/page/texts.js: other placeholders in {code}: {key!r}"
+            for key, value in there.items()
+            if sorted(PLACEHOLDER.findall(key)) != sorted(PLACEHOLDER.findall(value))
+        )
 
 
 def selftest():
@@ -221,8 +258,17 @@ def selftest():
     own["On {0}."] = "Darauf."
     own["Cancelled."] = ""
     found = "\n".join(problems_of(wanted, own, windows, "de"))
-    missed = [kind for kind in ("not in translations/de.txt: 'Analysing...'", "not used: 'A text that the page does not have'",
-                                "the windows have it too: 'Undo'", "other placeholders: 'On {0}.'", "no translation: 'Cancelled.'") if kind not in found]
+    missed = [
+        kind
+        for kind in (
+            "not in translations/de.txt: 'Analysing...'",
+            "not used: 'A text that the page does not have'",
+            "the windows have it too: 'Undo'",
+            "other placeholders: 'On {0}.'",
+            "no translation: 'Cancelled.'",
+        )
+        if kind not in found
+    ]
     print("\n".join(missed) if missed else "all found")
     return 1 if missed else 0
 
