@@ -4,8 +4,8 @@
 make_wheels.py FOLDER [--changed] [--try]    `bash cmake/bootstrap.sh wheels` installs what is needed and calls it
 
 Wheels for 3.9, 3.10 and 3.11 are for one version each, as they are compiled against its headers; one wheel of the
-stable interface (abi3) is for 3.12 and all later ones. Those are made whose Python is at hand: by the name python3.N, or
-below ~/.pyenv/versions. What cannot be made or tried for want of a Python is told. With --try the wheels of FOLDER are
+stable interface (abi3) is for 3.12 and all later ones. Those are made whose Python is at hand: by the name python3.N,
+or below ~/.pyenv/versions. What cannot be made or tried for want of a Python is told. With --try the wheels of FOLDER are
 tried, and none is made.
 
 Tried means: a virtual environment of its own with numpy alone, `pip install --no-index` of the folder, which chooses

@@ -47,7 +47,7 @@ console.log(JSON.stringify({ seconds, memory: memoryInUse() }))
 def main():
     program = Path(sys.argv[1] if len(sys.argv) > 1 else ROOT / "build/release/bin/pacini").resolve()
     print("| module | bytes | gzipped |\n|---|---|---|")
-    for path in sorted(PACKAGE.glob("*.wasm")):
+    for path in [*sorted(PACKAGE.glob("*.wasm")), ROOT / "build/web/page/visit.wasm"]:
         content = path.read_bytes()
         print(f"| `{path.name}` | {len(content)} | {len(gzip.compress(content, 9))} |")
     with tempfile.TemporaryDirectory() as name:
