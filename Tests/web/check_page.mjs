@@ -120,8 +120,15 @@ try {
   check('in their order and time', late.every((milliseconds) => milliseconds > -2), `at most ${Math.max(...late).toFixed(1)} ms late`)
   await tab.evaluate(() => { globalThis.reports = [] })
   await tab.click('#feel')
-  await until(() => tab.evaluate(() => globalThis.reports.length > 5))
-  await tab.click('#stop')
+  // By the page itself: on a busy machine a click from here comes when all of the clip is over.
+  await tab.evaluate(() => new Promise((resolve) => {
+    const look = () => {
+      if (globalThis.reports.length <= 5) return setTimeout(look, 5)
+      document.getElementById('stop').click()
+      resolve()
+    }
+    look()
+  }))
   await wait(300)
   const stopped = await tab.evaluate(() => globalThis.reports)
   const silent = listed.at(-2).bytes.replaceAll(' ', '').toLowerCase()
