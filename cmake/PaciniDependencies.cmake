@@ -23,6 +23,8 @@ if(PACINI_BUILD_CLI OR PACINI_BUILD_TESTS OR PACINI_BUILD_PLUGIN)
     find_package(Boost 1.74 REQUIRED)
     # Without it nothing draws the picture that phones read; the address is shown as a text.
     find_package(PkgConfig REQUIRED)
+    # Without it studies do not tell the loudness of their sounds.
+    pkg_search_module(ebur128 IMPORTED_TARGET libebur128)
     pkg_search_module(qrcodegen IMPORTED_TARGET qrcodegencpp)
 endif()
 if(PACINI_BUILD_CLI OR PACINI_BUILD_TESTS)

@@ -19,7 +19,7 @@ help=$(sed -n '2,16p' "${BASH_SOURCE[0]}" | sed 's/^# \{0,1\}//')
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 build_packages=(g++ cmake ninja-build ccache pkg-config nlohmann-json3-dev libfmt-dev libboost-dev libcli11-dev libsndfile1-dev
-    libeigen3-dev libcairo2-dev libhidapi-dev libqrcodegencpp-dev librtaudio-dev libexpat1-dev libzip-dev)
+    libeigen3-dev libcairo2-dev libebur128-dev libhidapi-dev libqrcodegencpp-dev librtaudio-dev libexpat1-dev libzip-dev)
 # The plugin, the hosts that it is tried in, and a game controller that does not exist.
 plugin_packages=(juce-modules-source libjack-jackd2-dev fonts-roboto-unhinted fonts-dejavu-core)
 host_packages=(python3-venv python3-dev liblilv-dev lv2-dev xvfb xauth xdotool imagemagick x11-utils jackd2 jack-tools ardour
@@ -68,10 +68,10 @@ install_packages() {
     if [ "$(uname -s)" != Linux ] || ! command -v apt-get >/dev/null; then
         cat <<'TEXT'
 bootstrap: installs by itself on Debian and Ubuntu only. Elsewhere, install a C++20 compiler, CMake 3.25, Ninja, pkg-config,
-nlohmann-json, fmt, CLI11, libsndfile, Eigen, cairo, expat and libzip (for the tests also Catch2 and Python 3 with jsonschema), then run
+nlohmann-json, fmt, CLI11, libsndfile, Eigen, cairo, expat, libebur128 and libzip (for the tests also Catch2 and Python 3 with jsonschema), then run
     cmake --workflow --preset test
-  macOS (Homebrew):  brew install cmake ninja pkg-config nlohmann-json fmt cli11 libsndfile eigen cairo expat libzip catch2 python
-  Windows (vcpkg):   vcpkg install nlohmann-json fmt cli11 libsndfile eigen3 cairo expat libzip catch2 pkgconf
+  macOS (Homebrew):  brew install cmake ninja pkg-config nlohmann-json fmt cli11 libsndfile eigen cairo expat libebur128 libzip catch2 python
+  Windows (vcpkg):   vcpkg install nlohmann-json fmt cli11 libsndfile eigen3 cairo expat libebur128 libzip catch2 pkgconf
 TEXT
         exit 1
     fi

@@ -28,7 +28,7 @@ COMPILED_IN = {"libeigen3-dev": "eigen", "nlohmann-json3-dev": "json", "libcli11
                "libboost-dev": "boost", "juce-modules-source-data": "juce"}
 # Headers of shared libraries, and of what is opened at run time: these are not in the package.
 SHARED = set("""libc6-dev linux-libc-dev libstdc++-dev libasound2-dev libcairo2-dev libexpat1-dev libfreetype-dev
-    libhidapi-dev
+    libebur128-dev libhidapi-dev
     libjack-jackd2-dev libjpeg62-turbo-dev libpng-dev libpulse-dev libqrcodegencpp-dev librtaudio-dev libsndfile1-dev
     libx11-dev libxcursor-dev libxext-dev libxinerama-dev libxrandr-dev libxrender-dev libzip-dev x11proto-dev
     zlib1g-dev""".split())
