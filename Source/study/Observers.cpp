@@ -3,6 +3,8 @@
 #include "study/statistics/Distributions.h"
 #include "study/statistics/TwoSamples.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -32,6 +34,28 @@ double elevationAt(double frequency)
 {
     const double octaves = std::log2(frequency / 250.0);
     return octaves < 0.0 ? -12.0 * octaves : 10.0 * octaves;
+}
+
+/// An answer that the question allows; of a number within the lower half of its range, as of ages and years.
+std::string answerTo(const Item& item, Random& random)
+{
+    switch (item.kind)
+    {
+    case QuestionKind::text:
+        return "simulated";
+    case QuestionKind::choice:
+        return item
+            .choices[std::min(static_cast<std::size_t>(random.uniform() * static_cast<double>(item.choices.size())),
+                              item.choices.size() - 1)]
+            .name;
+    case QuestionKind::number:
+    case QuestionKind::likert:
+        break;
+    }
+    const double range = item.scale.high - item.scale.low, step = item.scale.step > 0.0 ? item.scale.step : 1.0;
+    const double most = item.kind == QuestionKind::number ? 0.5 * range : range;
+    const double value = item.scale.low + step * std::floor(random.uniform() * (most / step + 1.0));
+    return fmt::to_string(std::min(value, item.scale.low + step * std::floor(range / step)));
 }
 
 constexpr std::array vocabulary{"pulsing", "rough", "soft",    "short",    "rising",
@@ -132,6 +156,38 @@ Answer Observer::answer(const Trial& trial, std::optional<double> level)
                                                                   0.5 * std::abs(normalNumber(random))) /
                                                                  4.0);
         break;
+    case Task::questionnaire:
+        for (const Item& item : block.items)
+            given.items.emplace_back(item.name, answerTo(item, random));
+        break;
+    case Task::place:
+    {
+        // Drawn to the middle, as people are where they do not know.
+        constexpr double drawn = 0.8, spread = 0.12;
+        const auto& place = study.stimuli[trial.stimuli.front()].place;
+        const double felt = 0.5 + drawn * ((place ? place->position : 0.5) - 0.5) + spread * normalNumber(random);
+        given.value = onScale(block.scale, block.scale.low + (block.scale.high - block.scale.low) * felt);
+        break;
+    }
+    case Task::side:
+        given.choice = trial.right >= 0 ? choose(params.discrimination, 2) : random.uniform() < 0.5 ? 0 : 1;
+        break;
+    case Task::count:
+    {
+        const std::vector<int> counts = countsOf(study, block);
+        const int miss = random.uniform() < 0.5 ? -1 : 1;
+        given.choice = std::clamp(trial.right + (random.uniform() < params.discrimination ? 0 : miss), counts.front(),
+                                  counts.back());
+        break;
+    }
+    case Task::which:
+    {
+        int felt = 0;
+        for (std::size_t i = 0; i < eventsOf(study, block).size(); ++i)
+            felt |= (trial.right ^ (random.uniform() < params.discrimination ? 0 : 1 << i)) & (1 << i);
+        given.choice = felt;
+        break;
+    }
     case Task::sorting:
         for (const std::size_t stimulus : trial.stimuli)
             given.values.push_back(valueOfStimulus(stimulus) + 0.3 * normalNumber(random) > 0.0 ? 1.0 : 0.0);

@@ -154,8 +154,14 @@ std::vector<Trial> trialsOf(const Study& study, std::size_t blockIndex, std::siz
             return comparison(study, block, stimulus, random);
         Trial trial;
         trial.stimuli = {stimulus};
+        trial.right = rightAnswer(study, block, stimulus);
         return trial;
     };
+    if (block.task == Task::questionnaire)
+    {
+        add({});
+        return trials;
+    }
     const bool onOnePage =
         block.task == Task::multiStimulus || block.task == Task::ranking || block.task == Task::sorting;
     if (!onOnePage && block.task != Task::similarity)

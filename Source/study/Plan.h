@@ -16,9 +16,10 @@ namespace pacini::study
 struct Trial
 {
     std::size_t block = 0;
-    /// Indices of stimuli, in the order of presentation: one; both of a pair; A, B and X; the intervals; all of a page.
+    /// Indices of stimuli, in the order of presentation: none of a
+    /// questionnaire; one; both of a pair; A, B and X; the intervals; all of a page.
     std::vector<std::size_t> stimuli;
-    int right = -1;        ///< index of the right choice, -1 where there is none
+    int right = -1;        ///< the right choice: an index, or see rightAnswer(); -1 where there is none
     bool training = false; ///< does not count
     bool adaptive = false; ///< the interval `right` has the value that the staircase of its stimulus requests
     bool afterBreak = false;

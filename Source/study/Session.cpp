@@ -34,7 +34,8 @@ std::string hashOf(const Study& study)
 
 std::size_t testedStimulus(const Trial& trial)
 {
-    return trial.right < 0 ? trial.stimuli.front() : trial.stimuli[static_cast<std::size_t>(trial.right)];
+    const auto right = static_cast<std::size_t>(std::max(trial.right, 0));
+    return trial.stimuli[right < trial.stimuli.size() ? right : 0];
 }
 
 std::vector<fs::path> sessionLogs(const fs::path& folder)
@@ -183,6 +184,13 @@ Result<std::optional<bool>> Session::answer(const Answer& answer)
     if (now == nullptr)
         return Error{ErrorCode::invalidArgument, "", "has no trial that waits for an answer"};
     const Block& block = study.blocks[now->block];
+    for (const Item& item : block.items)
+    {
+        const auto given = std::find_if(answer.items.begin(), answer.items.end(),
+                                        [&](const auto& one) { return one.first == item.name; });
+        if (const auto problem = problemOf(item, given == answer.items.end() ? std::string() : given->second))
+            return Error{ErrorCode::invalidArgument, item.name, *problem};
+    }
     Record record;
     record.trial = count;
     record.block = block.name;

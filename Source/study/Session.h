@@ -45,8 +45,8 @@ public:
     [[nodiscard]] std::optional<double> level() const;
 
     /// Stores the answer on the disk, then moves to the next trial; after a drop-out it repeats the trial, at most
-    /// three times. Returns whether the choice was right, if there is a right one. Errors: those of SessionLog; the
-    /// session is then unchanged.
+    /// three times. Returns whether the choice was right, if there is a right one. Errors: those of SessionLog;
+    /// invalidArgument for a questionnaire with a missing or invalid answer; the session is then unchanged.
     [[nodiscard]] Result<std::optional<bool>> answer(const Answer& answer);
 
     /// Stores another occurrence, such as "stopped".

@@ -64,6 +64,9 @@ Record recordOf(const Json& line)
             record.answer.values.push_back(value.is_number() ? value.get<double>() : 0.0);
     record.answer.choice = optionalOf<int>(line, "choice");
     record.answer.words = valueOr(line, "words", std::string());
+    if (const auto items = line.find("items"); items != line.end() && items->is_object())
+        for (const auto& [name, text] : items->items())
+            record.answer.items.emplace_back(name, text.is_string() ? text.get<std::string>() : text.dump());
     record.answer.seconds = valueOr(line, "seconds", 0.0);
     record.answer.replays = valueOr(line, "replays", 0);
     record.answer.soundOnset = optionalOf<double>(line, "soundOnset");
@@ -117,6 +120,8 @@ Line lineOf(const Record& record)
         line["correct"] = *record.correct;
     if (!answer.words.empty())
         line["words"] = answer.words;
+    for (const auto& [name, text] : answer.items)
+        line["items"][name] = text;
     line["seconds"] = answer.seconds;
     line["replays"] = answer.replays;
     if (answer.soundOnset)

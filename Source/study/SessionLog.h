@@ -15,6 +15,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace pacini::study
@@ -44,7 +45,8 @@ struct Answer
     std::vector<double> values;  ///< of a page: ratings, places or heaps of the trial's stimuli
     std::optional<int> choice;   ///< from 0
     std::string words;
-    double seconds = 0.0; ///< from the end of the presentation to the answer
+    std::vector<std::pair<std::string, std::string>> items; ///< of a questionnaire: names and answers
+    double seconds = 0.0;                                   ///< from the end of the presentation to the answer
     int replays = 0;
     std::optional<double> soundOnset, touchOnset; ///< s of the device's clock
     int dropouts = 0;                             ///< drop-outs of the device during playback; the trial is repeated

@@ -2,11 +2,13 @@
 
 #include "io/ClipFile.h"
 #include "io/SoundEncoder.h"
+#include "study/Exposure.h"
 
 #include <pacini/actuator/FeltModel.h>
 #include <pacini/clip/PackedClip.h>
 #include <pacini/filters/Resampler.h>
 #include <pacini/synthesis/ActuatorOutput.h>
+#include <pacini/synthesis/PlayTimeline.h>
 #include <pacini/synthesis/RenderScene.h>
 
 #include <fmt/format.h>
@@ -135,6 +137,15 @@ std::vector<float> feltOf(const std::vector<float>& drive, const std::optional<P
     model.reset();
     model.process(felt, felt);
     return felt;
+}
+
+double largestDose(const std::vector<float>& touch, const std::vector<std::vector<float>>& more,
+                   const std::optional<Profile>& profile, int sampleRate, ExposedPart part)
+{
+    double largest = doseOf(feltOf(touch, profile, sampleRate), sampleRate, part);
+    for (const std::vector<float>& drive : more)
+        largest = std::max(largest, doseOf(feltOf(drive, profile, sampleRate), sampleRate, part));
+    return largest;
 }
 
 Result<std::vector<float>> StimulusMaker::soundOf(const Stimulus& stimulus) const
@@ -303,6 +314,8 @@ std::optional<Error> StimulusMaker::calibrate(std::vector<float>& touch, const S
 
 Result<PreparedStimulus> StimulusMaker::made(const Stimulus& stimulus) const
 {
+    if (!stimulus.mix.empty())
+        return mixed(stimulus);
     auto sound = soundOf(stimulus);
     if (!sound)
         return sound.error();
@@ -312,12 +325,73 @@ Result<PreparedStimulus> StimulusMaker::made(const Stimulus& stimulus) const
     if (stimulus.sensationLevel || stimulus.acceleration)
         if (auto problem = calibrate(*touch, stimulus))
             return *problem;
-    const std::size_t frames = std::max(sound->size(), touch->size());
-    if (static_cast<double>(frames) > longestStimulus * settings.sampleRate)
+    if (static_cast<double>(std::max(sound->size(), touch->size())) > longestStimulus * settings.sampleRate)
         return Error{ErrorCode::tooLarge, "", fmt::format("lasts longer than {} s", longestStimulus)};
-    sound->resize(frames, 0.0f);
-    touch->resize(frames, 0.0f);
-    return PreparedStimulus{std::move(*sound), std::move(*touch)};
+    return placed(std::move(*sound), *touch, stimulus);
+}
+
+/// The touch on every actuator of the row, by the pan laws of scenes; delays are whole frames. No actuator gets more
+/// than the touch alone, so that all stay within the limits of the profile.
+PreparedStimulus StimulusMaker::placed(std::vector<float> sound, const std::vector<float>& touch,
+                                       const Stimulus& stimulus) const
+{
+    const auto actuators = static_cast<std::size_t>(whole.row.actuators);
+    const Place place = stimulus.place.value_or(Place{0.5, PanLaw::delay}); // of delay: the same level for all
+    const double longest = stimulus.place && place.by != PanLaw::constantPower ? whole.row.delay : 0.0;
+    std::vector<std::size_t> delays;
+    for (std::size_t a = 0; a < actuators; ++a)
+        delays.push_back(static_cast<std::size_t>(
+            std::llround(panDelay(place.position, a, actuators, longest) * settings.sampleRate)));
+    const std::size_t frames = std::max(sound.size(), touch.size() + *std::max_element(delays.begin(), delays.end()));
+    PreparedStimulus prepared{std::move(sound), {}, {}};
+    prepared.sound.resize(frames, 0.0f);
+    for (std::size_t a = 0; a < actuators; ++a)
+    {
+        const double gain = panGain(place.by, place.position, a, actuators);
+        std::vector<float> drive(frames, 0.0f);
+        for (std::size_t n = 0; n < touch.size(); ++n)
+            drive[n + delays[a]] = static_cast<float>(gain * static_cast<double>(touch[n]));
+        if (a == 0)
+            prepared.touch = std::move(drive);
+        else
+            prepared.more.push_back(std::move(drive));
+    }
+    return prepared;
+}
+
+/// All at once, each at its own place; what is too much for an actuator is limited once more.
+Result<PreparedStimulus> StimulusMaker::mixed(const Stimulus& stimulus) const
+{
+    PreparedStimulus sum;
+    const auto add = [](std::vector<float>& to, const std::vector<float>& from)
+    {
+        to.resize(std::max(to.size(), from.size()), 0.0f);
+        for (std::size_t n = 0; n < from.size(); ++n)
+            to[n] += from[n];
+    };
+    sum.more.resize(static_cast<std::size_t>(whole.row.actuators) - 1);
+    for (const std::string& name : stimulus.mix)
+    {
+        const auto part = made(whole.stimuli[stimulusNamed(whole, name)]);
+        if (!part)
+            return Error{part.error().code, fmt::format("mix (\"{}\")", name), part.error().text()};
+        add(sum.sound, part->sound);
+        add(sum.touch, part->touch);
+        for (std::size_t a = 0; a < sum.more.size(); ++a)
+            add(sum.more[a], part->more[a]);
+    }
+    scale(sum.sound, Decibels(stimulus.soundLevel).gain());
+    const double overdrive = settings.profile ? settings.profile->drive.overdrive : 1.0;
+    const auto finish = [&](std::vector<float>& drive)
+    {
+        drive.resize(sum.sound.size(), 0.0f);
+        scale(drive, Decibels(stimulus.touchLevel).gain() * overdrive);
+        protectDrive(drive, settings.profile, settings.sampleRate);
+    };
+    finish(sum.touch);
+    for (std::vector<float>& drive : sum.more)
+        finish(drive);
+    return sum;
 }
 
 Result<PreparedStimulus> StimulusMaker::make(std::size_t index, const std::optional<Variation>& variation)

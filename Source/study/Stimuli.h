@@ -29,8 +29,9 @@ struct StimulusParams
 /// A stimulus on the device's clock.
 struct PreparedStimulus
 {
-    std::vector<float> sound; ///< for both ears; as long as the touch
-    std::vector<float> touch; ///< drive signal, within the limits of the profile
+    std::vector<float> sound;             ///< for both ears; as long as the touch
+    std::vector<float> touch;             ///< drive signal of the first actuator, within the limits of the profile
+    std::vector<std::vector<float>> more; ///< those of the other actuators in the row, each as long
 };
 
 /// Variable of a stimulus that an adaptive trial changes.
@@ -56,6 +57,9 @@ public:
 
 private:
     [[nodiscard]] Result<PreparedStimulus> made(const Stimulus& stimulus) const;
+    [[nodiscard]] Result<PreparedStimulus> mixed(const Stimulus& stimulus) const;
+    [[nodiscard]] PreparedStimulus placed(std::vector<float> sound, const std::vector<float>& touch,
+                                          const Stimulus& stimulus) const;
     [[nodiscard]] Result<std::vector<float>> soundOf(const Stimulus& stimulus) const;
     [[nodiscard]] Result<std::vector<float>> touchOf(const Stimulus& stimulus) const;
     [[nodiscard]] Result<std::vector<float>> translated(const Stimulus& stimulus) const;
@@ -75,5 +79,9 @@ void protectDrive(std::vector<float>& samples, const std::optional<Profile>& pro
 [[nodiscard]] std::vector<float> feltOf(const std::vector<float>& drive, const std::optional<Profile>& profile,
                                         int sampleRate);
 inline constexpr double assumedAcceleration = 50.0;
+
+/// Returns the dose (see doseOf()) of the actuator that vibrates most. `more`: drive signals of the other actuators.
+[[nodiscard]] double largestDose(const std::vector<float>& touch, const std::vector<std::vector<float>>& more,
+                                 const std::optional<Profile>& profile, int sampleRate, ExposedPart part);
 
 } // namespace pacini::study

@@ -4,6 +4,8 @@
 
 #include "study/Exposure.h"
 
+#include <pacini/synthesis/Scene.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -32,7 +34,12 @@ enum class Task
     multiStimulus, ///< MUSHRA: several at once on a scale, with hidden reference and anchors
     ranking,       ///< all in order
     similarity,    ///< similarity of two, on a scale
-    sorting        ///< into as many heaps as there are kinds
+    sorting,       ///< into as many heaps as there are kinds
+    questionnaire, ///< a page of questions, without a stimulus
+    place,         ///< where it was felt: a position on the row of actuators
+    side,          ///< left or right of the middle of the row
+    count,         ///< how many events were felt at once
+    which          ///< which events were felt at once
 };
 
 /// Presentation of a stimulus with sound and touch.
@@ -61,8 +68,43 @@ struct Tone
     bool operator==(const Tone&) const = default;
 };
 
-/// A stimulus. At most one of clip, drive, tone and silence defines the haptic part; without any it is the translation
-/// of the sound.
+/// Position of a touch on the row of actuators.
+struct Place
+{
+    double position = 0.5; ///< 0: the first actuator (left), 1: the last
+    PanLaw by = PanLaw::constantPower;
+    bool operator==(const Place&) const = default;
+};
+
+/// Spectrum of a sound object.
+enum class Mass
+{
+    definite, ///< one pitch
+    complex,  ///< no definite pitch
+    varying   ///< a pitch that changes
+};
+
+/// Envelope of a sound object.
+enum class Facture
+{
+    continuous,
+    impulse,
+    iterative
+};
+
+/// Class of a sound in Schaeffer's typology (Traité des objets musicaux, 1966), such as X'' for complex and iterative.
+struct SoundObject
+{
+    Mass mass = Mass::definite;
+    Facture facture = Facture::continuous;
+    bool operator==(const SoundObject&) const = default;
+};
+
+/// Returns Schaeffer's sign of a class: N, X or Y for the mass, with ' for an impulse and '' for an iterative sound.
+[[nodiscard]] std::string signOf(const SoundObject& object);
+
+/// A stimulus. At most one of clip, drive, tone, silence and mix defines the haptic part; without any it is the
+/// translation of the sound.
 struct Stimulus
 {
     std::string name;  ///< never shown to participants
@@ -71,6 +113,7 @@ struct Stimulus
     std::string drive; ///< sound file that drives the actuator as it is
     std::optional<Tone> tone;
     std::optional<double> silence;                  ///< s without touch
+    std::vector<std::string> mix;                   ///< stimuli that are felt (and heard) at once
     std::string method;                             ///< of translation; empty: a2vt
     std::optional<double> bands, breakpoints, bits; ///< of translation by a2vt
     double soundLevel = 0.0;                        ///< dB
@@ -78,6 +121,10 @@ struct Stimulus
     /// If one of these is given, it sets the peak of the touch, and touchLevel (not the study's) is relative to it.
     std::optional<double> sensationLevel; ///< dB above the weakest drive that is felt, by the actuator's profile
     std::optional<double> acceleration;   ///< m/s2 that are felt, by the actuator's profile
+    std::optional<Place> place;           ///< none: all actuators alike
+    std::optional<SoundObject> object;    ///< its class
+    std::vector<std::string> tags;        ///< other classes, for the report
+    Text label;                           ///< by which participants name it in the task `which`
     bool operator==(const Stimulus&) const = default;
 };
 
@@ -141,6 +188,35 @@ struct Adaptive
 /// The value of that strength.
 [[nodiscard]] double valueOf(Variable variable, double strength) noexcept;
 
+/// Kind of a question in a questionnaire.
+enum class QuestionKind
+{
+    text,   ///< free text
+    number, ///< within the scale's ends, in its steps
+    choice, ///< one of the choices
+    likert  ///< agreement on the scale
+};
+
+/// An answer to choose.
+struct ItemChoice
+{
+    std::string name; ///< in the results
+    Text text;        ///< for participants; none: the name
+    bool operator==(const ItemChoice&) const = default;
+};
+
+/// A question of a questionnaire.
+struct Item
+{
+    std::string name; ///< in the results
+    QuestionKind kind = QuestionKind::text;
+    Text question;
+    std::vector<ItemChoice> choices; ///< of kind choice
+    RatingScale scale;               ///< of kinds number and likert
+    bool optional = false;           ///< may stay empty
+    bool operator==(const Item&) const = default;
+};
+
 /// A part of the study: one task with all its stimuli.
 struct Block
 {
@@ -156,14 +232,15 @@ struct Block
     Text question;
     RatingScale scale;
     Adaptive adaptive;
-    int intervals = 2;     ///< of forced choices: 2 or 3
-    int repeats = 1;       ///< how often each stimulus comes
-    int replays = -1;      ///< how often one may be played again; -1: any number
-    double delay = 0.0;    ///< s of touch after sound, negative: before
-    double pause = 0.5;    ///< pause between consecutive presentations, s
-    bool masking = false;  ///< noise on the headphones while something is felt alone
-    int breakAfter = 0;    ///< trials; 0: none
-    bool feedback = false; ///< whether an answer was right
+    int intervals = 2;       ///< of forced choices: 2 or 3
+    int repeats = 1;         ///< how often each stimulus comes
+    int replays = -1;        ///< how often one may be played again; -1: any number
+    double delay = 0.0;      ///< s of touch after sound, negative: before
+    double pause = 0.5;      ///< pause between consecutive presentations, s
+    bool masking = false;    ///< noise on the headphones while something is felt alone
+    int breakAfter = 0;      ///< trials; 0: none
+    bool feedback = false;   ///< whether an answer was right
+    std::vector<Item> items; ///< of questionnaire
     bool operator==(const Block&) const = default;
 };
 
@@ -182,8 +259,33 @@ struct ExposureLimits
     ExposedPart part = ExposedPart::hand;
     double daily = actionValue(ExposedPart::hand); ///< m/s2, A(8)
     double minutes = 60; ///< of a session
+    /// dB(A), equivalent level of a stimulus; only with a calibration. None: 85.
+    std::optional<double> soundLevel;
+    /// dB(A), L_EX,8h of a session, at most 87 (limit value of the directive 2003/10/EC); only with a calibration.
+    /// None: 80, its lower action value.
+    std::optional<double> soundDaily;
+    std::optional<double> loudness; ///< LUFS of a stimulus, integrated; none: any
     bool operator==(const ExposureLimits&) const = default;
 };
+
+inline constexpr double usualSoundLevel = 85.0, usualSoundDaily = 80.0; // dB(A)
+
+/// Level of the calibration tone in the signal and at the ear, which gives the level of everything that is heard.
+struct SoundCalibration
+{
+    double tone = -20.0; ///< dB re full scale (RMS)
+    double level = 70.0; ///< dB SPL that was measured
+    bool operator==(const SoundCalibration&) const = default;
+};
+
+/// Actuators in a row, on consecutive outputs.
+struct TouchRow
+{
+    int actuators = 1;   ///< 1 to mostActuators
+    double delay = 0.01; ///< s of an actuator at the other end, for places by delay
+    bool operator==(const TouchRow&) const = default;
+};
+inline constexpr int mostActuators = 8;
 
 struct Study
 {
@@ -200,12 +302,14 @@ struct Study
     double soundLevel = 0.0; ///< dB
     Masking masking;
     ExposureLimits limits;
+    TouchRow row;
+    std::optional<SoundCalibration> calibration;
     bool operator==(const Study&) const = default;
 };
 
 namespace studyLimits
 {
-inline constexpr std::size_t stimuli = 10'000, groups = 100, blocks = 100;
+inline constexpr std::size_t stimuli = 10'000, groups = 100, blocks = 100, items = 200, choices = 100, events = 12;
 inline constexpr int participants = 100'000;
 } // namespace studyLimits
 
@@ -222,7 +326,38 @@ inline constexpr std::size_t noStimulus = static_cast<std::size_t>(-1);
 /// Participants of all groups.
 [[nodiscard]] int participantsOf(const Study& study);
 
+/// The classes that a stimulus belongs to, each with its place in reports: the sign of its sound object (X''), mass,
+/// facture and tags.
+[[nodiscard]] std::vector<std::pair<int, std::string>> classesOf(const Stimulus& stimulus);
+
+/// Whether a stimulus belongs to the class of that name.
+[[nodiscard]] bool belongsTo(const Stimulus& stimulus, std::string_view name);
+
 /// Whether a task compares with a reference.
 [[nodiscard]] bool needsReference(const Block& block);
+
+/// Whether a block presents something.
+[[nodiscard]] bool hasStimuli(const Block& block) noexcept;
+
+/// Number of events that a stimulus consists of: none of silence, of a mix its parts.
+[[nodiscard]] int eventsIn(const Stimulus& stimulus) noexcept;
+
+/// The single events of a block's stimuli, as indices into the study's, in its order: the parts of mixes, and stimuli
+/// that are neither mixes nor silence.
+[[nodiscard]] std::vector<std::size_t> eventsOf(const Study& study, const Block& block);
+
+/// The answers that a block of the task `count` offers: from 0 (if some stimulus is silence) or 1 to the number of
+/// events.
+[[nodiscard]] std::vector<int> countsOf(const Study& study, const Block& block);
+
+/// The right answer to a single stimulus, as Answer::choice: of `side` 0 (left) or 1, of `count` the number of events,
+/// of `which` the sum of 2^i over the events i of eventsOf(). -1 for none, as of a touch in the middle.
+[[nodiscard]] int rightAnswer(const Study& study, const Block& block, std::size_t stimulus);
+
+/// Chance of a right answer by guessing; 0 for tasks without one.
+[[nodiscard]] double guessOf(const Study& study, const Block& block);
+
+/// What is wrong with an answer to a question; none for a valid one. An empty text is no answer.
+[[nodiscard]] std::optional<std::string> problemOf(const Item& item, const std::string& answer);
 
 } // namespace pacini::study

@@ -34,6 +34,13 @@ double answerSeconds(const Block& block, std::size_t stimuli)
     case Task::rating:
     case Task::similarity:
         return 5.0;
+    case Task::questionnaire:
+        return 10.0 * static_cast<double>(block.items.size());
+    case Task::which:
+    case Task::place:
+        return 5.0;
+    case Task::side:
+    case Task::count:
     case Task::abx:
     case Task::forcedChoice:
     case Task::staircase:
@@ -46,6 +53,7 @@ constexpr double replayShare = 0.5;  // of trials, played once more
 constexpr double sameBelow = -30.0;  // dB; smaller differences than 3 % of the amplitude are below all JNDs of level
 constexpr double longSession = 60.0; // minutes
 constexpr double longStretch = 30.0; // minutes without a break (ITU-R BS.1116-3: sessions of 20 to 30)
+constexpr double evenLoudness = 6.0; // LU, +-3 as in Weber (2020), 5.1.2
 constexpr std::size_t mostCompared = 40; // stimuli of a block, each with each
 
 /// Prepared stimuli, and their exposure.
@@ -53,6 +61,7 @@ struct MadeStimulus
 {
     double seconds = 0.0;
     double dose = 0.0;
+    double soundDose = 0.0; ///< squared sound pressure re 20 uPa, A-weighted, over time, s
     PreparedStimulus prepared;
 };
 
@@ -68,6 +77,7 @@ public:
     {
         result.exposureIsAssumed = !maker.params().profile || !maker.params().profile->body;
         makeAll();
+        checkSoundAsWhole();
         checkGroups();
         checkTexts();
         for (std::size_t i = 0; i < study.blocks.size(); ++i)
@@ -102,14 +112,70 @@ private:
             const int fs = maker.params().sampleRate;
             MadeStimulus one;
             one.seconds = static_cast<double>(prepared->touch.size()) / fs;
-            one.dose = doseOf(feltOf(prepared->touch, maker.params().profile, fs), fs, study.limits.part);
+            one.dose = largestDose(prepared->touch, prepared->more, maker.params().profile, fs,
+                                   study.limits.part);
+            const auto isStill = [](const std::vector<float>& drive)
+            {
+                return std::all_of(drive.begin(), drive.end(), [](float x) { return x == 0.0f; });
+            };
             const bool silent =
-                std::all_of(prepared->touch.begin(), prepared->touch.end(), [](float x) { return x == 0.0f; });
+                isStill(prepared->touch) && std::all_of(prepared->more.begin(), prepared->more.end(), isStill);
             if (silent && !study.stimuli[i].silence)
                 doubts(fmt::format("stimuli[{}]", i), fmt::format("\"{}\" has nothing to feel", study.stimuli[i].name));
+            checkSound(i, prepared->sound, one);
             one.prepared = std::move(*prepared);
             made.emplace(i, std::move(one));
         }
+    }
+
+    /// Notes the level of a sound and holds it against the limits.
+    void checkSound(std::size_t index, const std::vector<float>& sound, MadeStimulus& one)
+    {
+        if (std::all_of(sound.begin(), sound.end(), [](float x) { return x == 0.0f; }))
+            return;
+        HeardStimulus heard;
+        heard.stimulus = study.stimuli[index].name;
+        heard.levels = levelsOf(sound, maker.params().sampleRate);
+        const std::string where = fmt::format("stimuli[{}]", index);
+        if (study.calibration)
+        {
+            heard.soundPressure = heardLevel(*study.calibration, heard.levels.rms);
+            heard.weighted = heardLevel(*study.calibration, heard.levels.weighted);
+            one.soundDose = Decibels(*heard.weighted).gain() * Decibels(*heard.weighted).gain() * one.seconds;
+            const double most = study.limits.soundLevel.value_or(usualSoundLevel);
+            if (*heard.weighted > most)
+                spoils(where, fmt::format("\"{}\" is heard at {:.1f} dB(A), {:.1f} are allowed (limits.soundLevel); "
+                                          "lower soundLevel",
+                                          heard.stimulus, *heard.weighted, most));
+        }
+        if (study.limits.loudness && heard.levels.loudness && *heard.levels.loudness > *study.limits.loudness)
+            spoils(where, fmt::format("\"{}\" has {:.1f} LUFS, {:.1f} are allowed (limits.loudness); lower soundLevel",
+                                      heard.stimulus, *heard.levels.loudness, *study.limits.loudness));
+        if (heard.levels.clipped)
+            doubts(where, fmt::format("\"{}\" is louder than full scale and will be clipped; lower soundLevel",
+                                      heard.stimulus));
+        result.heard.push_back(std::move(heard));
+    }
+
+    void checkSoundAsWhole()
+    {
+        if (!study.calibration && (study.limits.soundLevel || study.limits.soundDaily))
+            spoils("limits", "has a limit in dB(A), which nothing can be held against without a calibration; play "
+                             "the tone of pacini study tone, measure its level at the ear and enter it as "
+                             "\"calibration\": {\"level\": 70}");
+        if (study.limits.loudness && !knowsLoudness())
+            spoils("limits.loudness", "cannot be checked, as this program was built without libebur128");
+        std::optional<double> least, most;
+        for (const HeardStimulus& one : result.heard)
+            if (one.levels.loudness)
+            {
+                least = std::min(least.value_or(*one.levels.loudness), *one.levels.loudness);
+                most = std::max(most.value_or(*one.levels.loudness), *one.levels.loudness);
+            }
+        if (least && *most - *least > evenLoudness)
+            doubts("stimuli",
+                   fmt::format("are unequally loud: {:.1f} to {:.1f} LUFS; soundLevel of each makes them alike", *least,
+                               *most));
     }
 
     void checkGroups()
@@ -138,7 +204,11 @@ private:
         };
         collect(study.welcome);
         for (const Block& block : study.blocks)
+        {
             collect(block.question);
+            for (const Item& item : block.items)
+                collect(item.question);
+        }
         const auto demand = [&](const Text& text, const std::string& where, bool needed)
         {
             if (text.empty())
@@ -157,7 +227,15 @@ private:
         for (std::size_t i = 0; i < study.blocks.size(); ++i)
         {
             const std::string where = fmt::format("blocks[{}]", i);
-            demand(study.blocks[i].question, where + ".question", true);
+            demand(study.blocks[i].question, where + ".question", hasStimuli(study.blocks[i]));
+            for (std::size_t k = 0; k < study.blocks[i].items.size(); ++k)
+            {
+                const Item& item = study.blocks[i].items[k];
+                const std::string place = fmt::format("{}.items[{}]", where, k);
+                demand(item.question, place + ".question", true);
+                for (std::size_t c = 0; c < item.choices.size(); ++c)
+                    demand(item.choices[c].text, fmt::format("{}.choices[{}].text", place, c), false);
+            }
             demand(study.blocks[i].scale.lowLabel, where + ".scale.lowLabel", false);
             demand(study.blocks[i].scale.highLabel, where + ".scale.highLabel", false);
         }
@@ -180,6 +258,8 @@ private:
             if (std::none_of(study.blocks.begin(), study.blocks.end(),
                              [&](const Block& one) { return isFor(one, group.name); }))
                 spoils("groups", fmt::format("has \"{}\", for which there is no block", group.name));
+        if (!hasStimuli(block))
+            return;
         if (block.presentation == Presentation::touch && !block.masking)
             doubts(where + ".masking", "is off: participants may hear the actuator");
         // Only what is presented as it is; a staircase varies one stimulus.
@@ -199,7 +279,7 @@ private:
             return;
         double difference = -std::numeric_limits<double>::infinity();
         if (block.presentation != Presentation::sound)
-            difference = differenceDecibels(a->second.prepared.touch, b->second.prepared.touch);
+            difference = touchDifference(a->second.prepared, b->second.prepared);
         if (block.presentation != Presentation::touch)
             difference = std::max(difference, differenceDecibels(a->second.prepared.sound, b->second.prepared.sound));
         if (difference < sameBelow)
@@ -214,7 +294,7 @@ private:
             ++slot;
         GroupLoad load;
         load.group = group.name;
-        double seconds = 0.0, dose = 0.0;
+        double seconds = 0.0, dose = 0.0, soundDose = 0.0;
         for (std::size_t index = 0; index < study.blocks.size(); ++index)
         {
             const Block& block = study.blocks[index];
@@ -231,12 +311,30 @@ private:
                         one.seconds * (block.presentation == Presentation::consecutive ? 2.0 : 1.0) + block.pause;
                     if (block.presentation != Presentation::sound)
                         dose += one.dose * (1.0 + replayShare);
+                    if (block.presentation != Presentation::touch)
+                        soundDose += one.soundDose * (1.0 + replayShare);
+                    if (study.calibration && block.masking && block.presentation != Presentation::simultaneous &&
+                        block.presentation != Presentation::sound)
+                    {
+                        // Unweighted, which is never less.
+                        const double noise = Decibels(heardLevel(*study.calibration, study.masking.level)).gain();
+                        soundDose += noise * noise * (one.seconds + block.pause) * (1.0 + replayShare);
+                    }
                 }
                 seconds += playing * (1.0 + replayShare) + answerSeconds(block, trial.stimuli.size());
             }
         }
         load.minutes = seconds / 60.0;
         load.exposure = dailyExposure(dose);
+        if (soundDose > 0.0)
+        {
+            load.soundDaily = Decibels::fromPower(soundDose / (8.0 * 3600.0)).value;
+            const double most = study.limits.soundDaily.value_or(usualSoundDaily);
+            if (*load.soundDaily > most)
+                spoils("limits.soundDaily",
+                       fmt::format("would be passed: group {} is exposed to L_EX,8h = {:.1f} dB(A), {:.1f} are allowed",
+                                   group.name, *load.soundDaily, most));
+        }
         if (load.exposure > study.limits.daily)
             spoils("limits.daily",
                    fmt::format(
@@ -271,9 +369,23 @@ private:
 };
 } // namespace
 
-double differenceDecibels(const std::vector<float>& a, const std::vector<float>& b)
+namespace
+{
+/// Energies of a difference, and of the mean of both.
+struct DifferenceSum
 {
     double difference = 0.0, energy = 0.0;
+
+    void add(const std::vector<float>& a, const std::vector<float>& b);
+    [[nodiscard]] double decibels() const
+    {
+        return difference > 0.0 ? Decibels::fromPower(difference / energy).value
+                                : -std::numeric_limits<double>::infinity();
+    }
+};
+
+void DifferenceSum::add(const std::vector<float>& a, const std::vector<float>& b)
+{
     for (std::size_t n = 0; n < std::max(a.size(), b.size()); ++n)
     {
         const double x = n < a.size() ? static_cast<double>(a[n]) : 0.0,
@@ -281,7 +393,23 @@ double differenceDecibels(const std::vector<float>& a, const std::vector<float>&
         difference += (x - y) * (x - y);
         energy += 0.5 * (x * x + y * y);
     }
-    return difference > 0.0 ? Decibels::fromPower(difference / energy).value : -std::numeric_limits<double>::infinity();
+}
+} // namespace
+
+double differenceDecibels(const std::vector<float>& a, const std::vector<float>& b)
+{
+    DifferenceSum sum;
+    sum.add(a, b);
+    return sum.decibels();
+}
+
+double touchDifference(const PreparedStimulus& a, const PreparedStimulus& b)
+{
+    DifferenceSum sum;
+    sum.add(a.touch, b.touch);
+    for (std::size_t i = 0; i < std::min(a.more.size(), b.more.size()); ++i)
+        sum.add(a.more[i], b.more[i]);
+    return sum.decibels();
 }
 
 StudyCheck checkStudy(const Study& study, const StimulusParams& params, const std::function<void(double)>& progress)

@@ -86,6 +86,62 @@ std::string lineOf(const Cells& cells, char separator, Change change)
     }
     return line + '\n';
 }
+
+/// A question, and its column in the table of participants.
+struct ItemColumn
+{
+    const Block* block;
+    const Item* item;
+    std::string title;
+};
+
+/// All questions in the order of the study; two of the same name have that of their block before theirs.
+std::vector<ItemColumn> itemColumns(const Study& study)
+{
+    std::vector<ItemColumn> columns;
+    std::map<std::string, int> counts;
+    for (const Block& block : study.blocks)
+        for (const Item& item : block.items)
+        {
+            columns.push_back({&block, &item, tabbed(item.name)});
+            ++counts[item.name];
+        }
+    for (ItemColumn& column : columns)
+        if (counts[column.item->name] > 1)
+            column.title = tabbed(column.block->name) + '.' + column.title;
+    return columns;
+}
+
+std::string answerOf(const StudyResults& results, const std::string& participant, const ItemColumn& column)
+{
+    for (const ItemAnswer& one : results.items)
+        if (one.participant == participant && one.block == column.block->name && one.item == column.item->name)
+            return one.answer;
+    return {};
+}
+
+std::string questionnairesCsv(const StudyResults& results)
+{
+    std::string text = "participant,group,block,item,answer\n";
+    for (const ItemAnswer& one : results.items)
+        text += fmt::format("{},{},{},{},{}\n", csvField(one.participant), csvField(one.group), csvField(one.block),
+                            csvField(one.item), csvField(one.answer));
+    return text;
+}
+
+/// What the columns of the table of participants are, as BIDS describes them.
+std::string participantsJson(const std::vector<ItemColumn>& columns)
+{
+    nlohmann::ordered_json json = nlohmann::ordered_json::object();
+    for (const ItemColumn& column : columns)
+    {
+        auto& entry = json[column.title];
+        entry["Description"] = inLanguage(column.item->question, "en");
+        for (const ItemChoice& choice : column.item->choices)
+            entry["Levels"][choice.name] = choice.text.empty() ? choice.name : inLanguage(choice.text, "en");
+    }
+    return json.dump(2) + "\n";
+}
 } // namespace
 
 std::vector<std::pair<std::string, std::string>> exportedFiles(const StudyResults& results)
@@ -95,13 +151,20 @@ std::vector<std::pair<std::string, std::string>> exportedFiles(const StudyResult
         answers += std::string(",") + column;
     answers += '\n';
     std::map<std::string, std::string> bids;
-    std::string participants = "participant_id\tgroup\tlanguage\tstarted\n";
+    const std::vector<ItemColumn> items = itemColumns(results.study);
+    std::string participants = "participant_id\tgroup\tlanguage\tstarted";
+    for (const ItemColumn& column : items)
+        participants += '\t' + column.title;
+    participants += '\n';
     for (const LoggedSession& session : results.sessions)
     {
         const SessionHead& head = session.head;
         const std::string subject = "sub-" + label(head.participant);
         participants +=
-            fmt::format("{}\t{}\t{}\t{}\n", subject, tabbed(head.group), tabbed(head.language), tabbed(head.started));
+            fmt::format("{}\t{}\t{}\t{}", subject, tabbed(head.group), tabbed(head.language), tabbed(head.started));
+        for (const ItemColumn& column : items)
+            participants += '\t' + tabbed(answerOf(results, head.participant, column));
+        participants += '\n';
         for (const Record& record : session.records)
         {
             const std::vector<std::string> cells = cellsOf(record);
@@ -124,6 +187,11 @@ std::vector<std::pair<std::string, std::string>> exportedFiles(const StudyResult
                                                            {"ratings.csv", ratingsCsv(results.ratings)}};
     if (!results.thresholds.empty())
         files.emplace_back("thresholds.csv", std::move(thresholds));
+    if (!items.empty())
+    {
+        files.emplace_back("questionnaires.csv", questionnairesCsv(results));
+        files.emplace_back("bids/participants.json", participantsJson(items));
+    }
     const nlohmann::ordered_json description{{"Name", results.study.name},
                                              {"BIDSVersion", "1.9.0"},
                                              {"DatasetType", "raw"},

@@ -3,6 +3,7 @@
 // Field lists of a study in JSON, which its reader and its writer follow.
 
 #include "io/Fields.h"
+#include "io/SceneFields.h"
 #include "study/Study.h"
 
 #include <array>
@@ -11,15 +12,28 @@
 namespace pacini::study::fields
 {
 
-inline constexpr std::array<Choice<Task>, 9> tasks{{{"rating", Task::rating},
-                                                    {"words", Task::words},
-                                                    {"abx", Task::abx},
-                                                    {"forcedChoice", Task::forcedChoice},
-                                                    {"staircase", Task::staircase},
-                                                    {"multiStimulus", Task::multiStimulus},
-                                                    {"ranking", Task::ranking},
-                                                    {"similarity", Task::similarity},
-                                                    {"sorting", Task::sorting}}};
+inline constexpr std::array<Choice<Task>, 14> tasks{{{"rating", Task::rating},
+                                                     {"words", Task::words},
+                                                     {"abx", Task::abx},
+                                                     {"forcedChoice", Task::forcedChoice},
+                                                     {"staircase", Task::staircase},
+                                                     {"multiStimulus", Task::multiStimulus},
+                                                     {"ranking", Task::ranking},
+                                                     {"similarity", Task::similarity},
+                                                     {"sorting", Task::sorting},
+                                                     {"questionnaire", Task::questionnaire},
+                                                     {"place", Task::place},
+                                                     {"side", Task::side},
+                                                     {"count", Task::count},
+                                                     {"which", Task::which}}};
+inline constexpr std::array<Choice<QuestionKind>, 4> questionKinds{{{"text", QuestionKind::text},
+                                                                    {"number", QuestionKind::number},
+                                                                    {"choice", QuestionKind::choice},
+                                                                    {"likert", QuestionKind::likert}}};
+inline constexpr std::array<Choice<Mass>, 3> masses{
+    {{"definite", Mass::definite}, {"complex", Mass::complex}, {"varying", Mass::varying}}};
+inline constexpr std::array<Choice<Facture>, 3> factures{
+    {{"continuous", Facture::continuous}, {"impulse", Facture::impulse}, {"iterative", Facture::iterative}}};
 inline constexpr std::array<Choice<Presentation>, 4> presentations{{{"sound", Presentation::sound},
                                                                     {"touch", Presentation::touch},
                                                                     {"consecutive", Presentation::consecutive},
@@ -57,6 +71,7 @@ void visitStimulus(AnyStimulus& stimulus, Visitor& visitor)
     visitor.optionalText("drive", stimulus.drive);
     visitor.optionalObject("tone", stimulus.tone, [&](auto& tone) { visitTone(tone, visitor); });
     visitor.optionalNumber("silence", stimulus.silence);
+    visitor.textList("mix", stimulus.mix, studyLimits::events);
     visitor.optionalText("method", stimulus.method);
     visitor.optionalNumber("bands", stimulus.bands);
     visitor.optionalNumber("breakpoints", stimulus.breakpoints);
@@ -65,6 +80,20 @@ void visitStimulus(AnyStimulus& stimulus, Visitor& visitor)
     visitor.number("touchLevel", stimulus.touchLevel, Need::usual);
     visitor.optionalNumber("sensationLevel", stimulus.sensationLevel);
     visitor.optionalNumber("acceleration", stimulus.acceleration);
+    visitor.optionalObject("place", stimulus.place,
+                           [&](auto& place)
+                           {
+                               visitor.number("position", place.position, Need::usual);
+                               visitor.choice("by", place.by, sceneFields::panLaws, Need::usual);
+                           });
+    visitor.optionalObject("object", stimulus.object,
+                           [&](auto& object)
+                           {
+                               visitor.choice("mass", object.mass, masses, Need::required);
+                               visitor.choice("facture", object.facture, factures, Need::required);
+                           });
+    visitor.textList("tags", stimulus.tags, mostNames);
+    visitor.texts("label", stimulus.label);
 }
 
 template <typename AnyScale, typename Visitor>
@@ -85,6 +114,22 @@ void visitAdaptive(AnyAdaptive& adaptive, Visitor& visitor)
     visitor.integer("down", adaptive.down, "must be a whole number, 1 to 4");
     visitor.integer("reversals", adaptive.reversals, "must be a whole number, 2 to 100");
     visitor.integer("trials", adaptive.trials, "must be a whole number, 5 to 1000");
+}
+
+template <typename AnyItem, typename Visitor>
+void visitItem(AnyItem& item, Visitor& visitor)
+{
+    visitor.text("name", item.name);
+    visitor.choice("kind", item.kind, questionKinds, Need::required);
+    visitor.texts("question", item.question);
+    visitor.list("choices", item.choices, studyLimits::choices, "choices",
+                 [&](auto& choice)
+                 {
+                     visitor.text("name", choice.name);
+                     visitor.texts("text", choice.text);
+                 });
+    visitor.object("scale", item.scale, Need::optional, [&](auto& scale) { visitScale(scale, visitor); });
+    visitor.truth("optional", item.optional);
 }
 
 template <typename AnyBlock, typename Visitor>
@@ -111,6 +156,7 @@ void visitBlock(AnyBlock& block, Visitor& visitor)
     visitor.truth("masking", block.masking);
     visitor.integer("breakAfter", block.breakAfter, "must be a whole number, 0 (none) to 1000");
     visitor.truth("feedback", block.feedback);
+    visitor.list("items", block.items, studyLimits::items, "questions", [&](auto& item) { visitItem(item, visitor); });
 }
 
 /// Shows `visitor` (FieldsReader or FieldsWriter) all entries after format and version, in the order of the file.
@@ -150,7 +196,22 @@ void visitStudy(AnyStudy& study, Visitor& visitor)
                            limits.daily = actionValue(limits.part); // unless the study has its own
                        visitor.number("daily", limits.daily, Need::usual);
                        visitor.number("minutes", limits.minutes, Need::usual);
+                       visitor.optionalNumber("soundLevel", limits.soundLevel);
+                       visitor.optionalNumber("soundDaily", limits.soundDaily);
+                       visitor.optionalNumber("loudness", limits.loudness);
                    });
+    visitor.object("row", study.row, Need::optional,
+                   [&](auto& row)
+                   {
+                       visitor.integer("actuators", row.actuators, "must be a whole number, 1 to 8");
+                       visitor.number("delay", row.delay, Need::usual);
+                   });
+    visitor.optionalObject("calibration", study.calibration,
+                           [&](auto& calibration)
+                           {
+                               visitor.number("tone", calibration.tone, Need::usual);
+                               visitor.number("level", calibration.level, Need::required);
+                           });
 }
 
 } // namespace pacini::study::fields

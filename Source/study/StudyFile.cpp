@@ -63,13 +63,59 @@ public:
     }
 };
 
-void checkStimulus(Rules& rules, const Stimulus& stimulus, const std::string& where)
+/// Parts of a mix are single stimuli, each once.
+void checkMix(Rules& rules, const Study& study, const Stimulus& stimulus, const std::string& where)
+{
+    rules.stimuliNamed(study, stimulus.mix, where + ".mix");
+    if (rules.broken || stimulus.mix.empty())
+        return;
+    rules.that(stimulus.mix.size() >= 2, where + ".mix", "needs two stimuli at least");
+    rules.that(stimulus.sound.empty(), where, "has both sound and mix; the sounds of a mix are those of its stimuli");
+    rules.that(!stimulus.place, where, "has both place and mix; each stimulus of a mix has its own place");
+    rules.that(!stimulus.sensationLevel && !stimulus.acceleration, where,
+               "has a level that is felt and a mix; each stimulus of a mix has its own level");
+    for (std::size_t i = 0; i < stimulus.mix.size(); ++i)
+    {
+        const std::string place = fmt::format("{}.mix[{}]", where, i);
+        const Stimulus& part = study.stimuli[stimulusNamed(study, stimulus.mix[i])];
+        rules.that(part.mix.empty() && !part.silence, place,
+                   fmt::format("is \"{}\", which is not a single event", shownText(part.name)));
+        rules.that(std::count(stimulus.mix.begin(), stimulus.mix.end(), part.name) == 1, place,
+                   fmt::format("is \"{}\", which is in the mix twice", shownText(part.name)));
+    }
+}
+
+void checkItem(Rules& rules, const Item& item, const std::string& where)
+{
+    rules.that(!item.question.empty(), where + ".question", "is missing");
+    rules.that(std::isfinite(item.scale.low) && std::isfinite(item.scale.high) && item.scale.low < item.scale.high,
+               where + ".scale.high", "must be above low");
+    rules.range(item.scale.step, 0.0, item.scale.high - item.scale.low, where + ".scale.step");
+    rules.that((item.kind == QuestionKind::choice) == !item.choices.empty(), where + ".choices",
+               "belong to kind choice, which needs them");
+    rules.that(item.kind != QuestionKind::choice || item.choices.size() >= 2, where + ".choices",
+               "needs two at least, to choose from");
+    rules.uniqueNames(item.choices, where + ".choices");
+    constexpr double mostPoints = 20.0;
+    if (item.kind == QuestionKind::likert)
+        rules.that(item.scale.step > 0.0 && (item.scale.high - item.scale.low) / item.scale.step < mostPoints,
+                   where + ".scale.step", "must make a scale of at most 20 points, such as 1 from low 1 to high 5");
+}
+
+void checkStimulus(Rules& rules, const Study& study, const Stimulus& stimulus, const std::string& where)
 {
     const int felt = (stimulus.clip.empty() ? 0 : 1) + (stimulus.drive.empty() ? 0 : 1) + (stimulus.tone ? 1 : 0) +
-                     (stimulus.silence ? 1 : 0);
-    rules.that(felt <= 1, where, "has more than one of clip, drive, tone and silence");
+                     (stimulus.silence ? 1 : 0) + (stimulus.mix.empty() ? 0 : 1);
+    rules.that(felt <= 1, where, "has more than one of clip, drive, tone, silence and mix");
     rules.that(felt == 1 || !stimulus.sound.empty(), where,
-               "has nothing to feel or hear: sound, clip, drive, tone, silence");
+               "has nothing to feel or hear: sound, clip, drive, tone, silence, mix");
+    checkMix(rules, study, stimulus, where);
+    if (stimulus.place)
+    {
+        rules.range(stimulus.place->position, 0.0, 1.0, where + ".place.position");
+        rules.that(study.row.actuators >= 2, where + ".place",
+                   "needs two actuators at least: \"row\": {\"actuators\": 2}");
+    }
     rules.range(stimulus.soundLevel, -mostLevel, 40.0, where + ".soundLevel", " dB");
     rules.range(stimulus.touchLevel, -mostLevel, 40.0, where + ".touchLevel", " dB");
     rules.that(!stimulus.sensationLevel || !stimulus.acceleration, where,
@@ -115,6 +161,22 @@ void checkAdaptive(Rules& rules, const Adaptive& adaptive, const std::string& wh
         rules.that(adaptive.lowest > 0.0, where + ".lowest", "must be above 0");
 }
 
+/// Tasks about places and about events at once need stimuli that have such.
+void checkSpace(Rules& rules, const Study& study, const Block& block, const std::string& where)
+{
+    if (block.task == Task::place || block.task == Task::side)
+        for (const std::size_t index : stimuliOf(study, block))
+            rules.that(
+                study.stimuli[index].place.has_value(), where + ".stimuli",
+                fmt::format("has \"{}\" without the place that is asked for", shownText(study.stimuli[index].name)));
+    if (block.task != Task::count && block.task != Task::which)
+        return;
+    const std::size_t events = eventsOf(study, block).size();
+    rules.that(events >= 2, where + ".stimuli", "needs two events at least, to tell how many or which");
+    rules.that(events <= studyLimits::events, where + ".stimuli",
+               fmt::format("has {} different events; {} are the most", events, studyLimits::events));
+}
+
 void checkBlock(Rules& rules, const Study& study, const Block& block, const std::string& where)
 {
     for (std::size_t i = 0; i < block.groups.size(); ++i)
@@ -130,8 +192,14 @@ void checkBlock(Rules& rules, const Study& study, const Block& block, const std:
     if (needsReference(block))
         rules.that(!block.reference.empty(), where + ".reference",
                    fmt::format("is missing, which {} is held against", nameOf(block.task, fields::tasks)));
-    if (rules.broken)
+    rules.that((block.task == Task::questionnaire) == !block.items.empty(), where + ".items",
+               "belong to the task questionnaire, which needs them");
+    rules.uniqueNames(block.items, where + ".items");
+    for (std::size_t i = 0; i < block.items.size(); ++i)
+        checkItem(rules, block.items[i], fmt::format("{}.items[{}]", where, i));
+    if (rules.broken || !hasStimuli(block))
         return;
+    checkSpace(rules, study, block, where);
     const std::size_t count = stimuliOf(study, block).size();
     rules.that(count > 0, where + ".stimuli", "leaves nothing to present");
     if (block.task == Task::similarity || block.task == Task::ranking || block.task == Task::sorting)
@@ -159,7 +227,8 @@ Result<void> validate(const Study& study)
     rules.that(!study.name.empty(), "name", "must say something");
     rules.that(static_cast<double>(study.seed) <= largestSeed, "seed", "must be 0 to 2^53");
     rules.that(!study.groups.empty(), "groups", "has none; a study of everybody has one");
-    rules.that(!study.stimuli.empty(), "stimuli", "has none");
+    rules.that(!study.stimuli.empty() || std::none_of(study.blocks.begin(), study.blocks.end(), hasStimuli), "stimuli",
+               "has none");
     rules.that(!study.blocks.empty(), "blocks", "has none");
     rules.uniqueNames(study.groups, "groups");
     rules.uniqueNames(study.stimuli, "stimuli");
@@ -167,7 +236,7 @@ Result<void> validate(const Study& study)
     for (std::size_t i = 0; i < study.groups.size(); ++i)
         rules.range(study.groups[i].size, 1, studyLimits::participants, fmt::format("groups[{}].size", i));
     for (std::size_t i = 0; i < study.stimuli.size(); ++i)
-        checkStimulus(rules, study.stimuli[i], fmt::format("stimuli[{}]", i));
+        checkStimulus(rules, study, study.stimuli[i], fmt::format("stimuli[{}]", i));
     rules.stimuliNamed(study, study.comfort, "comfort");
     for (std::size_t i = 0; i < study.blocks.size(); ++i)
         checkBlock(rules, study, study.blocks[i], fmt::format("blocks[{}]", i));
@@ -179,6 +248,16 @@ Result<void> validate(const Study& study)
     // Above the limit value of the directive nobody may be exposed, whatever a file says.
     rules.range(study.limits.daily, 0.0, limitValue(study.limits.part), "limits.daily", " m/s2");
     rules.range(study.limits.minutes, 1.0, 480.0, "limits.minutes");
+    rules.range(study.limits.soundLevel.value_or(usualSoundLevel), 0.0, 100.0, "limits.soundLevel", " dB(A)");
+    rules.range(study.limits.soundDaily.value_or(usualSoundDaily), 0.0, 87.0, "limits.soundDaily", " dB(A)");
+    rules.range(study.limits.loudness.value_or(0.0), -70.0, 0.0, "limits.loudness", " LUFS");
+    rules.range(study.row.actuators, 1, mostActuators, "row.actuators");
+    rules.range(study.row.delay, 0.0, 0.1, "row.delay", " s");
+    if (study.calibration)
+    {
+        rules.range(study.calibration->tone, -100.0, 0.0, "calibration.tone", " dB re full scale");
+        rules.range(study.calibration->level, 0.0, 140.0, "calibration.level", " dB SPL");
+    }
     if (rules.broken)
         return *rules.broken;
     return {};

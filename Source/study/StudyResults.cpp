@@ -52,7 +52,7 @@ public:
     void add(const Record& record)
     {
         const Block* block = blockNamed(results.study, record.block);
-        if (block == nullptr || record.stimuli.empty() || record.training)
+        if (block == nullptr || record.training || record.stimuli.empty() != !hasStimuli(*block))
             return;
         if (record.answer.dropouts > 0)
         {
@@ -88,6 +88,19 @@ public:
         case Task::staircase:
             staircases[{block, testedOf(*block, record)}].push_back(record);
             break;
+        case Task::questionnaire:
+            addItems(*block, record);
+            break;
+        case Task::place:
+            addPlace(*block, record);
+            break;
+        case Task::count:
+        case Task::which:
+            if (answer.choice)
+                results.events.push_back(
+                    {head.group, head.participant, record.block, record.stimuli.front(), *answer.choice});
+            [[fallthrough]];
+        case Task::side:
         case Task::abx:
         case Task::forcedChoice:
             if (record.correct)
@@ -122,6 +135,31 @@ private:
     [[nodiscard]] Rating rating(const Record& record, std::size_t i, double value) const
     {
         return {head.group, head.participant, record.block, record.stimuli[i], value};
+    }
+
+    void addItems(const Block& block, const Record& record)
+    {
+        for (const Item& item : block.items)
+            for (const auto& [name, answer] : record.answer.items)
+                if (name == item.name && !answer.empty())
+                {
+                    if (const auto problem = problemOf(item, answer))
+                        results.warnings.push_back(
+                            fmt::format("{}: {} {}; it is left out", head.participant, item.name, *problem));
+                    else
+                        results.items.push_back({head.group, head.participant, record.block, item.name, answer});
+                }
+    }
+
+    void addPlace(const Block& block, const Record& record)
+    {
+        const std::size_t stimulus = stimulusNamed(results.study, record.stimuli.front());
+        if (!record.answer.value || stimulus == noStimulus || !results.study.stimuli[stimulus].place)
+            return;
+        const double position = results.study.stimuli[stimulus].place->position;
+        results.places.push_back({head.group, head.participant, record.block, record.stimuli.front(),
+                                  block.scale.low + position * (block.scale.high - block.scale.low),
+                                  *record.answer.value});
     }
 
     StudyResults& results;
@@ -193,6 +231,35 @@ std::filesystem::path studyFileOf(const std::filesystem::path& named)
 {
     std::error_code unknown;
     return std::filesystem::is_directory(named, unknown) ? named / studyFileName : named;
+}
+
+bool keepClass(StudyResults& results, std::string_view name)
+{
+    const auto isOther = [&](const std::string& stimulus)
+    {
+        const std::size_t index = stimulusNamed(results.study, stimulus);
+        return index == noStimulus || !belongsTo(results.study.stimuli[index], name);
+    };
+    const auto ofOther = [&](const auto& one)
+    {
+        return isOther(one.stimulus);
+    };
+    const auto pairWithOther = [&](const PairRating& one)
+    {
+        return isOther(one.first) || isOther(one.second);
+    };
+    std::erase_if(results.ratings, ofOther);
+    std::erase_if(results.ranks, ofOther);
+    std::erase_if(results.descriptions, ofOther);
+    std::erase_if(results.thresholds, ofOther);
+    std::erase_if(results.staircaseAnswers, ofOther);
+    std::erase_if(results.choices, ofOther);
+    std::erase_if(results.places, ofOther);
+    std::erase_if(results.events, ofOther);
+    std::erase_if(results.pairs, pairWithOther);
+    std::erase_if(results.together, pairWithOther);
+    return std::any_of(results.study.stimuli.begin(), results.study.stimuli.end(),
+                       [&](const Stimulus& one) { return belongsTo(one, name); });
 }
 
 Study relocated(Study study, const std::filesystem::path& from, const std::filesystem::path& to)

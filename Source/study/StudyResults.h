@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace pacini::study
@@ -47,6 +48,27 @@ struct PairRating
     double value = 0.0;
 };
 
+/// One person's answer to a question of a questionnaire.
+struct ItemAnswer
+{
+    std::string group, participant, block, item, answer;
+};
+
+/// One person's answer to where something was felt.
+struct PlaceAnswer
+{
+    std::string group, participant, block, stimulus;
+    double place = 0.0; ///< of the stimulus, in the unit of the block's scale
+    double felt = 0.0;  ///< likewise
+};
+
+/// One person's answer to how many or which events were felt at once.
+struct EventAnswer
+{
+    std::string group, participant, block, stimulus;
+    int choice = 0; ///< as Answer::choice
+};
+
 struct StudyResults
 {
     Study study;
@@ -60,7 +82,10 @@ struct StudyResults
     std::vector<PersonalChoices> choices;
     std::vector<PairRating> pairs;    ///< of similarity
     std::vector<PairRating> together; ///< of sorting: 0 in one heap, 1 in two
-    std::size_t dropouts = 0;         ///< trials that were repeated
+    std::vector<ItemAnswer> items;    ///< of questionnaires; what was left empty is left out
+    std::vector<PlaceAnswer> places;
+    std::vector<EventAnswer> events; ///< of count and which
+    std::size_t dropouts = 0;        ///< trials that were repeated
 };
 
 /// The name of a study's file in its folder.
@@ -72,6 +97,10 @@ inline constexpr const char* studyFileName = "study.json";
 /// Reads a study, given by its folder or file, and its sessions. Training and trials with drop-outs do not count.
 /// Errors: those of readStudy(); io if there is no session.
 [[nodiscard]] Result<StudyResults> readResults(const std::filesystem::path& named);
+
+/// Leaves only answers to stimuli of one class (see classesOf()), and pairs and pages only as far as they are of it.
+/// Returns whether any stimulus of the study belongs to it.
+[[nodiscard]] bool keepClass(StudyResults& results, std::string_view name);
 
 /// The study with the paths of its files from another folder.
 [[nodiscard]] Study relocated(Study study, const std::filesystem::path& from, const std::filesystem::path& to);

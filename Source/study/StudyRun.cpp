@@ -1,6 +1,7 @@
 #include "study/StudyRun.h"
 
 #include "study/Exposure.h"
+#include "study/SoundLevel.h"
 
 #include <fmt/format.h>
 
@@ -35,7 +36,7 @@ void StudyRun::beginTrial()
 {
     startedPart.reset();
     played.clear();
-    plays.assign(trial() == nullptr ? 0 : isPage() ? trial()->stimuli.size() : 1, 0);
+    plays.assign(trial() == nullptr || !hasStimuli(block()) ? 0 : isPage() ? trial()->stimuli.size() : 1, 0);
     last = {};
     dropouts = 0;
     ended = std::chrono::steady_clock::now();
@@ -56,11 +57,25 @@ PlayRefusal StudyRun::start(Result<TrialSound> sound, std::size_t part)
         return PlayRefusal::failed;
     }
     if (trim != 0.0)
-        for (float& sample : sound->touch)
-            sample = static_cast<float>(static_cast<double>(sample) * Decibels(trim).gain());
+    {
+        const auto lower = [&](std::vector<float>& drive)
+        {
+            for (float& sample : drive)
+                sample = static_cast<float>(static_cast<double>(sample) * Decibels(trim).gain());
+        };
+        lower(sound->touch);
+        for (std::vector<float>& drive : sound->more)
+            lower(drive);
+    }
     const StimulusParams& params = maker.params();
+    if (study().calibration)
+        for (const FrameRange& range : sound->parts)
+            if (const auto heard = std::span(sound->sound).subspan(range.begin, range.end - range.begin);
+                heardLevel(*study().calibration, weightedLevel(heard, params.sampleRate)) >
+                study().limits.soundLevel.value_or(usualSoundLevel))
+                return PlayRefusal::soundLevel;
     const double doseOfPlay =
-        doseOf(feltOf(sound->touch, params.profile, params.sampleRate), params.sampleRate, study().limits.part);
+        largestDose(sound->touch, sound->more, params.profile, params.sampleRate, study().limits.part);
     if (dailyExposure(running->exposure() + doseOfPlay) > study().limits.daily)
         return PlayRefusal::exposure;
     // All of it counts from its start, and is on the disk before it is felt: what is cut off may have been felt, and a
@@ -96,6 +111,8 @@ PlayRefusal StudyRun::play(std::size_t part)
 {
     if (const PlayRefusal refusal = checkDevice(); refusal != PlayRefusal::none)
         return refusal;
+    if (part >= plays.size())
+        return PlayRefusal::noReplayLeft; // a questionnaire plays nothing
     if (playsLeft(part) == 0)
         return PlayRefusal::noReplayLeft;
     const std::uint64_t noise = seedOf(study(), running->head().slot, 3'000'000 + running->answered());

@@ -37,8 +37,9 @@ enum class PlayRefusal
     none,
     noDevice,
     noReplayLeft,
-    exposure, ///< it would pass the limit of the study
-    failed    ///< see StudyRun::failure()
+    exposure,   ///< it would pass the limit of the study
+    soundLevel, ///< the sound is louder than the study allows
+    failed      ///< see StudyRun::failure()
 };
 
 /// [message]

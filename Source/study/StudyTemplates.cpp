@@ -1,5 +1,7 @@
 #include "study/StudyTemplates.h"
 
+#include "study/Questionnaires.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,7 +15,7 @@ namespace pacini::study
 
 namespace
 {
-constexpr std::array<StudyTemplate, 9> templates{
+constexpr std::array<StudyTemplate, 12> templates{
     {{"coherence", "how well sound and touch belong together: three groups, free words and ratings (Weber 2020)", 2},
      {"words", "free description of what is felt and heard", 1},
      {"mushra", "quality of translations beside each other, with hidden reference and anchor", 1},
@@ -23,14 +25,17 @@ constexpr std::array<StudyTemplate, 9> templates{
       1},
      {"threshold", "weakest touch that is felt, at eight frequencies", 0},
      {"similarity", "how alike touches are, pair by pair, for a map of them", 3},
-     {"ranking", "touches in order of preference", 2}}};
+     {"ranking", "touches in order of preference", 2},
+     {"place", "where a touch between two actuators is felt that is placed by level, delay or both", 0},
+     {"events", "how many touches at once are told apart, and which", 0},
+     {"questionnaire", "age, handedness, hearing and musical experience", 0}}};
 
 // The octave from 31.5 to 500 Hz in halves, around the 250 Hz where Pacinian corpuscles feel best.
 constexpr std::array<double, 8> thresholdFrequencies{31.5, 45.0, 63.0, 90.0, 125.0, 180.0, 250.0, 355.0};
 
-Text said(std::string english, std::string german)
+Text said(std::string english, std::string german, std::string japanese)
 {
-    return {{"de", std::move(german)}, {"en", std::move(english)}};
+    return {{"de", std::move(german)}, {"en", std::move(english)}, {"ja", std::move(japanese)}};
 }
 
 Study begun(std::string_view name)
@@ -42,13 +47,17 @@ Study begun(std::string_view name)
         said("Thank you for taking part. There are no wrong answers: it is about what you feel and hear. You may "
              "stop at any time with the Escape key.",
              "Vielen Dank, dass du teilnimmst. Es gibt keine falschen Antworten: Es geht darum, was du fühlst "
-             "und hörst. Du kannst jederzeit mit der Escape-Taste abbrechen.");
-    study.consent =
-        said("I take part of my own free will and may stop at any time without giving a reason. My answers are kept "
-             "under a pseudonym.",
-             "Ich nehme freiwillig teil und kann jederzeit ohne Angabe von Gründen abbrechen. Meine Antworten "
-             "werden unter einem Pseudonym gespeichert.");
-    study.goodbye = said("That was all. Thank you!", "Das war alles. Vielen Dank!");
+             "und hörst. Du kannst jederzeit mit der Escape-Taste abbrechen.",
+             "ご参加ありがとうございます。正解や不正解はありません。感じたこと、聞こえたことをお答えください。Escape "
+             "キーでいつでも中止できます。");
+    study.consent = said(
+        "I take part of my own free will and may stop at any time without giving a reason. My answers are kept "
+        "under a pseudonym.",
+        "Ich nehme freiwillig teil und kann jederzeit ohne Angabe von Gründen abbrechen. Meine Antworten "
+        "werden unter einem Pseudonym gespeichert.",
+        "私は自分の意思で参加し、理由を述べずにいつでも中止できることを理解しています。回答は仮名で保存されます。");
+    study.goodbye =
+        said("That was all. Thank you!", "Das war alles. Vielen Dank!", "これで終わりです。ありがとうございました。");
     return study;
 }
 
@@ -89,16 +98,18 @@ Block block(std::string name, Task task, Presentation presentation, Text questio
     return made;
 }
 
-const Text describe = said("Which words describe what you perceive? Say how it is, not what it comes from.",
-                           "Welche Worte beschreiben, was du wahrnimmst? Sag, wie es ist, nicht, woher es kommt.");
+const Text describe =
+    said("Which words describe what you perceive? Say how it is, not what it comes from.",
+         "Welche Worte beschreiben, was du wahrnimmst? Sag, wie es ist, nicht, woher es kommt.",
+         "感じたものをどのような言葉で表しますか。何から生じたかではなく、どのようであるかをお答えください。");
 
 Text coherenceLow()
 {
-    return said("not at all", "gar nicht");
+    return said("not at all", "gar nicht", "まったく合わない");
 }
 Text coherenceHigh()
 {
-    return said("perfectly", "vollkommen");
+    return said("perfectly", "vollkommen", "完全に合う");
 }
 
 Study coherence(const std::vector<std::string>& sounds)
@@ -124,9 +135,11 @@ Study coherence(const std::vector<std::string>& sounds)
     add("words of both", Task::words, Presentation::simultaneous, {"C"}, describe);
     add("coherence, one after the other", Task::rating, Presentation::consecutive, {"A", "B"},
         said("How well do the sound and the touch that follows belong together?",
-             "Wie gut passen der Klang und die darauf folgende Berührung zusammen?"));
+             "Wie gut passen der Klang und die darauf folgende Berührung zusammen?",
+             "音と、それに続く触覚はどのくらい合っていますか。"));
     add("coherence, at once", Task::rating, Presentation::simultaneous, {"C"},
-        said("How well do the sound and the touch belong together?", "Wie gut passen Klang und Berührung zusammen?"));
+        said("How well do the sound and the touch belong together?", "Wie gut passen Klang und Berührung zusammen?",
+             "音と触覚はどのくらい合っていますか。"));
     return study;
 }
 
@@ -156,15 +169,16 @@ Study mushra(const std::vector<std::string>& sounds)
             study.stimuli.push_back(made);
             return made.name;
         };
-        Block page =
-            block(name, Task::multiStimulus, Presentation::simultaneous,
-                  said("How well does each touch match the sound?", "Wie gut passt jede Berührung zum Klang?"));
+        Block page = block(name, Task::multiStimulus, Presentation::simultaneous,
+                           said("How well does each touch match the sound?", "Wie gut passt jede Berührung zum Klang?",
+                                "それぞれの触覚は音とどのくらい合っていますか。"));
         page.reference = name;
         page.stimuli = {variant("4 bands", [](Stimulus& one) { one.bands = 4; }),
                         variant("1 band", [](Stimulus& one) { one.bands = 1; }),
                         variant("3 points per second", [](Stimulus& one) { one.breakpoints = 3; })};
         page.anchors = {variant("envelope", [](Stimulus& one) { one.method = "hapticgen"; })};
-        page.scale = {0.0, 100.0, 1.0, said("bad", "schlecht"), said("excellent", "ausgezeichnet")};
+        page.scale = {0.0, 100.0, 1.0, said("bad", "schlecht", "悪い"),
+                      said("excellent", "ausgezeichnet", "非常に良い")};
         study.blocks.push_back(std::move(page));
     }
     return study;
@@ -181,7 +195,8 @@ Study abx(const std::vector<std::string>& sounds)
         study.stimuli.push_back(coarse);
         Block made = block(name, Task::abx, Presentation::touch,
                            said("Is the third like the first or like the second?",
-                                "Ist die dritte Berührung wie die erste oder wie die zweite?"));
+                                "Ist die dritte Berührung wie die erste oder wie die zweite?",
+                                "3番目は1番目と2番目のどちらと同じですか。"));
         made.reference = name;
         made.stimuli = {coarse.name};
         made.repeats = 16; // 12 right of 16 are below .05 by guessing
@@ -210,8 +225,10 @@ Study jnd()
         made.adaptive.highest = highest;
         study.blocks.push_back(std::move(made));
     };
-    add("level", Variable::levelDifference, 6.0, 0.3, 10.0, said("Which one was stronger?", "Welche war stärker?"));
-    add("frequency", Variable::frequency, 50.0, 2.0, 100.0, said("Which one was higher?", "Welche war höher?"));
+    add("level", Variable::levelDifference, 6.0, 0.3, 10.0,
+        said("Which one was stronger?", "Welche war stärker?", "どちらが強かったですか。"));
+    add("frequency", Variable::frequency, 50.0, 2.0, 100.0,
+        said("Which one was higher?", "Welche war höher?", "どちらが高かったですか。"));
     return study;
 }
 
@@ -231,7 +248,8 @@ Study compression(const std::vector<std::string>& sounds)
             [&](std::string kind, Variable variable, double lowest, double highest, Presentation presentation)
         {
             Block made = block(name + ", " + std::move(kind), Task::staircase, presentation,
-                               said("Which one is unlike the other two?", "Welche ist anders als die anderen beiden?"));
+                               said("Which one is unlike the other two?", "Welche ist anders als die anderen beiden?",
+                                    "ほかの2つと違うのはどれですか。"));
             made.reference = name;
             made.stimuli = {coarse.name};
             made.intervals = 3;
@@ -259,7 +277,8 @@ Study threshold()
     Study study = begun("threshold");
     study.description = "The weakest tone that is felt, at eight frequencies; some nine minutes.";
     Block made = block("thresholds", Task::staircase, Presentation::touch,
-                       said("In which one did you feel something?", "In welchem hast du etwas gefühlt?"));
+                       said("In which one did you feel something?", "In welchem hast du etwas gefühlt?",
+                            "どの区間で何かを感じましたか。"));
     for (const double frequency : thresholdFrequencies)
         made.stimuli.push_back(addTone(study, fmt::format("{} Hz", frequency), frequency, 0.0, 0.4).name);
     made.masking = true;
@@ -277,8 +296,10 @@ Study similarity(const std::vector<std::string>& sounds)
     Study study = begun("similarity");
     addSounds(study, sounds);
     Block made = block("similarity", Task::similarity, Presentation::touch,
-                       said("How different are these two touches?", "Wie verschieden sind diese beiden Berührungen?"));
-    made.scale = {0.0, 10.0, 0.0, said("the same", "gleich"), said("completely different", "völlig verschieden")};
+                       said("How different are these two touches?", "Wie verschieden sind diese beiden Berührungen?",
+                            "この2つの触覚はどのくらい違いますか。"));
+    made.scale = {0.0, 10.0, 0.0, said("the same", "gleich", "同じ"),
+                  said("completely different", "völlig verschieden", "まったく違う")};
     made.masking = true;
     study.blocks.push_back(std::move(made));
     return study;
@@ -290,8 +311,106 @@ Study ranking(const std::vector<std::string>& sounds)
     addSounds(study, sounds);
     Block made = block("ranking", Task::ranking, Presentation::simultaneous,
                        said("Put them in order, what you like best first.",
-                            "Bring sie in eine Reihenfolge, was dir am besten gefällt, zuerst."));
+                            "Bring sie in eine Reihenfolge, was dir am besten gefällt, zuerst.",
+                            "最も好きなものから順に並べてください。"));
     study.blocks.push_back(std::move(made));
+    return study;
+}
+
+/// A short touch at four places between two actuators, each by level, delay and both.
+Study placed()
+{
+    Study study = begun("place");
+    study.description = "Where a touch between two actuators is felt that is placed by level, by delay or by both.";
+    study.row.actuators = 2;
+    const auto stimulusAt = [&](double position, PanLaw by, std::string_view name)
+    {
+        // A short fade: delays are told by the onset.
+        Stimulus& one = addTone(study, fmt::format("{:.0f} %, {}", 100.0 * position, name), 160.0, -6.0, 0.2);
+        one.tone->fade = 0.005;
+        one.place = Place{position, by};
+        return one.name;
+    };
+    Block where = block("place", Task::place, Presentation::touch,
+                        said("Where did you feel it?", "Wo hast du es gefühlt?", "どこで感じましたか。"));
+    where.scale = {0.0, 100.0, 0.0, said("left", "links", "左"), said("right", "rechts", "右")};
+    where.masking = true;
+    where.repeats = 4;
+    Block side = block("side", Task::side, Presentation::touch,
+                       said("Was it left or right of the middle?", "War es links oder rechts der Mitte?",
+                            "中央より左でしたか、右でしたか。"));
+    side.masking = true;
+    side.repeats = 8;
+    for (const auto& [by, name] : {std::pair(PanLaw::constantPower, "level"), std::pair(PanLaw::delay, "delay"),
+                                   std::pair(PanLaw::both, "both")})
+        // At the ends and in the middle both is like one of the others.
+        for (const double position : {0.1, 0.3, 0.7, 0.9})
+        {
+            where.stimuli.push_back(stimulusAt(position, by, name));
+            if (position == 0.3 || position == 0.7)
+                side.stimuli.push_back(where.stimuli.back());
+        }
+    study.comfort = {where.stimuli.front()};
+    study.blocks = {std::move(where), std::move(side)};
+    return study;
+}
+
+/// Two to four events, alone and in all combinations: the translations of sounds, or four tones.
+Study simultaneous(const std::vector<std::string>& sounds)
+{
+    constexpr std::size_t most = 4;
+    constexpr double quieter = -12.0; // dB: four at once stay below full drive
+    Study study = begun("events");
+    study.description = "How many touches at once are told apart, and which: each alone and in all combinations.";
+    std::vector<std::string> events;
+    if (sounds.size() >= 2)
+        events = addSounds(
+            study, {sounds.begin(), sounds.begin() + static_cast<std::ptrdiff_t>(std::min(sounds.size(), most))});
+    else
+        for (const double frequency : {40.0, 90.0, 180.0, 320.0})
+            events.push_back(addTone(study, fmt::format("{} Hz", frequency), frequency, 0.0, 1.0).name);
+    for (std::size_t i = 0; i < events.size(); ++i)
+    {
+        study.stimuli[i].touchLevel = quieter;
+        const std::string letter(1, static_cast<char>('A' + i));
+        study.stimuli[i].label = said(letter, letter, letter);
+    }
+    std::vector<std::string> all = events;
+    for (unsigned chosen = 1; chosen < 1u << events.size(); ++chosen)
+    {
+        Stimulus mix;
+        for (std::size_t i = 0; i < events.size(); ++i)
+            if ((chosen >> i & 1u) != 0)
+                mix.mix.push_back(events[i]);
+        if (mix.mix.size() < 2)
+            continue;
+        mix.name = fmt::format("{}", fmt::join(mix.mix, " + "));
+        all.push_back(mix.name);
+        study.stimuli.push_back(std::move(mix));
+    }
+    const auto add = [&](std::string name, Task task, Text question)
+    {
+        Block made = block(std::move(name), task, Presentation::touch, std::move(question));
+        made.training = events;
+        made.stimuli = all;
+        made.masking = true;
+        made.repeats = 3;
+        study.blocks.push_back(std::move(made));
+    };
+    add("count", Task::count,
+        said("How many different touches did you feel at once?",
+             "Wie viele verschiedene Berührungen hast du gleichzeitig gefühlt?",
+             "同時にいくつの異なる触覚を感じましたか。"));
+    add("which", Task::which,
+        said("Which touches did you feel?", "Welche Berührungen hast du gefühlt?", "どの触覚を感じましたか。"));
+    return study;
+}
+
+Study asked()
+{
+    Study study = begun("questionnaire");
+    for (const Questionnaire& one : questionnaires())
+        (void)addQuestionnaire(study, one.name);
     return study;
 }
 } // namespace
@@ -329,6 +448,12 @@ Result<Study> makeStudy(std::string_view name, const std::vector<std::string>& s
         return threshold();
     if (name == "similarity")
         return similarity(sounds);
+    if (name == "place")
+        return placed();
+    if (name == "events")
+        return simultaneous(sounds);
+    if (name == "questionnaire")
+        return asked();
     return ranking(sounds);
 }
 

@@ -21,7 +21,8 @@ struct StudyTemplate
     std::size_t fewestSounds = 0; ///< that it needs
 };
 
-/// Returns all templates: coherence, words, mushra, abx, jnd, compression, threshold, similarity, ranking.
+/// Returns all templates: coherence, words, mushra, abx, jnd, compression, threshold, similarity, ranking, place,
+/// events, questionnaire.
 [[nodiscard]] std::span<const StudyTemplate> studyTemplates() noexcept;
 
 /// The study of a template with these sounds (paths from the study's folder). It passes validate(). Errors:

@@ -76,11 +76,13 @@ void TrialPlayback::drop() noexcept
         dropouts.fetch_add(1);
 }
 
-void TrialPlayback::process(std::span<float> left, std::span<float> right, std::span<float> touch) noexcept
+void TrialPlayback::process(std::span<float> left, std::span<float> right,
+                            std::span<const std::span<float>> touches) noexcept
 {
     std::fill(left.begin(), left.end(), 0.0f);
     std::fill(right.begin(), right.end(), 0.0f);
-    std::fill(touch.begin(), touch.end(), 0.0f);
+    for (const std::span<float> touch : touches)
+        std::fill(touch.begin(), touch.end(), 0.0f);
     // What was played goes back to be freed; while the one before has not been fetched, nothing new begins.
     const auto giveBack = [this]
     {
@@ -108,7 +110,8 @@ void TrialPlayback::process(std::span<float> left, std::span<float> right, std::
                 gain = std::max(0.0, gain - step);
             const auto scale = static_cast<float>(gain);
             left[n] = right[n] = scale * trial.sound[current->next + n];
-            touch[n] = scale * trial.touch[current->next + n];
+            for (std::size_t a = 0; a < std::min(touches.size(), trial.more.size() + 1); ++a)
+                touches[a][n] = scale * (a == 0 ? trial.touch : trial.more[a - 1])[current->next + n];
         }
         current->next += count;
         frame.store(current->next);

@@ -40,8 +40,15 @@ public:
 
     [[nodiscard]] PlaybackReport report() const noexcept;
 
-    /// Fills the block for both ears and the actuator; all of the same length, and not null. [audio]
-    void process(std::span<float> left, std::span<float> right, std::span<float> touch) noexcept;
+    /// Fills the block for both ears and each actuator of the row; all of the same length, and not null. Actuators that
+    /// the trial does not have stay silent. [audio]
+    void process(std::span<float> left, std::span<float> right, std::span<const std::span<float>> touches) noexcept;
+
+    /// The same for one actuator. [audio]
+    void process(std::span<float> left, std::span<float> right, std::span<float> touch) noexcept
+    {
+        process(left, right, std::span<const std::span<float>>(&touch, 1));
+    }
 
     /// Something dropped out: the device reported it, or stopped. [audio]
     void drop() noexcept;

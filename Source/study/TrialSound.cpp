@@ -18,8 +18,10 @@ namespace
 class Assembly
 {
 public:
-    Assembly(TrialSound& toFill, const Block& ofBlock, int sampleRate) : trial(toFill), block(ofBlock), fs(sampleRate)
+    Assembly(TrialSound& toFill, const Block& ofBlock, const StimulusMaker& maker)
+        : trial(toFill), block(ofBlock), fs(maker.params().sampleRate)
     {
+        trial.more.resize(static_cast<std::size_t>(maker.study().row.actuators) - 1);
     }
 
     /// Sound and touch as the block presents them, the touch `delay` s later.
@@ -29,19 +31,19 @@ public:
         switch (block.presentation)
         {
         case Presentation::sound:
-            put(stimulus.sound, {}, 0.0);
+            put(stimulus.sound, nullptr, 0.0);
             break;
         case Presentation::touch:
-            put({}, stimulus.touch, 0.0);
+            put({}, &stimulus, 0.0);
             break;
         case Presentation::simultaneous:
-            put(stimulus.sound, stimulus.touch, delay);
+            put(stimulus.sound, &stimulus, delay);
             break;
         case Presentation::consecutive:
-            put(stimulus.sound, {}, 0.0);
+            put(stimulus.sound, nullptr, 0.0);
             pause();
             alone.push_back({trial.sound.size(), trial.sound.size() + stimulus.touch.size()});
-            put({}, stimulus.touch, 0.0);
+            put({}, &stimulus, 0.0);
             break;
         }
         trial.parts.push_back({begin, trial.sound.size()});
@@ -66,19 +68,26 @@ private:
     void lengthen(std::size_t frames)
     {
         trial.sound.resize(trial.sound.size() + frames, 0.0f);
-        trial.touch.resize(trial.touch.size() + frames, 0.0f);
+        trial.touch.resize(trial.sound.size(), 0.0f);
+        for (std::vector<float>& drive : trial.more)
+            drive.resize(trial.sound.size(), 0.0f);
     }
-    void put(std::span<const float> sound, std::span<const float> touch, double delay)
+    /// `felt`: whose touches; null for none.
+    void put(std::span<const float> sound, const PreparedStimulus* felt, double delay)
     {
         const std::size_t begin = trial.sound.size();
         const std::size_t soundAt = begin + framesOf(-delay), touchAt = begin + framesOf(delay);
         const std::size_t soundEnd = sound.empty() ? begin : soundAt + sound.size();
-        const std::size_t touchEnd = touch.empty() ? begin : touchAt + touch.size();
+        const std::size_t touchEnd = felt == nullptr ? begin : touchAt + felt->touch.size();
         lengthen(std::max(soundEnd, touchEnd) - begin);
         if (!sound.empty())
             std::copy(sound.begin(), sound.end(), trial.sound.begin() + static_cast<std::ptrdiff_t>(soundAt));
-        if (!touch.empty())
-            std::copy(touch.begin(), touch.end(), trial.touch.begin() + static_cast<std::ptrdiff_t>(touchAt));
+        if (felt == nullptr)
+            return;
+        const auto at = static_cast<std::ptrdiff_t>(touchAt);
+        std::copy(felt->touch.begin(), felt->touch.end(), trial.touch.begin() + at);
+        for (std::size_t a = 0; a < felt->more.size(); ++a)
+            std::copy(felt->more[a].begin(), felt->more[a].end(), trial.more[a].begin() + at);
     }
 
     TrialSound& trial;
@@ -125,6 +134,9 @@ void finish(TrialSound& trial, const Assembly& assembly, const StimulusMaker& ma
 {
     trial.soundOnset = onsetOf(trial.sound);
     trial.touchOnset = onsetOf(trial.touch);
+    for (const std::vector<float>& drive : trial.more)
+        if (const auto other = onsetOf(drive); other && (!trial.touchOnset || *other < *trial.touchOnset))
+            trial.touchOnset = other;
     if (!block.masking)
         return;
     Random random(seed);
@@ -147,7 +159,7 @@ Result<TrialSound> makeTrial(StimulusMaker& maker, const Trial& trial, std::opti
 {
     const Block& block = maker.study().blocks[trial.block];
     TrialSound made;
-    Assembly assembly(made, block, maker.params().sampleRate);
+    Assembly assembly(made, block, maker);
     for (std::size_t i = 0; i < trial.stimuli.size(); ++i)
     {
         std::optional<Variation> variation;
@@ -157,7 +169,11 @@ Result<TrialSound> makeTrial(StimulusMaker& maker, const Trial& trial, std::opti
         if (!stimulus)
             return stimulus.error();
         if (level && block.adaptive.variable == Variable::level && !variation)
+        {
             std::fill(stimulus->touch.begin(), stimulus->touch.end(), 0.0f);
+            for (std::vector<float>& drive : stimulus->more)
+                std::fill(drive.begin(), drive.end(), 0.0f);
+        }
         if (i > 0)
             assembly.pause();
         assembly.add(*stimulus, delayOf(maker, block, variation));
@@ -172,7 +188,7 @@ Result<TrialSound> makePart(StimulusMaker& maker, const Block& block, std::size_
     if (!prepared)
         return prepared.error();
     TrialSound made;
-    Assembly assembly(made, block, maker.params().sampleRate);
+    Assembly assembly(made, block, maker);
     assembly.add(*prepared, delayOf(maker, block, std::nullopt));
     finish(made, assembly, maker, block, maskingSeed);
     return made;

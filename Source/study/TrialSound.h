@@ -23,8 +23,9 @@ struct FrameRange
 /// Buffers that begin at the same sample.
 struct TrialSound
 {
-    std::vector<float> sound; ///< for both ears
-    std::vector<float> touch; ///< drive signal
+    std::vector<float> sound;             ///< for both ears
+    std::vector<float> touch;             ///< drive signal of the first actuator
+    std::vector<std::vector<float>> more; ///< those of the other actuators in the row
     /// Range of each stimulus of the trial, or of each consecutive part.
     std::vector<FrameRange> parts;
     std::optional<std::size_t> soundOnset, touchOnset; ///< frames until the first sample that is not zero

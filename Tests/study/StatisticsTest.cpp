@@ -1,4 +1,5 @@
 #include "study/statistics/Agreement.h"
+#include "study/statistics/Correlation.h"
 #include "study/statistics/Distributions.h"
 #include "study/statistics/Proportion.h"
 #include "study/statistics/Scaling.h"
@@ -50,6 +51,22 @@ TEST_CASE("t-tests are those of SciPy")
     CHECK(paired.difference95.high == exactly(-0.7677204573866582));
     CHECK(equalVarianceP(a, b) == exactly(0.8162004912104045));
     CHECK(hedgesG(a, b) == exactly(-1.2346393562344629));
+}
+
+TEST_CASE("Correlations are those of SciPy, also without variance")
+{
+    const std::vector<double> c{5.0, 6.1, 7.7, 4.4, 8.2, 6.6, 5.9, 3.0};
+    const Correlation found = correlationOf(a, c);
+    CHECK(found.r == exactly(0.8645683979346371));
+    CHECK(found.p == exactly(0.005596421592303392));
+    CHECK(found.r95.low == exactly(0.409188833391785));
+    CHECK(found.r95.high == exactly(0.9751456156224171));
+    CHECK(found.slope == exactly(0.9786137995629096));
+    const std::vector<double> same(8, 2.0);
+    CHECK(correlationOf(a, same).r == 0.0);
+    CHECK(correlationOf(same, a).p == 1.0);
+    CHECK(correlationOf(a, a).p == 0.0);
+    CHECK(correlationOf({}, {}).r95.high == 1.0);
 }
 
 TEST_CASE("t-tests of samples without variance have an end")

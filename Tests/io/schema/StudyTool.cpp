@@ -1,5 +1,6 @@
 #include "io/AtomicFile.h"
 #include "io/schema/DocumentTool.h"
+#include "study/Questionnaires.h"
 #include "study/StudyFile.h"
 #include "study/StudyTemplates.h"
 
@@ -43,6 +44,28 @@ study::Study sample(int number)
     block.adaptive.procedure = study::Procedure::levitt;
     block.scale.step = 1.0;
     whole.blocks.push_back(block);
+    whole.row.actuators = 2;
+    tone.name = "here";
+    tone.sensationLevel = std::nullopt;
+    tone.place = study::Place{};
+    tone.label = {{"en", "buzz"}};
+    whole.stimuli.push_back(tone);
+    study::Stimulus mix;
+    mix.name = "both";
+    mix.mix = {"a", "here"};
+    whole.stimuli.push_back(mix);
+    whole.stimuli[0].object = study::SoundObject{study::Mass::complex, study::Facture::iterative};
+    whole.stimuli[1].tags = {"loud"};
+    whole.calibration = study::SoundCalibration{};
+    whole.limits.soundLevel = 80.0;
+    whole.limits.soundDaily = 75.0;
+    whole.limits.loudness = -10.0;
+    study::Block which;
+    which.name = "which";
+    which.task = study::Task::which;
+    which.stimuli = {"both", "here"};
+    whole.blocks.push_back(which);
+    (void)study::addQuestionnaire(whole, "demographics");
     return whole;
 }
 } // namespace

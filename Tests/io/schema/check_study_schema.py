@@ -27,6 +27,20 @@ BEYOND_SCHEMA = (
     "needs two at least",
     "too many for one page",
     "not a translation method",
+    "has both",
+    "needs two stimuli at least",
+    "is not a single event",
+    "is in the mix twice",
+    "needs two actuators at least",
+    "belong to kind choice",
+    "belong to the task questionnaire",
+    "needs two at least, to choose from",
+    "must make a scale of at most 20 points",
+    "without the place that is asked for",
+    "needs two events at least",
+    "different events; 12 are the most",
+    "has a level that is felt and a mix",
+    "stimuli: has none",
 )
 # Ranges that hang on other members.
 PLACES_BEYOND_SCHEMA = (".adaptive.start", ".scale.step", "masking.highFrequency", ".tone.fade", ".adaptive.highest")
