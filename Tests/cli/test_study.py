@@ -1,7 +1,9 @@
 """End to end: pacini study, from a template to a report, and what people do wrong with it."""
 import json
+import math
 import random
 import re
+import statistics
 import struct
 import unittest
 import wave
@@ -25,8 +27,8 @@ class StudyTest(CommandTest):
 class Steps(StudyTest):
     def test_every_template_is_written_checked_simulated_and_reported(self):
         help_text = self.succeeds("study", "new", "--help")
-        templates = re.findall(r"(?m)^  ([a-z]+) {2,}\S", help_text[help_text.index("Templates:"):])
-        self.assertEqual(len(templates), 8)
+        templates = re.findall(r"(?m)^  ([a-z]+) {2,}\S", help_text[help_text.index("Templates:"):help_text.index("Questionnaires:")])
+        self.assertEqual(len(templates), 12)
         for template in templates:
             with self.subTest(template):
                 self.succeeds("study", "new", f"{template}/", "--template", template, "sounds/", "-g", "A:3", "-g", "B:3"
@@ -46,6 +48,126 @@ class Steps(StudyTest):
                 self.assertGreater(answers.count("\n"), 5)
                 sheets = list((self.folder / f"{template}-tables/bids").glob("sub-P*/beh/*_beh.tsv"))
                 self.assertGreaterEqual(len(sheets), 6)
+
+    def test_questionnaires_are_asked_reported_and_held_against_the_results(self):
+        study = self.new("ranking", "--ask", "demographics", "--ask", "music")
+        self.assertEqual([block["name"] for block in study["blocks"]], ["demographics", "music", "ranking"])
+        self.fails(2, ["study", "new", "twice", "--template", "ranking", "sounds/", "--ask", "music", "--ask", "music"],
+                   "is in the study already")
+        self.new("coherence", "--ask", "demographics", "-y")
+        self.succeeds("study", "simulate", "mine", "-o", "simulated", "--runs", "10")
+        report = self.report("study", "report", "simulated")
+        age = report["questionnaires"]["demographics"]["age"]
+        self.assertEqual(age["n"], 33)
+        answers = [json.loads(line)["items"] for path in (self.folder / "simulated/sessions").glob("*.jsonl")
+                   for line in path.read_text().splitlines() if '"questionnaire"' in line]
+        ages = [float(one["age"]) for one in answers]
+        self.assertAlmostEqual(age["mean"], statistics.fmean(ages))
+        self.assertAlmostEqual(age["sd"], statistics.stdev(ages))
+        hands = report["questionnaires"]["demographics"]["handedness"]["counts"]
+        self.assertEqual(hands, {hand: sum(one["handedness"] == hand for one in answers) for hand in ("right", "left", "both")})
+        row = report["covariates"][0]
+        self.assertEqual((row["question"], row["n"]), ("age", 33))
+        self.assertTrue(row["r95"][0] <= row["r"] <= row["r95"][1])
+        self.succeeds("study", "export", "simulated", "-o", "tables")
+        table = (self.folder / "tables/questionnaires.csv").read_text()
+        self.assertEqual(table.count("\n"), 1 + 33 * 5)
+        self.assertIn("\tage\tgender\thandedness", (self.folder / "tables/bids/participants.tsv").read_text())
+        # What somebody has typed into a log is no age.
+        log = next((self.folder / "simulated/sessions").glob("*.jsonl"))
+        log.write_text(re.sub(r'"age":"[^"]*"', '"age":"old"', log.read_text()))
+        result = self.run_pacini("study", "report", "simulated", "-y")
+        self.assertIn("age is 'old', which is not a number; it is left out", result.stderr)
+
+    def test_places_between_actuators_are_reported_with_errors(self):
+        self.new("place")
+        self.succeeds("study", "check", "mine", "--profile", "l5-wristband")
+        self.succeeds("study", "simulate", "mine", "-o", "simulated")
+        report = self.report("study", "report", "simulated")["places"]["place"]
+        answers = {}
+        for path in (self.folder / "simulated/sessions").glob("*.jsonl"):
+            for record in map(json.loads, path.read_text().splitlines()):
+                if record.get("task") == "place":
+                    answers.setdefault(record["stimuli"][0], {}).setdefault(path.name, []).append(record["value"])
+        self.assertEqual(len(answers), 12)
+        for stimulus, people in answers.items():
+            means = [statistics.fmean(own) for own in people.values()]
+            entry = report["stimuli"][stimulus]
+            self.assertEqual(entry["n"], 12)
+            self.assertAlmostEqual(entry["mean"], statistics.fmean(means))
+            self.assertAlmostEqual(entry["sd"], statistics.stdev(means))
+            self.assertAlmostEqual(entry["error"], statistics.fmean(means) - float(stimulus.split()[0]))
+        # The simulated are drawn to the middle: four fifths of the row are felt.
+        for way in ("level", "delay", "both"):
+            self.assertAlmostEqual(report["ways"][way]["slope"]["mean"], 0.8, delta=0.15)
+        self.assertEqual(len(report["comparisons"]), 3)
+
+    def test_events_at_once_are_reported_with_chance_and_confusions(self):
+        self.new("events")
+        self.succeeds("study", "check", "mine")
+        self.succeeds("study", "simulate", "mine", "-o", "simulated")
+        report = self.report("study", "report", "simulated")
+        count, which = report["events"]["count"], report["events"]["which"]
+        self.assertEqual(count["byNumber"]["1"]["guessing"], 1 / 3)
+        self.assertEqual(which["byNumber"]["1"]["guessing"], 1 / 8)
+        for number, stimuli in (("1", 3), ("2", 3), ("3", 1)):
+            self.assertEqual(sum(count["confusions"][number].values()), 12 * 3 * stimuli)
+            self.assertEqual(count["byNumber"][number]["right"], count["confusions"][number][number])
+        hits, all_of = which["named"]["a"]["2"]
+        self.assertEqual(all_of, 12 * 3 * 2)
+        self.assertAlmostEqual(hits / all_of, 0.8, delta=0.2)
+        self.assertEqual(which["confusions"]["a + b"]["answers"], 36)
+
+    def test_classes_group_and_select_the_stimuli_of_a_report(self):
+        study = self.new()
+        for stimulus, mass in zip(study["stimuli"], ("complex", "complex", "varying")):
+            stimulus["object"] = {"mass": mass, "facture": "iterative"}
+        study["stimuli"][0]["tags"] = ["wood"]
+        (self.folder / "mine/study.json").write_text(json.dumps(study))
+        self.succeeds("study", "simulate", "mine", "-o", "simulated", "--runs", "10")
+        classes = next(iter(self.report("study", "report", "simulated")["classes"].values()))
+        self.assertEqual({name: entry["stimuli"] for name, entry in classes.items()},
+                         {"X''": 2, "Y''": 1, "complex": 2, "varying": 1, "iterative": 3, "wood": 1})
+        only = self.report("study", "report", "simulated", "--only", "X''", "-y")
+        self.assertEqual(set(next(iter(only["ratings"].values()))["everybody"]["stimuli"]), {"a", "b"})
+        self.fails(1, ["study", "report", "simulated", "--only", "N'"], "'N'' is no class of the stimuli; there are")
+        study["stimuli"][0]["object"]["mass"] = "heavy"
+        (self.folder / "mine/study.json").write_text(json.dumps(study))
+        self.fails(1, ["study", "check", "mine"], "stimuli[0].object.mass: must be definite, complex or varying")
+
+    def test_levels_of_sounds_are_told_and_limited(self):
+        self.succeeds("study", "tone", "tone.wav", "--duration", "2")
+        self.fails(1, ["study", "tone", "tone.wav"], "exists")
+        with wave.open(str(self.folder / "tone.wav")) as tone:
+            self.assertEqual((tone.getnchannels(), tone.getframerate(), tone.getnframes()), (2, 48000, 96000))
+            raw = tone.readframes(96000)
+        samples = [int.from_bytes(raw[i:i + 3], "little", signed=True) / 2**23 for i in range(0, len(raw), 6)]
+        self.assertAlmostEqual(20 * math.log10(math.sqrt(statistics.fmean(x * x for x in samples[4800:91200]))), -20, delta=0.01)
+        study = self.new("words")
+        file = self.folder / "mine/study.json"
+        sounds = self.report("study", "check", "mine")["sounds"]
+        self.assertEqual(len(sounds), 3)
+        self.assertNotIn("soundPressure", sounds[0])
+        study["calibration"] = {"tone": -20, "level": 60}
+        file.write_text(json.dumps(study))
+        report = self.report("study", "check", "mine")
+        for sound in report["sounds"]:
+            self.assertAlmostEqual(sound["soundPressure"], sound["rms"] + 80)
+            self.assertLess(sound["soundPressureWeighted"], sound["soundPressure"] + 1.3)
+        self.assertLess(report["groups"][0]["soundDaily"], 60)
+        study["calibration"]["level"] = 100
+        file.write_text(json.dumps(study))
+        self.fails(1, ["study", "check", "mine"], "dB(A), 85.0 are allowed (limits.soundLevel)")
+        del study["calibration"]
+        study["limits"]["soundLevel"] = 70
+        file.write_text(json.dumps(study))
+        self.fails(1, ["study", "check", "mine"], "without a calibration")
+        study["limits"] = {"loudness": -60}
+        file.write_text(json.dumps(study))
+        self.fails(1, ["study", "check", "mine"], "LUFS, -60.0 are allowed (limits.loudness)")
+        study["limits"] = {"soundDaily": 90}
+        file.write_text(json.dumps(study))
+        self.fails(1, ["study", "check", "mine"], "limits.soundDaily: must be 0 to 87 dB(A)")
 
     def test_the_same_study_is_simulated_alike(self):
         # Sounds are named from the study's folder, so that both can be moved together.

@@ -23,7 +23,36 @@ struct CheckSubcommand : Command
                   "PROFILE");
         return command->footer(
             "Finds missing files and texts, uneven groups, sessions that are too long, exposure beyond the limit\n(ISO "
-            "5349-1 or 2631-1), and stimuli that can hardly be distinguished. Exits with 1 if the study cannot be run.");
+            "5349-1, on seats 2631-1), stimuli that can hardly be distinguished, and the levels of sounds: dB re "
+            "full\nscale, "
+            "LUFS, and with a calibration (see study tone) dB SPL and dB(A). Exits with 1 if the study cannot\nbe "
+            "run.");
+    }
+
+    /// Prints the levels of the sounds.
+    static JsonReport::Json soundsOf(Console& console, const study::StudyCheck& check)
+    {
+        JsonReport::Json sounds = JsonReport::Json::array();
+        for (const study::HeardStimulus& one : check.heard)
+        {
+            JsonReport::Json entry{
+                {"stimulus", one.stimulus}, {"rms", one.levels.rms}, {"weighted", one.levels.weighted}};
+            std::string line = fmt::format("\"{}\": {:.1f} dB re full scale (RMS)", one.stimulus, one.levels.rms);
+            if (one.levels.loudness)
+            {
+                line += fmt::format(", {:.1f} LUFS", *one.levels.loudness);
+                entry["loudness"] = *one.levels.loudness;
+            }
+            if (one.soundPressure && one.weighted)
+            {
+                line += fmt::format(", {:.1f} dB SPL, {:.1f} dB(A)", *one.soundPressure, *one.weighted);
+                entry["soundPressure"] = *one.soundPressure;
+                entry["soundPressureWeighted"] = *one.weighted;
+            }
+            console.print(line);
+            sounds.push_back(std::move(entry));
+        }
+        return sounds;
     }
 
     Exit run(Console& console) override
@@ -61,6 +90,8 @@ struct CheckSubcommand : Command
                               {"trials", load.trials},
                               {"minutes", load.minutes},
                               {"exposure", load.exposure}});
+            if (load.soundDaily)
+                groups.back()["soundDaily"] = *load.soundDaily;
             console.print(
                 fmt::format("{}: {} trials, some {:.0f} minutes, A(8) = {:.2f} m/s2{} of {:.1f} allowed", load.group,
                             load.trials, load.minutes, load.exposure,
@@ -69,7 +100,12 @@ struct CheckSubcommand : Command
                                               study::assumedAcceleration)
                                 : "",
                             opened->study.limits.daily));
+            if (load.soundDaily)
+                console.print(fmt::format("{}: sound L_EX,8h = {:.1f} dB(A) of {:.1f} allowed", load.group,
+                                          *load.soundDaily,
+                                          opened->study.limits.soundDaily.value_or(study::usualSoundDaily)));
         }
+        console.addToReport({{"sounds", soundsOf(console, check)}});
         console.addToReport({{"findings", std::move(findings)},
                              {"groups", std::move(groups)},
                              {"exposureIsAssumed", check.exposureIsAssumed}});

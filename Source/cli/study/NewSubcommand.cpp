@@ -5,6 +5,7 @@
 #include "cli/Overwrite.h"
 #include "io/AtomicFile.h"
 #include "study/Plan.h"
+#include "study/Questionnaires.h"
 #include "study/StudyFile.h"
 #include "study/StudyResults.h"
 #include "study/StudyTemplates.h"
@@ -44,11 +45,11 @@ struct NewSubcommand : Command
     CLI::App* declare(CLI::App& app) override
     {
         std::vector<std::string> names;
-        std::string list;
+        std::string list, questions;
         for (const auto& one : study::studyTemplates())
         {
             names.emplace_back(one.name);
-            list += fmt::format("  {:<12}{}\n", one.name, one.purpose);
+            list += fmt::format("  {:<15}{}\n", one.name, one.purpose);
         }
         auto* command = app.add_subcommand("new", "Create a study from a template");
         addOption(*command, "output", output, "Folder for study.json and the answers, or the name of a .json file",
@@ -59,10 +60,19 @@ struct NewSubcommand : Command
         addOption(*command, "-g,--group", groups,
                   "Name and number of participants of a group; repeat for several groups", "NAME:SIZE")
             ->allow_extra_args(false);
+        std::vector<std::string> askable;
+        for (const auto& one : study::questionnaires())
+        {
+            askable.emplace_back(one.name);
+            questions += fmt::format("  {:<15}{}\n", one.name, one.purpose);
+        }
+        addOption(*command, "--ask", asked, "Questionnaire at the beginning; repeat for several", oneOf(askable),
+                  "NAME")
+            ->allow_extra_args(false);
         addOption(*command, "--seed", seed, "Seed of all random orders", countingNumber(), "N")->capture_default_str();
         addOption(*command, "--profile", profile, "Actuator profile: a file or a shipped profile", "PROFILE");
         overwriting.declare(*command);
-        return command->footer("Templates:\n" + list +
+        return command->footer("Templates:\n" + list + "\nQuestionnaires:\n" + questions +
                                "\nEdit the JSON file to change the study: see Resources/docs/study.md.\n\nExample:\n"
                                "  pacini study new coherence --template coherence sounds/");
     }
@@ -100,6 +110,9 @@ struct NewSubcommand : Command
             return console.fail("", own.error(), Exit::usage);
         if (const auto set = own->empty() ? Result<void>() : study::setGroups(*made, *own); !set)
             return console.fail("", set.error(), Exit::usage);
+        for (const std::string& one : asked)
+            if (const auto added = study::addQuestionnaire(*made, one); !added)
+                return console.fail("", added.error(), Exit::usage);
         made->seed = seed;
         made->profile = profile;
         const study::Study written = study::relocated(std::move(*made), fs::path(), folder);
@@ -118,7 +131,7 @@ struct NewSubcommand : Command
     }
 
     std::string output, kind, profile;
-    std::vector<std::string> sounds, groups;
+    std::vector<std::string> sounds, groups, asked;
     std::uint64_t seed = 1;
     OverwriteOptions overwriting;
 };

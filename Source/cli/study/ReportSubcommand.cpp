@@ -9,6 +9,7 @@
 
 #include <filesystem>
 #include <map>
+#include <set>
 #include <system_error>
 #include <utility>
 
@@ -40,6 +41,11 @@ struct ReportSubcommand : Command
                   "and its name; repeat for several",
                   "ROLE=NAME")
             ->allow_extra_args(false);
+        addOption(
+            *command, "--only", only,
+            "Report only the stimuli of a class: a sign of Schaeffer's typology (such as X''), a mass, a facture or "
+            "a tag",
+            "CLASS");
         command->add_flag(
             "--unpaired", unpaired,
             "Compare groups by a mean for each stimulus as independent samples, also where both rated the "
@@ -96,6 +102,11 @@ struct ReportSubcommand : Command
         }
         const fs::path path(named);
         const bool isTable = path.extension() == ".csv" || path.extension() == ".tsv" || path.extension() == ".txt";
+        if (isTable && !only.empty())
+            return console.fail("",
+                                {ErrorCode::invalidArgument, "--only",
+                                 "needs the folder of a study, whose stimuli have classes; a table has none"},
+                                Exit::usage);
         auto report = isTable ? ofTable(console, path, names, params) : ofStudy(console, path, params);
         if (!report)
             return console.fail(named, report.error());
@@ -137,12 +148,24 @@ struct ReportSubcommand : Command
         return reportOfRatings(*ratings, path.stem().string(), params);
     }
 
-    static Result<StudyReport> ofStudy(Console& console, const fs::path& path, const StudyReportParams& params)
+    [[nodiscard]] Result<StudyReport> ofStudy(Console& console, const fs::path& path,
+                                              const StudyReportParams& params) const
     {
-        const auto results = study::readResults(path);
+        auto results = study::readResults(path);
         if (!results)
             return results.error();
         console.warnings(path.string(), results->warnings);
+        if (!only.empty() && !study::keepClass(*results, only))
+        {
+            std::set<std::string> known;
+            for (const study::Stimulus& one : results->study.stimuli)
+                for (const auto& [order, name] : study::classesOf(one))
+                    known.insert(name);
+            return Error{ErrorCode::invalidArgument, "--only",
+                         known.empty() ? fmt::format("'{}' is no class, as no stimulus has an object or tags", only)
+                                       : fmt::format("'{}' is no class of the stimuli; there are {}", only,
+                                                     fmt::join(known, ", "))};
+        }
         return reportOfStudy(*results, params);
     }
 
@@ -178,7 +201,7 @@ struct ReportSubcommand : Command
         return Exit::ok;
     }
 
-    std::string named, output;
+    std::string named, output, only;
     std::vector<std::string> combined, columns, categories;
     bool mixed = false, unpaired = false;
     OverwriteOptions overwriting;

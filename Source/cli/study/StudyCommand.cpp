@@ -1,6 +1,7 @@
 // Command group for studies with people.
 
 #include "cli/CommandGroup.h"
+#include "cli/study/ToneSubcommand.h"
 
 #include <memory>
 
@@ -16,9 +17,9 @@ struct StudyCommand : CommandGroup
     {
         auto* command = app.add_subcommand("study", "Plan, check, simulate and evaluate studies with participants");
         command->require_subcommand(1);
-        for (const auto make :
-             {newStudySubcommand, checkStudySubcommand, simulateStudySubcommand, latencyStudySubcommand,
-              reportStudySubcommand, profileStudySubcommand, exportStudySubcommand, forgetStudySubcommand})
+        for (const auto make : {newStudySubcommand, checkStudySubcommand, simulateStudySubcommand, toneStudySubcommand,
+                                latencyStudySubcommand, reportStudySubcommand, profileStudySubcommand,
+                                exportStudySubcommand, forgetStudySubcommand})
             addStep(*command, make());
         return command->footer(
             "Example:\n"

@@ -3,7 +3,9 @@
 #include "cli/Console.h"
 #include "cli/Counted.h"
 #include "cli/study/MixedModel.h"
+#include "cli/study/ReportWriter.h"
 #include "cli/study/StudyFigures.h"
+#include "cli/study/TaskSections.h"
 #include "study/Exposure.h"
 #include "study/StudyFields.h"
 #include "study/statistics/Proportion.h"
@@ -26,36 +28,6 @@ namespace
 using namespace study;
 using Json = nlohmann::ordered_json;
 
-const plot::FigureStyle pictureStyle{{1200, 600}, false};
-
-/// p as papers print it: three decimals, or that it is below the smallest of them.
-std::string pText(double p)
-{
-    return p < 0.0005 ? "< .001" : decimalText(p, 3);
-}
-
-/// The same within a sentence.
-std::string pSaid(double p)
-{
-    return p < 0.0005 ? "p < .001" : "p = " + pText(p);
-}
-
-std::string intervalText(const Interval& interval, int decimals)
-{
-    return fmt::format("{} to {}", decimalText(interval.low, decimals), decimalText(interval.high, decimals));
-}
-
-Json jsonOf(const SampleSummary& sample)
-{
-    return {{"n", sample.count},
-            {"mean", sample.mean},
-            {"sd", sample.sd},
-            {"mean95", {sample.mean95.low, sample.mean95.high}},
-            {"median", sample.median},
-            {"quartiles", {sample.lowerQuartile, sample.upperQuartile}},
-            {"range", {sample.lowest, sample.highest}}};
-}
-
 /// The part of a summary that says something of places in an order.
 Json jsonOfPlaces(const SampleSummary& sample)
 {
@@ -75,38 +47,6 @@ Json jsonOf(const TTest& test)
             {"sd", test.sd},
             {"p", test.p},
             {"difference95", {test.difference95.low, test.difference95.high}}};
-}
-
-/// Builds the page part by part.
-class Writer
-{
-public:
-    explicit Writer(StudyReport& toFill) : report(toFill) {}
-
-    void heading(int level, std::string text) { report.page.parts.emplace_back(PageHeading{level, std::move(text)}); }
-    void warning(std::string text) { report.warnings.push_back(std::move(text)); }
-    void paragraph(std::string text) { report.page.parts.emplace_back(PageParagraph{std::move(text)}); }
-    void table(PageTable made)
-    {
-        if (!made.rows.empty())
-            report.page.parts.emplace_back(std::move(made));
-    }
-    [[nodiscard]] Result<void> picture(std::string file, std::string description, const plot::Figure& figure)
-    {
-        auto svg = svgOf(figure, pictureStyle);
-        if (!svg)
-            return svg.error();
-        report.page.parts.emplace_back(PagePicture{std::move(file), std::move(description), std::move(*svg)});
-        return {};
-    }
-
-private:
-    StudyReport& report;
-};
-
-std::string groupTitle(const std::string& name)
-{
-    return name.empty() ? std::string("all") : name;
 }
 
 /// The groups that tables show side by side: those of the study, and all together.
@@ -279,7 +219,7 @@ PageTable pairsTable(const RatingAnalysis& analysis)
 }
 
 /// What the tests amount to, in sentences.
-void writeFindings(Writer& writer, const RatingAnalysis& analysis)
+void writeFindings(ReportWriter& writer, const RatingAnalysis& analysis)
 {
     std::string text;
     for (const GroupComparison& one : analysis.comparisons)
@@ -357,11 +297,11 @@ Json jsonOf(const RatingAnalysis& analysis)
         for (std::size_t i = 0; i < analysis.stimuli.size(); ++i)
             if (!group.byStimulus[i].empty())
                 stimuli[analysis.stimuli[i]] =
-                    places ? jsonOfPlaces(summaryOf(group.byStimulus[i])) : jsonOf(summaryOf(group.byStimulus[i]));
+                    places ? jsonOfPlaces(summaryOf(group.byStimulus[i])) : summaryJson(summaryOf(group.byStimulus[i]));
         Json entry{{"group", group.name}, {"participants", group.participants.size()}};
         if (!places)
         {
-            entry["total"] = jsonOf(summaryOf(group.participantMeans));
+            entry["total"] = summaryJson(summaryOf(group.participantMeans));
             const SampleSummary answers = summaryOf(group.all);
             entry["answers"] = {{"n", answers.count}, {"mean", answers.mean}, {"sd", answers.sd}};
         }
@@ -400,15 +340,7 @@ Json jsonOf(const RatingAnalysis& analysis)
     return json;
 }
 
-std::string fileNameOf(std::string_view text)
-{
-    std::string name;
-    for (const char c : text)
-        name += (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ? c : '-';
-    return name;
-}
-
-Result<void> writeMixedModel(Writer& writer, Json& json, const std::vector<Rating>& ratings)
+Result<void> writeMixedModel(ReportWriter& writer, Json& json, const std::vector<Rating>& ratings)
 {
     const auto model = fitMixedModel(ratings);
     if (!model)
@@ -462,8 +394,8 @@ std::string agreementText(const RatingAnalysis& analysis)
 }
 
 /// All about the answers of one block.
-Result<void> writeRatings(Writer& writer, Json& json, const std::vector<Rating>& ratings, const std::string& title,
-                          AnswerKind kind, const StudyReportParams& params)
+Result<void> writeRatings(ReportWriter& writer, Json& json, const std::vector<Rating>& ratings,
+                          const std::string& title, AnswerKind kind, const StudyReportParams& params)
 {
     const RatingAnalysis analysis = analyseRatings(ratings, {params.unions, kind, params.pairStimuli});
     writer.heading(2, title);
@@ -550,7 +482,7 @@ std::vector<std::pair<std::string, std::vector<Rating>>> questionsOf(const Study
 }
 
 /// How far two coders' tables sort the words of all descriptions alike.
-void writeCoders(Writer& writer, Json& json, const std::set<std::string>& words, const StudyReportParams& params)
+void writeCoders(ReportWriter& writer, Json& json, const std::set<std::string>& words, const StudyReportParams& params)
 {
     constexpr std::size_t mostShown = 40;
     std::map<std::string, std::size_t> numbers;
@@ -587,7 +519,7 @@ void writeCoders(Writer& writer, Json& json, const std::set<std::string>& words,
         writer.table(std::move(unlike));
 }
 
-void writeWords(Writer& writer, Json& json, const StudyResults& results, const StudyReportParams& params)
+void writeWords(ReportWriter& writer, Json& json, const StudyResults& results, const StudyReportParams& params)
 {
     if (results.descriptions.empty())
         return;
@@ -660,8 +592,6 @@ std::string unitOf(Variable variable)
     return units[static_cast<std::size_t>(variable)];
 }
 
-using Person = std::pair<std::string, std::string>; // group and participant
-
 /// Answers of all participants to one stimulus of an adaptive block, and the function that fits them.
 PsychometricCurve curveOf(const StudyResults& results, const Block& block, const std::string& stimulus)
 {
@@ -694,7 +624,7 @@ PsychometricCurve curveOf(const StudyResults& results, const Block& block, const
     return curve;
 }
 
-Result<void> writeThresholds(Writer& writer, Json& json, const StudyResults& results)
+Result<void> writeThresholds(ReportWriter& writer, Json& json, const StudyResults& results)
 {
     for (const Block& block : results.study.blocks)
     {
@@ -730,7 +660,7 @@ Result<void> writeThresholds(Writer& writer, Json& json, const StudyResults& res
             table.rows.push_back({name, fmt::to_string(sample.count), decimalText(shown.back().value, 1),
                                   intervalText(shown.back().interval, 1), decimalText(sample.sd, 2),
                                   fmt::to_string(trials)});
-            ofBlock[name] = jsonOf(sample);
+            ofBlock[name] = summaryJson(sample);
             ofBlock[name]["value"] = shown.back().value;
             curves.push_back(curveOf(results, block, name));
         }
@@ -754,16 +684,7 @@ Result<void> writeThresholds(Writer& writer, Json& json, const StudyResults& res
     return {};
 }
 
-/// Chance of a right answer by guessing in a block.
-double guessOf(const Study& study, const std::string& name)
-{
-    for (const Block& block : study.blocks)
-        if (block.name == name && block.task == Task::forcedChoice)
-            return 1.0 / block.intervals;
-    return 0.5;
-}
-
-void writeChoices(Writer& writer, Json& json, const StudyResults& results)
+void writeChoices(ReportWriter& writer, Json& json, const StudyResults& results)
 {
     std::map<std::pair<std::string, std::string>, std::map<Person, CountedAnswers>> answers;
     for (const PersonalChoices& one : results.choices)
@@ -782,7 +703,9 @@ void writeChoices(Writer& writer, Json& json, const StudyResults& results)
         for (const auto& [person, own] : byPerson)
             people.push_back(own);
         const Proportion found = proportionOf(people);
-        const double guess = guessOf(results.study, key.first);
+        const auto block = std::find_if(results.study.blocks.begin(), results.study.blocks.end(),
+                                        [&](const Block& one) { return one.name == key.first; });
+        const double guess = guessOf(results.study, *block);
         table.rows.push_back({key.first, key.second, fmt::to_string(people.size()), fmt::to_string(found.right),
                               fmt::to_string(found.all), decimalText(100.0 * found.share, 1),
                               intervalText({100.0 * found.share95.low, 100.0 * found.share95.high}, 1),
@@ -800,7 +723,7 @@ void writeChoices(Writer& writer, Json& json, const StudyResults& results)
     writer.table(std::move(table));
 }
 
-Result<void> writeMap(Writer& writer, Json& json, const std::vector<PairRating>& pairs, const std::string& title)
+Result<void> writeMap(ReportWriter& writer, Json& json, const std::vector<PairRating>& pairs, const std::string& title)
 {
     std::vector<std::string> names;
     for (const PairRating& one : pairs)
@@ -854,7 +777,7 @@ Result<StudyReport> reportOfRatings(const std::vector<Rating>& ratings, const st
 {
     StudyReport report;
     report.page.title = title;
-    Writer writer(report);
+    ReportWriter writer(report);
     writer.heading(1, title);
     writer.paragraph(counted(ratings.size(), "rating.", "ratings."));
     for (const auto& [block, ofBlock] : byBlock(ratings))
@@ -869,7 +792,7 @@ Result<StudyReport> reportOfStudy(const StudyResults& results, const StudyReport
 {
     StudyReport report;
     report.page.title = results.study.name;
-    Writer writer(report);
+    ReportWriter writer(report);
     writer.heading(1, results.study.name);
     if (!results.study.description.empty())
         writer.paragraph(results.study.description);
@@ -898,10 +821,14 @@ Result<StudyReport> reportOfStudy(const StudyResults& results, const StudyReport
                                      decimalText(largest, 3), decimalText(results.study.limits.daily, 2),
                                      study::standardOf(results.study.limits.part)));
     report.json["dropouts"] = results.dropouts;
+    writeQuestionnaires(writer, report.json, results);
     for (const auto& [title, ratings] : questionsOf(results))
+    {
         if (auto written = writeRatings(writer, report.json["ratings"], ratings, title, AnswerKind::ratings, params);
             !written)
             return written.error();
+        writeClasses(writer, report.json["classes"], results.study, ratings, title);
+    }
     for (const auto& [title, ranks] : byBlock(results.ranks))
         if (auto written = writeRatings(writer, report.json["ranks"], ranks, title + " (places, 1 is first)",
                                         AnswerKind::places, params);
@@ -911,6 +838,13 @@ Result<StudyReport> reportOfStudy(const StudyResults& results, const StudyReport
     if (auto written = writeThresholds(writer, report.json["thresholds"], results); !written)
         return written.error();
     writeChoices(writer, report.json, results);
+    if (auto written = writePlaces(writer, report.json["places"], results); !written)
+        return written.error();
+    writeEvents(writer, report.json["events"], results);
+    std::vector<PersonalMeasure> measures = measuresOf(results);
+    for (const auto& [title, ratings] : questionsOf(results))
+        measures.push_back(meanRatings(title, ratings));
+    writeCovariates(writer, report.json, results, measures);
     if (auto written = writeMap(writer, report.json["maps"], results.pairs, "Similarity"); !written)
         return written.error();
     if (auto written = writeMap(writer, report.json["maps"], results.together, "Sorting"); !written)
