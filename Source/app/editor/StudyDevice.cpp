@@ -80,10 +80,11 @@ juce::StringArray StudyDevice::outputNames() const
     return names;
 }
 
-void StudyDevice::wire(int sound, int touch) noexcept
+void StudyDevice::wire(int sound, int touch, int actuators) noexcept
 {
     soundChannel.store(sound);
     touchChannel.store(touch);
+    touchChannels.store(std::clamp(actuators, 1, study::mostActuators));
 }
 
 void StudyDevice::audioDeviceAboutToStart(juce::AudioIODevice* started)
@@ -102,19 +103,22 @@ void StudyDevice::audioDeviceIOCallbackWithContext(const float* const*, int, flo
             overruns = count;
             playback.drop();
         }
-    const int sound = soundChannel.load(), touch = touchChannel.load();
+    const int sound = soundChannel.load(), touch = touchChannel.load(), actuators = touchChannels.load();
     for (int done = 0; done < frames;)
     {
         const int count = std::min(frames - done, pieceFrames);
         const auto size = static_cast<std::size_t>(count);
-        playback.process(std::span(pieces[0]).first(size), std::span(pieces[1]).first(size),
-                         std::span(pieces[2]).first(size));
+        std::array<std::span<float>, study::mostActuators> touches;
+        for (std::size_t a = 0; a < touches.size(); ++a)
+            touches[a] = std::span(pieces[2 + a]).first(size);
+        playback.process(std::span(pieces[0]).first(size), std::span(pieces[1]).first(size), touches);
         for (int c = 0; c < outs; ++c)
         {
             if (out[c] == nullptr)
                 continue;
             // The actuator gets nothing but the touch, whatever else is said to be there.
-            const float* from = c == touch       ? pieces[2].data()
+            const float* from = c >= touch && c < touch + actuators
+                                    ? pieces[2 + static_cast<std::size_t>(c - touch)].data()
                                 : c == sound     ? pieces[0].data()
                                 : c == sound + 1 ? pieces[1].data()
                                                  : nullptr;

@@ -30,8 +30,9 @@ public:
     /// Names of the channels that the device carries.
     [[nodiscard]] juce::StringArray outputNames() const;
 
-    /// The first of two channels for the ears, and the actuator's; where both are the same the touch goes there alone.
-    void wire(int sound, int touch) noexcept;
+    /// The first of two channels for the ears, and the first of `actuators` channels for touch; where both are the same
+    /// the touch goes there alone.
+    void wire(int sound, int touch, int actuators) noexcept;
 
 private:
     static constexpr int pieceFrames = 1024;
@@ -43,14 +44,14 @@ private:
 
     juce::AudioDeviceManager& manager;
     study::TrialPlayback playback;
-    std::atomic<int> soundChannel{0}, touchChannel{1};
+    std::atomic<int> soundChannel{0}, touchChannel{1}, touchChannels{1};
     // Last observed progress of the playback, for detecting a device that is open but stalled.
     mutable std::size_t lastFrame = 0;
     mutable double lastMoved = 0.0; ///< ms of JUCE's counter
     mutable bool stalled = false;
     std::atomic<juce::AudioIODevice*> device{nullptr};
     int overruns = 0; ///< that the device has counted, of the audio thread
-    std::array<std::array<float, pieceFrames>, 3> pieces{};
+    std::array<std::array<float, pieceFrames>, 2 + study::mostActuators> pieces{};
 };
 
 } // namespace pacini::app

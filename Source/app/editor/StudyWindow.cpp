@@ -81,9 +81,9 @@ StudyWindow::StudyWindow(editor::StudyPlace place, juce::AudioDeviceManager& dev
     {
         return device.outputNames();
     };
-    around.wire = [this](int sound, int touch)
+    around.wire = [this](int sound, int touch, int actuators)
     {
-        device.wire(sound, touch);
+        device.wire(sound, touch, actuators);
     };
     around.showDevices = [this]
     {

@@ -238,12 +238,13 @@ private:
 class ChoicePane final : public AnswerPane
 {
 public:
-    ChoicePane(int count, bool abx) : isAbx(abx)
+    /// `intervals`: the choices are the intervals of the trial, which light up. `firstChoice`: what the first means.
+    ChoicePane(const juce::StringArray& captions, bool abx, bool intervals = false, int firstChoice = 0)
+        : isAbx(abx), lights(intervals), first(firstChoice)
     {
-        for (int i = 0; i < count; ++i)
+        for (int i = 0; i < captions.size(); ++i)
         {
-            const juce::String text =
-                abx ? tr(i == 0 ? "Like the first (1)" : "Like the second (2)") : juce::String(i + 1);
+            const juce::String text = captions[i];
             auto button = std::make_unique<LargeButton>(text);
             button->onClick = [this, i]
             {
@@ -258,7 +259,7 @@ public:
         if (!chosen)
             return std::nullopt;
         study::Answer answer;
-        answer.choice = chosen;
+        answer.choice = first + *chosen;
         return answer;
     }
     [[nodiscard]] bool answersAtOnce() const override { return true; }
@@ -266,15 +267,16 @@ public:
     void showPlaying(std::optional<std::size_t> part) override
     {
         for (std::size_t i = 0; i < buttons.size(); ++i)
-            buttons[i]->setLit(!isAbx && part == i);
+            buttons[i]->setLit(lights && part == i);
         if (isAbx && std::exchange(playing, part) != part)
             repaint();
     }
     bool digit(int number) override
     {
-        if (number < 1 || number > static_cast<int>(buttons.size()))
+        const int index = number - (first > 0 ? first : 1);
+        if (index < 0 || index >= static_cast<int>(buttons.size()))
             return false;
-        choose(number - 1);
+        choose(index);
         return true;
     }
     [[nodiscard]] int wantedHeight() const override { return isAbx ? 3 * participantRow : 2 * participantRow; }
@@ -321,10 +323,251 @@ private:
             onChange();
     }
 
-    bool isAbx, ready = false;
+    bool isAbx, lights, ready = false;
+    int first = 0;
     std::vector<std::unique_ptr<LargeButton>> buttons;
     std::optional<int> chosen;
     std::optional<std::size_t> playing;
+};
+
+/// Which of several events were felt: any of them, marked by buttons.
+class EventsPane final : public AnswerPane
+{
+public:
+    explicit EventsPane(const juce::StringArray& events) : marked(static_cast<std::size_t>(events.size()), false)
+    {
+        for (int i = 0; i < events.size(); ++i)
+        {
+            auto button = std::make_unique<LargeButton>(events[i] + " (" + juce::String(i + 1) + ")");
+            button->onClick = [this, i]
+            {
+                toggle(static_cast<std::size_t>(i));
+            };
+            addAndMakeVisible(*button);
+            buttons.push_back(std::move(button));
+        }
+    }
+    [[nodiscard]] std::optional<study::Answer> answer() const override
+    {
+        if (!touched)
+            return std::nullopt;
+        study::Answer answer;
+        int sum = 0;
+        for (std::size_t i = 0; i < marked.size(); ++i)
+            sum += marked[i] ? 1 << i : 0;
+        answer.choice = sum;
+        return answer;
+    }
+    void setReady(bool isReady) override { ready = isReady; }
+    bool digit(int number) override
+    {
+        if (number < 1 || number > static_cast<int>(buttons.size()))
+            return false;
+        toggle(static_cast<std::size_t>(number) - 1);
+        return true;
+    }
+    [[nodiscard]] int wantedHeight() const override
+    {
+        return (static_cast<int>(buttons.size()) + perRow - 1) / perRow * (participantRow + grid);
+    }
+    void resized() override
+    {
+        const int width = (getWidth() - (perRow - 1) * 2 * grid) / perRow;
+        for (int i = 0; i < static_cast<int>(buttons.size()); ++i)
+            buttons[static_cast<std::size_t>(i)]->setBounds(
+                i % perRow * (width + 2 * grid), i / perRow * (participantRow + grid), width, participantRow);
+    }
+
+private:
+    static constexpr int perRow = 4;
+
+    void toggle(std::size_t which)
+    {
+        if (!ready)
+            return;
+        touched = true;
+        marked[which] = !marked[which];
+        buttons[which]->setLit(marked[which]);
+        buttons[which]->setToggleState(marked[which], juce::dontSendNotification);
+        if (onChange)
+            onChange();
+    }
+
+    bool ready = false, touched = false;
+    std::vector<bool> marked;
+    std::vector<std::unique_ptr<LargeButton>> buttons;
+};
+
+/// A page of questions, each with a field, a box or a scale.
+class QuestionnairePane final : public AnswerPane
+{
+public:
+    QuestionnairePane(const study::Block& block, const juce::String& language)
+    {
+        for (const study::Item& item : block.items)
+        {
+            auto row = std::make_unique<Row>(item);
+            const juce::String question = toText(study::inLanguage(item.question, language.toStdString()));
+            row->question.setText(item.optional ? question : question + " *");
+            addAndMakeVisible(row->question);
+            if (item.kind == study::QuestionKind::choice)
+            {
+                row->box = std::make_unique<juce::ComboBox>(question);
+                row->box->setTitle(question);
+                for (std::size_t i = 0; i < item.choices.size(); ++i)
+                {
+                    const study::ItemChoice& choice = item.choices[i];
+                    row->box->addItem(toText(choice.text.empty()
+                                                 ? std::string_view(choice.name)
+                                                 : study::inLanguage(choice.text, language.toStdString())),
+                                      static_cast<int>(i) + 1);
+                }
+                row->box->onChange = [this]
+                {
+                    changed();
+                };
+                addAndMakeVisible(*row->box);
+            }
+            else if (item.kind == study::QuestionKind::likert)
+            {
+                row->slider = std::make_unique<ScaleSlider>(item.scale, language);
+                row->slider->setTitle(question);
+                row->slider->onValueChange = [this, slider = row->slider.get()]
+                {
+                    slider->given = true;
+                    slider->repaint();
+                    changed();
+                };
+                addAndMakeVisible(*row->slider);
+            }
+            else
+            {
+                row->field = std::make_unique<juce::TextEditor>(question);
+                row->field->setTitle(question);
+                row->field->setFont(participantFont());
+                row->field->setSelectAllWhenFocused(true);
+                row->field->setInputRestrictions(item.kind == study::QuestionKind::number ? 20 : 1000);
+                row->field->setEscapeAndReturnKeysConsumed(false);
+                if (item.kind == study::QuestionKind::number)
+                    row->field->setTextToShowWhenEmpty(
+                        juce::String(item.scale.low) + " - " + juce::String(item.scale.high), juce::Colours::grey);
+                row->field->onTextChange = [this]
+                {
+                    changed();
+                };
+                addAndMakeVisible(*row->field);
+            }
+            rows.push_back(std::move(row));
+        }
+    }
+
+    [[nodiscard]] std::optional<study::Answer> answer() const override
+    {
+        study::Answer answer;
+        for (const auto& row : rows)
+        {
+            std::string given = row->answer();
+            if (study::problemOf(row->item, given))
+                return std::nullopt;
+            if (!given.empty())
+                answer.items.emplace_back(row->item.name, std::move(given));
+        }
+        return answer;
+    }
+    void takeFocus() override
+    {
+        if (!rows.empty() && rows.front()->control() != nullptr)
+            rows.front()->control()->grabKeyboardFocus();
+    }
+    [[nodiscard]] int wantedHeight() const override
+    {
+        int height = 0;
+        for (const auto& row : rows)
+            height += row->height(wantedWidth());
+        return height;
+    }
+    void resized() override
+    {
+        int y = 0;
+        for (const auto& row : rows)
+        {
+            const int height = row->height(getWidth());
+            auto area = juce::Rectangle<int>(0, y, getWidth(), height - 2 * grid);
+            row->question.setBounds(area.removeFromTop(row->question.heightFor(getWidth())));
+            row->control()->setBounds(row->slider ? area : area.withWidth(std::min(area.getWidth(), 50 * grid)));
+            y += height;
+        }
+    }
+    /// The field that is typed into is in sight.
+    void focusOfChildComponentChanged(FocusChangeType) override
+    {
+        auto* viewport = findParentComponentOfClass<juce::Viewport>();
+        for (const auto& row : rows)
+            if (viewport != nullptr && row->control()->hasKeyboardFocus(true))
+            {
+                const int top = row->question.getY(), bottom = row->control()->getBottom();
+                if (top < viewport->getViewPositionY() || bottom > viewport->getViewPositionY() + viewport->getHeight())
+                    viewport->setViewPosition(0, std::max(0, bottom - viewport->getHeight()));
+            }
+    }
+    void lookAndFeelChanged() override
+    {
+        const Palette& palette = paletteFor(*this);
+        for (const auto& row : rows)
+            if (row->field)
+            {
+                row->field->setColour(juce::TextEditor::outlineColourId, palette.dim);
+                row->field->setColour(juce::TextEditor::focusedOutlineColourId, palette.accent);
+                row->field->setColour(juce::TextEditor::textColourId, palette.text);
+                row->field->applyColourToAllText(palette.text);
+            }
+    }
+    void parentHierarchyChanged() override { lookAndFeelChanged(); }
+
+private:
+    struct Row
+    {
+        explicit Row(const study::Item& asked) : item(asked) {}
+        study::Item item;
+        Paragraph question{participantFont()};
+        std::unique_ptr<juce::TextEditor> field;
+        std::unique_ptr<juce::ComboBox> box;
+        std::unique_ptr<ScaleSlider> slider;
+
+        [[nodiscard]] juce::Component* control() const
+        {
+            return field ? static_cast<juce::Component*>(field.get())
+                   : box ? static_cast<juce::Component*>(box.get())
+                         : slider.get();
+        }
+        [[nodiscard]] int height(int width) const
+        {
+            return question.heightFor(width) + (slider ? 80 : 5 * grid) + 2 * grid;
+        }
+        /// As study::problemOf() takes it; decimal commas are points.
+        [[nodiscard]] std::string answer() const
+        {
+            if (field)
+            {
+                const juce::String text = field->getText().trim();
+                return (item.kind == study::QuestionKind::number ? text.replaceCharacter(',', '.') : text)
+                    .toStdString();
+            }
+            if (box)
+                return box->getSelectedId() > 0 ? item.choices[static_cast<std::size_t>(box->getSelectedId()) - 1].name
+                                                : std::string();
+            return slider->given ? juce::String(slider->getValue()).toStdString() : std::string();
+        }
+    };
+
+    [[nodiscard]] int wantedWidth() const { return getWidth() > 0 ? getWidth() : 700; }
+    void changed()
+    {
+        if (onChange)
+            onChange();
+    }
+
+    std::vector<std::unique_ptr<Row>> rows;
 };
 
 /// Several stimuli on one page, each with a button to play it: rated, put in order, or sorted into heaps.
@@ -472,20 +715,53 @@ private:
 };
 } // namespace
 
-std::unique_ptr<AnswerPane> makeAnswerPane(const study::Block& block, std::size_t stimuli, const juce::String& language)
+juce::StringArray eventNames(const study::Study& study, const study::Block& block, const juce::String& language)
 {
+    juce::StringArray names;
+    for (const std::size_t event : study::eventsOf(study, block))
+    {
+        const juce::String label = toText(study::inLanguage(study.stimuli[event].label, language.toStdString()));
+        names.add(label.isNotEmpty() ? label
+                                     : juce::String::charToString(static_cast<juce::juce_wchar>('A' + names.size())));
+    }
+    return names;
+}
+
+std::unique_ptr<AnswerPane> makeAnswerPane(const study::Study& study, const study::Block& block, std::size_t stimuli,
+                                           const juce::String& language)
+{
+    const auto numbers = [](int from, int to)
+    {
+        juce::StringArray texts;
+        for (int i = from; i <= to; ++i)
+            texts.add(juce::String(i));
+        return texts;
+    };
     switch (block.task)
     {
     case study::Task::words:
         return std::make_unique<WordsPane>();
     case study::Task::rating:
     case study::Task::similarity:
+    case study::Task::place:
         return std::make_unique<RatingPane>(block.scale, language);
+    case study::Task::questionnaire:
+        return std::make_unique<QuestionnairePane>(block, language);
     case study::Task::abx:
-        return std::make_unique<ChoicePane>(2, true);
+        return std::make_unique<ChoicePane>(juce::StringArray{tr("Like the first (1)"), tr("Like the second (2)")},
+                                            true);
+    case study::Task::side:
+        return std::make_unique<ChoicePane>(juce::StringArray{tr("Left (1)"), tr("Right (2)")}, false);
+    case study::Task::count:
+    {
+        const std::vector<int> counts = study::countsOf(study, block);
+        return std::make_unique<ChoicePane>(numbers(counts.front(), counts.back()), false, false, counts.front());
+    }
+    case study::Task::which:
+        return std::make_unique<EventsPane>(eventNames(study, block, language));
     case study::Task::forcedChoice:
     case study::Task::staircase:
-        return std::make_unique<ChoicePane>(block.intervals, false);
+        return std::make_unique<ChoicePane>(numbers(1, block.intervals), false, true);
     case study::Task::multiStimulus:
     case study::Task::ranking:
     case study::Task::sorting:

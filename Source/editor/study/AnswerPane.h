@@ -46,8 +46,12 @@ public:
 };
 
 /// The pane of a task. `stimuli`: how many there are on a page.
-[[nodiscard]] std::unique_ptr<AnswerPane> makeAnswerPane(const study::Block& block, std::size_t stimuli,
-                                                         const juce::String& language);
+[[nodiscard]] std::unique_ptr<AnswerPane> makeAnswerPane(const study::Study& study, const study::Block& block,
+                                                         std::size_t stimuli, const juce::String& language);
+
+/// What participants call the events of a task `which`, in the order of study::eventsOf(): their labels, else letters.
+[[nodiscard]] juce::StringArray eventNames(const study::Study& study, const study::Block& block,
+                                           const juce::String& language);
 
 /// Sizes of what participants read and touch: larger than an editor's.
 [[nodiscard]] juce::Font participantFont();

@@ -38,7 +38,11 @@ juce::StringArray languagesOf(const study::Study& study)
     add(study.welcome);
     add(study.consent);
     for (const study::Block& block : study.blocks)
+    {
         add(block.question);
+        for (const study::Item& item : block.items)
+            add(item.question);
+    }
     codes.sort(false);
     return codes;
 }
@@ -243,20 +247,38 @@ void StudyPage::addOutputBoxes()
     if (soundOut >= outputs.size())
         soundOut = 0;
     if (touchOut == soundOut || touchOut >= outputs.size())
-        touchOut = outputs.size() > 2 ? 2 : outputs.size() - 1;
+        touchOut =
+            outputs.size() >= 2 + study().row.actuators ? 2 : std::max(0, outputs.size() - study().row.actuators);
     addBox(tr("Sound on"), outputs, soundOut,
            [this](int index)
            {
                soundOut = index;
-               services.wire(soundOut, touchOut);
+               wire();
            });
     addBox(tr("Touch on"), outputs, touchOut,
            [this](int index)
            {
                touchOut = index;
-               services.wire(soundOut, touchOut);
+               wire();
            });
-    services.wire(soundOut, touchOut);
+    wire();
+}
+
+/// The actuators of a row are on consecutive outputs.
+void StudyPage::wire()
+{
+    services.wire(soundOut, touchOut, study().row.actuators);
+}
+
+/// Whether the device has an output for each actuator.
+bool StudyPage::hasOutputs()
+{
+    const int actuators = study().row.actuators;
+    if (!services.outputNames || actuators == 1 || touchOut + actuators <= services.outputNames().size())
+        return true;
+    status.setText(
+        tr("The study needs {0} outputs in a row for touch, from the chosen one on.", {juce::String(actuators)}));
+    return false;
 }
 
 void StudyPage::buildSetUp()
@@ -397,7 +419,7 @@ bool StudyPage::knowsActuator()
 
 void StudyPage::begin(const fs::path& log)
 {
-    if (!knowsActuator())
+    if (!knowsActuator() || !hasOutputs())
         return;
     study::SessionStart start;
     start.language = language.toStdString();
@@ -453,7 +475,7 @@ void StudyPage::buildTrial()
     buildText({}, said(block.question));
     if (running->trial()->training)
         title.setText(tr("For practice"));
-    pane = makeAnswerPane(block, running->trial()->stimuli.size(), language);
+    pane = makeAnswerPane(study(), block, running->trial()->stimuli.size(), language);
     pane->onChange = [this]
     {
         if (pane->answersAtOnce())
@@ -470,12 +492,13 @@ void StudyPage::buildTrial()
     };
     scrolled.setViewedComponent(pane.get(), false);
     scrolled.setVisible(true);
-    if (!running->isPage())
+    const bool plays = study::hasStimuli(block);
+    if (!running->isPage() && plays)
         playButton = &addButton(tr("Play (space)"), [this] { play(0); });
     if (!pane->answersAtOnce())
         nextButton = &addButton(tr("Next"), [this] { answer(); });
-    // Choices come in quick succession, and nobody wants to ask for each.
-    if (pane->answersAtOnce())
+    // Short trials come in quick succession, and nobody wants to ask for each.
+    if (pane->answersAtOnce() || block.task == study::Task::place || block.task == study::Task::which)
         juce::Timer::callAfterDelay(
             static_cast<int>(1000.0 * autoPlayAfter),
             [safe = juce::Component::SafePointer<StudyPage>(this), trial = running->session().answered()]
@@ -505,6 +528,8 @@ void StudyPage::tell(study::PlayRefusal refusal)
             return tr("It cannot be played again.");
         case study::PlayRefusal::exposure:
             return tr("The daily limit of vibration is reached. Please tell the experimenter.");
+        case study::PlayRefusal::soundLevel:
+            return tr("The sound is louder than the study allows. Please tell the experimenter.");
         case study::PlayRefusal::failed:
             break;
         }
@@ -521,6 +546,16 @@ void StudyPage::answer()
     if (!given)
         return;
     const bool feedback = running->block().feedback;
+    juce::String right; // what the touches of a practice trial are called
+    if (running->block().task == study::Task::which && running->trial()->training)
+    {
+        const juce::StringArray events = eventNames(study(), running->block(), language);
+        juce::StringArray there;
+        for (int i = 0; i < events.size(); ++i)
+            if ((running->trial()->right >> i & 1) != 0)
+                there.add(events[i]);
+        right = there.joinIntoString(", ");
+    }
     const auto kept = running->answer(*given);
     if (!kept)
     {
@@ -532,6 +567,8 @@ void StudyPage::answer()
     show(rest ? State::rest : State::trial);
     if (feedback && *kept && now == State::trial)
         status.setText(tr(**kept ? "Right" : "Wrong"));
+    else if (right.isNotEmpty() && now == State::trial)
+        status.setText(tr("It was: {0}", {right}));
 }
 
 void StudyPage::goOn()

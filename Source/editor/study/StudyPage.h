@@ -27,9 +27,10 @@ struct StudyServices
     study::TrialPlayer* player = nullptr;
     MeasureRig* rig = nullptr;                           ///< of the same device; null: delays are not measured
     std::function<juce::StringArray()> outputNames = {}; ///< of the device
-    std::function<void(int sound, int touch)> wire = {}; ///< first of two channels for the ears; the actuator's
-    std::function<void()> showDevices = {};              ///< null: no choice of devices
-    std::function<void()> showMonitor = {};              ///< the experimenter's window; null: it is seen by itself
+    /// First of two channels for the ears; the first actuator's; number of actuators, on consecutive channels.
+    std::function<void(int sound, int touch, int actuators)> wire = {};
+    std::function<void()> showDevices = {}; ///< null: no choice of devices
+    std::function<void()> showMonitor = {}; ///< the experimenter's window; null: it is seen by itself
     std::function<void()> close = {};
     std::vector<NamedProfile> profiles = {};
     std::string program = {}; ///< name and version, for the logs
@@ -90,6 +91,8 @@ private:
     void buildSetUp();
     void addLanguageBox();
     void addOutputBoxes();
+    void wire();
+    [[nodiscard]] bool hasOutputs();
     void buildDelay();
     [[nodiscard]] bool knowsActuator();
     void pollDelay();
