@@ -18,7 +18,7 @@ struct SoundLevels
     double weighted = 0.0;          ///< the same, A-weighted
     std::optional<double> loudness; ///< LUFS, integrated; none if it is too short (400 ms) or quiet (-70 LUFS), or
                                     ///< without libebur128
-    bool clipped = false; ///< a sample is beyond full scale
+    bool clipped = false;           ///< a sample is beyond full scale
 };
 
 /// All levels of a sound at a sample rate in Hz; -infinity of silence.
