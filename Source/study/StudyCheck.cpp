@@ -128,10 +128,28 @@ private:
         }
     }
 
+    /// Whether some block, or the check of comfort, plays the sound of a stimulus.
+    [[nodiscard]] bool isHeard(std::size_t index) const
+    {
+        const std::string& name = study.stimuli[index].name;
+        const auto has = [&](const std::vector<std::string>& names)
+        {
+            return std::find(names.begin(), names.end(), name) != names.end();
+        };
+        const auto plays = [&](const Block& block)
+        {
+            const auto own = stimuliOf(study, block);
+            return hasStimuli(block) && block.presentation != Presentation::touch &&
+                   (std::find(own.begin(), own.end(), index) != own.end() || has(block.training) ||
+                    has(block.anchors) || block.reference == name);
+        };
+        return has(study.comfort) || std::any_of(study.blocks.begin(), study.blocks.end(), plays);
+    }
+
     /// Notes the level of a sound and holds it against the limits.
     void checkSound(std::size_t index, const std::vector<float>& sound, MadeStimulus& one)
     {
-        if (std::all_of(sound.begin(), sound.end(), [](float x) { return x == 0.0f; }))
+        if (std::all_of(sound.begin(), sound.end(), [](float x) { return x == 0.0f; }) || !isHeard(index))
             return;
         HeardStimulus heard;
         heard.stimulus = study.stimuli[index].name;

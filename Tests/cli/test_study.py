@@ -76,8 +76,7 @@ class Steps(StudyTest):
         # What somebody has typed into a log is no age.
         log = next((self.folder / "simulated/sessions").glob("*.jsonl"))
         log.write_text(re.sub(r'"age":"[^"]*"', '"age":"old"', log.read_text()))
-        result = self.run_pacini("study", "report", "simulated", "-y")
-        self.assertIn("age is 'old', which is not a number; it is left out", result.stderr)
+        self.warns("study", "report", "simulated", "-y", says="age is 'old', which is not a number; it is left out")
 
     def test_places_between_actuators_are_reported_with_errors(self):
         self.new("place")
@@ -157,14 +156,14 @@ class Steps(StudyTest):
         self.assertLess(report["groups"][0]["soundDaily"], 60)
         study["calibration"]["level"] = 100
         file.write_text(json.dumps(study))
-        self.fails(1, ["study", "check", "mine"], "dB(A), 85.0 are allowed (limits.soundLevel)")
+        self.fails(1, ["study", "check", "mine"], "dB(A), 85.0 are allowed (limits.soundLevel)", lines=3)
         del study["calibration"]
         study["limits"]["soundLevel"] = 70
         file.write_text(json.dumps(study))
         self.fails(1, ["study", "check", "mine"], "without a calibration")
         study["limits"] = {"loudness": -60}
         file.write_text(json.dumps(study))
-        self.fails(1, ["study", "check", "mine"], "LUFS, -60.0 are allowed (limits.loudness)")
+        self.fails(1, ["study", "check", "mine"], "LUFS, -60.0 are allowed (limits.loudness)", lines=3)
         study["limits"] = {"soundDaily": 90}
         file.write_text(json.dumps(study))
         self.fails(1, ["study", "check", "mine"], "limits.soundDaily: must be 0 to 87 dB(A)")

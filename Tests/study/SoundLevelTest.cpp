@@ -39,8 +39,15 @@ TEST_CASE("A-weighting is that of IEC 61672-1, table 3, within a tenth of a deci
     {
         INFO(frequency);
         CHECK(10.0 * std::log10(weightingA(frequency)) == Approx(decibels).margin(0.06));
-        if (frequency < 20000.0)
-            CHECK(weightedLevel(sineOf(frequency, 1.0, 2.0), 48000) == Approx(decibels - 3.01).margin(0.07));
+        // Without the clicks of its ends, whose spectrum is weighted higher than a low tone's.
+        auto tone = sineOf(frequency, 1.0, 2.0);
+        for (std::size_t n = 0; n < tone.size(); ++n)
+        {
+            const double half = std::sin(std::numbers::pi * static_cast<double>(n) / static_cast<double>(tone.size()));
+            tone[n] *= static_cast<float>(half * half);
+        }
+        const SoundLevels levels = levelsOf(tone, 48000);
+        CHECK(levels.weighted - levels.rms == Approx(decibels).margin(0.07));
     }
 }
 
