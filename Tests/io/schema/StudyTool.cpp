@@ -60,11 +60,11 @@ study::Study sample(int number)
     whole.limits.soundLevel = 80.0;
     whole.limits.soundDaily = 75.0;
     whole.limits.loudness = -10.0;
-    study::Block which;
-    which.name = "which";
-    which.task = study::Task::which;
-    which.stimuli = {"both", "here"};
-    whole.blocks.push_back(which);
+    study::Block asksWhich;
+    asksWhich.name = "which";
+    asksWhich.task = study::Task::which;
+    asksWhich.stimuli = {"both", "here"};
+    whole.blocks.push_back(asksWhich);
     (void)study::addQuestionnaire(whole, "demographics");
     return whole;
 }
