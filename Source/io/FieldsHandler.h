@@ -175,6 +175,15 @@ public:
             entry = {&kind, &values, needed, nullptr, most, elements};
     }
 
+    /// A list of numbers, which must be there.
+    template <typename Number>
+    void numbers(std::string_view name, std::vector<Number>& values, std::size_t most)
+    {
+        static constexpr Kind kind{.set = appender<Number, decltype(takeAny<Number>)>(), .isList = true};
+        if (asks(name, Need::required))
+            entry = {&kind, &values, "a number", nullptr, most, "numbers that it may have"};
+    }
+
     template <typename T, typename Fields>
     void timeline(std::string_view name, std::vector<T>& values, Need need, Fields fields)
     {

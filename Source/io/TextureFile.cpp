@@ -4,31 +4,12 @@
 #include "io/FieldsWriter.h"
 #include "io/InputFile.h"
 #include "io/JsonTree.h"
+#include "io/TextureFields.h"
 
 #include <utility>
 
 namespace pacini
 {
-
-namespace
-{
-/// Shows `visitor` (FieldsReader or FieldsWriter) all entries in the order of the file.
-template <typename AnyTexture, typename Visitor>
-void visitTexture(AnyTexture& texture, Visitor& visitor)
-{
-    using enum Need;
-    visitor.optionalText("name", texture.name);
-    visitNumbers(visitor, usual, "fullSpeed", texture.fullSpeed, "fullForce", texture.fullForce);
-    visitNumbers(visitor, required, "pitch", texture.pitch, "levelBySpeed", texture.levelBySpeed, "levelByForce",
-                 texture.levelByForce);
-    visitor.list("nodes", texture.nodes, limits::textureNodes, "nodes",
-                 [&](auto& node)
-                 {
-                     visitNumbers(visitor, required, "speed", node.speed, "level", node.level);
-                     visitor.numbers("reflection", node.reflection, limits::textureOrder);
-                 });
-}
-} // namespace
 
 Result<Texture> readTextureJson(std::string_view text, ReadWarnings* warnings)
 {
@@ -38,7 +19,7 @@ Result<Texture> readTextureJson(std::string_view text, ReadWarnings* warnings)
     FieldsReader reader(*document, warnings);
     reader.format(textureFormatName, textureFormatVersion);
     Texture texture;
-    visitTexture(texture, reader);
+    textureFields::content(texture, reader);
     reader.finish();
     if (reader.error)
         return *reader.error;
@@ -51,7 +32,7 @@ std::string textureJson(const Texture& texture)
 {
     FieldsWriter writer(FieldsWriter::Layout::spaced);
     writer.format({textureFormatName, textureFormatVersion});
-    visitTexture(texture, writer);
+    textureFields::content(texture, writer);
     return std::move(writer).document();
 }
 

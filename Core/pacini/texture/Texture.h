@@ -21,6 +21,8 @@ inline constexpr std::size_t textureOrder = 64;       ///< reflection coefficien
 inline constexpr double textureLowestExponent = 0.1;  ///< of level laws: a texture is silent at speed 0 and force 0
 inline constexpr double textureHighestExponent = 3.0; ///< of level laws
 inline constexpr double textureHighestLevel = 1000.0; ///< linear RMS
+inline constexpr std::size_t textureTones = 64;       ///< of a texture
+inline constexpr double textureToneFrequency = 20000; ///< Hz, of a tone at speed 1
 } // namespace limits
 
 inline constexpr double textureRate = 2400.0; ///< Hz, of the reflection coefficients of nodes
@@ -36,7 +38,17 @@ struct TextureNode
     bool operator==(const TextureNode&) const = default;
 };
 
-/// A texture: noise whose spectrum and level depend on the speed, and whose level depends on the force (both 0 to 1).
+/// A tone of a texture, such as an order of an engine: its frequency is in proportion to the speed.
+struct TextureTone
+{
+    double frequency = 100.0;   ///< Hz at speed 1
+    double phase = 0.0;         ///< cycles, 0 to 1, where the way (the integral of the speed) is 0
+    std::vector<double> levels; ///< RMS at each node at force 1, 0 or more
+    bool operator==(const TextureTone&) const = default;
+};
+
+/// A texture: noise whose spectrum and level depend on the speed, and whose level depends on the force (both 0 to 1);
+/// beside it tones that follow the speed.
 ///
 /// Autoregressive models over speed, as J. Romano and K. Kuchenbecker, "Creating realistic virtual textures from
 /// contact acceleration data", 2012, and H. Culbertson, J. Unwin and K. Kuchenbecker, "Modeling and rendering realistic
@@ -51,6 +63,7 @@ struct Texture
     double levelBySpeed = 1.0;      ///< exponent of the level below and above all nodes
     double levelByForce = 0.5;      ///< exponent of the level
     std::vector<TextureNode> nodes; ///< in ascending speed, at least one
+    std::vector<TextureTone> tones; ///< levels by the laws of the noise: beyond the nodes, and over force
     bool operator==(const Texture&) const = default;
 };
 
@@ -101,6 +114,30 @@ struct Texture
         for (std::size_t k = 0; k < node.reflection.size(); ++k)
             if (auto fine = check(where + "reflection[" + std::to_string(k) + "]", node.reflection[k],
                                   std::abs(node.reflection[k]) < 1.0, "must be between -1 and 1, without these");
+                !fine)
+                return fine;
+    }
+    if (texture.tones.size() > limits::textureTones)
+        return Error{ErrorCode::tooLarge, "tones", "has more than 64 tones"};
+    for (std::size_t i = 0; i < texture.tones.size(); ++i)
+    {
+        const TextureTone& tone = texture.tones[i];
+        const std::string where = "tones[" + std::to_string(i) + "].";
+        if (auto fine = check(where + "frequency", tone.frequency,
+                              tone.frequency > 0.0 && tone.frequency <= limits::textureToneFrequency,
+                              "must be above 0, and at most 20000 Hz");
+            !fine)
+            return fine;
+        if (auto fine =
+                check(where + "phase", tone.phase, tone.phase >= 0.0 && tone.phase <= 1.0, "must be 0 to 1 cycles");
+            !fine)
+            return fine;
+        if (tone.levels.size() != texture.nodes.size())
+            return Error{ErrorCode::invalidData, where + "levels", "must have as many numbers as there are nodes"};
+        for (std::size_t k = 0; k < tone.levels.size(); ++k)
+            if (auto fine = check(where + "levels[" + std::to_string(k) + "]", tone.levels[k],
+                                  tone.levels[k] >= 0.0 && tone.levels[k] <= limits::textureHighestLevel,
+                                  "must be 0 or more, and at most 1000");
                 !fine)
                 return fine;
     }

@@ -11,6 +11,7 @@
 #include <pacini/texture/AutoRegression.h>
 #include <pacini/texture/Texture.h>
 #include <pacini/texture/TextureParams.h>
+#include <pacini/texture/TextureTones.h>
 
 #include <algorithm>
 #include <array>
@@ -18,6 +19,7 @@
 #include <complex>
 #include <cstddef>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <span>
 #include <utility>
@@ -218,14 +220,20 @@ inline double texturePitch(const Texture& texture)
     return 2 * steady >= all;
 }
 
+/// Samples of a frame of a recording of that length: 250 ms, or half of that where the speed changes much.
+[[nodiscard]] inline std::size_t textureWindow(const TextureMotion& motion, std::size_t samples)
+{
+    const bool steady = isSteady(motion.speed, static_cast<double>(samples) / textureAnalysisRate);
+    return static_cast<std::size_t>(textureAnalysisRate / (steady ? 4 : 8));
+}
+
 /// The short spectra of a recording, loud enough and moving, with speed and force in parts of the full ones.
 [[nodiscard]] inline Result<std::vector<TextureFrame>>
 textureFrames(std::span<const float> band, const TextureMotion& motion, const Texture& texture, double constantSpeed)
 {
     constexpr double lowest = 0.01;
     const bool moves = !motion.speed.empty(), presses = !motion.force.empty();
-    const bool steady = isSteady(motion.speed, static_cast<double>(band.size()) / textureAnalysisRate);
-    const auto window = static_cast<std::size_t>(textureAnalysisRate / (steady ? 4 : 8));
+    const std::size_t window = textureWindow(motion, band.size());
     if (band.size() < window)
         return Error{ErrorCode::invalidData, "", "is too short for a texture; record a second or more"};
     std::vector<TextureFrame> frames;
@@ -307,27 +315,104 @@ private:
     std::size_t count = 0;
 };
 
-/// A node for each half octave of speed with enough frames; one for all of them where none has.
-[[nodiscard]] inline std::vector<TextureNode> textureNodes(std::span<const TextureFrame> frames, double levelByForce,
-                                                           std::size_t order)
+inline constexpr std::size_t textureHalfOctaves = 14; // down to speed 0.01
+
+/// The half octave of a speed, from the lowest on.
+[[nodiscard]] inline std::size_t halfOctaveOf(double speed)
 {
-    constexpr std::size_t halfOctaves = 14; // down to speed 0.01
+    const auto below = static_cast<std::size_t>(std::max(0.0, -2.0 * std::log2(speed)));
+    return textureHalfOctaves - 1 - std::min(below, textureHalfOctaves - 1);
+}
+
+/// A node for each half octave of speed with enough frames, which are told in `halves`; one for all of them where none
+/// has.
+[[nodiscard]] inline std::vector<TextureNode> textureNodes(std::span<const TextureFrame> frames, double levelByForce,
+                                                           std::size_t order, std::vector<std::size_t>& halves)
+{
     constexpr std::size_t enough = 4;
-    std::array<TextureMean, halfOctaves> means;
+    std::array<TextureMean, textureHalfOctaves> means;
     TextureMean whole;
     for (const TextureFrame& frame : frames)
     {
-        const auto below = static_cast<std::size_t>(-2.0 * std::log2(frame.speed));
-        means[halfOctaves - 1 - std::min(below, halfOctaves - 1)].add(frame, levelByForce);
+        means[halfOctaveOf(frame.speed)].add(frame, levelByForce);
         whole.add(frame, levelByForce);
     }
     std::vector<TextureNode> nodes;
-    for (const TextureMean& mean : means)
-        if (mean.frames() >= enough)
-            nodes.push_back(mean.node(order));
+    for (std::size_t i = 0; i < means.size(); ++i)
+        if (means[i].frames() >= enough)
+        {
+            nodes.push_back(means[i].node(order));
+            halves.push_back(i);
+        }
     if (nodes.empty())
         nodes.push_back(whole.node(order));
     return nodes;
+}
+
+/// Adds the tones that were found, with their levels at the nodes; `halves` as above.
+inline void addTones(const FoundTones& found, std::span<const double> speed, std::span<const double> force,
+                     std::span<const std::size_t> halves, Texture& texture)
+{
+    if (found.frequencies.empty())
+        return;
+    // All phases are of one moment, so that harmonics keep theirs to each other.
+    std::size_t loudest = 0;
+    double most = -1.0;
+    for (std::size_t i = 0; i < found.frames.size(); ++i)
+    {
+        double power = 0.0;
+        for (const ToneFrame& tone : found.frames[i])
+            power += std::norm(tone.amplitude);
+        if (power > most)
+        {
+            most = power;
+            loudest = i;
+        }
+    }
+    for (std::size_t k = 0; k < found.frequencies.size(); ++k)
+    {
+        TextureTone tone;
+        tone.frequency = found.frequencies[k];
+        if (!(tone.frequency <= limits::textureToneFrequency))
+            continue;
+        // Of a cosine to that of a sine.
+        const double cycles = std::arg(found.frames[loudest][k].amplitude) / (2.0 * std::numbers::pi) + 0.25;
+        tone.phase = cycles - std::floor(cycles);
+        std::vector<double> power(texture.nodes.size(), 0.0), count(texture.nodes.size(), 0.0);
+        for (std::size_t i = 0; i < found.frames.size(); ++i)
+        {
+            const std::size_t middle = i * found.step + found.window / 2;
+            if (!found.frames[i][k].there || speed[middle] < 0.01 || force[middle] < 0.01)
+                continue;
+            std::size_t node = 0;
+            if (!halves.empty())
+            {
+                const auto half = std::find(halves.begin(), halves.end(), halfOctaveOf(speed[middle]));
+                if (half == halves.end())
+                    continue;
+                node = static_cast<std::size_t>(half - halves.begin());
+            }
+            power[node] +=
+                0.5 * std::norm(found.frames[i][k].amplitude) * std::pow(force[middle], -2.0 * texture.levelByForce);
+            count[node] += 1.0;
+        }
+        // Where it is out of the band its level does not matter much: that of the nearest node.
+        for (std::size_t n = 0; n < texture.nodes.size(); ++n)
+        {
+            std::size_t nearest = n;
+            for (std::size_t away = 1; count[nearest] == 0.0 && away < 2 * texture.nodes.size(); ++away)
+            {
+                const std::size_t step = (away + 1) / 2;
+                if (away % 2 == 1 && n >= step)
+                    nearest = n - step;
+                else if (away % 2 == 0 && n + step < texture.nodes.size())
+                    nearest = n + step;
+            }
+            const double mean = count[nearest] > 0.0 ? power[nearest] / count[nearest] : 0.0;
+            tone.levels.push_back(std::min(std::sqrt(mean), limits::textureHighestLevel));
+        }
+        texture.tones.push_back(std::move(tone));
+    }
 }
 
 } // namespace detail
@@ -337,7 +422,8 @@ private:
 /// The recording is cut into overlapping frames of 250 ms (of 125 ms where the speed changes much), which are put
 /// together by half octaves of speed. Each half octave with at least four frames (or all together, where none has so
 /// many) becomes a node with the autoregressive model of its mean spectrum. Exponents of the level over speed and force
-/// are those of least squares over all frames, where there is enough spread, 1 and 0.5 (assumed) elsewhere. Errors:
+/// are those of least squares over all frames, where there is enough spread, 1 and 0.5 (assumed) elsewhere. Tones that
+/// follow the speed are taken out before (findTones()). Errors:
 /// those of checkParameters(textureParameters); invalidData at `speed` or `force` for motions with numbers that are not
 /// finite or below 0, and for a recording that is too short, silent or never moves.
 [[nodiscard]] inline Result<TextureFit> analyseTexture(std::span<const float> samples, int sampleRate,
@@ -363,12 +449,37 @@ private:
     Texture& texture = fit.texture;
     texture.fullSpeed = params.fullSpeed.value_or(*fullSpeed);
     texture.fullForce = params.fullForce.value_or(*fullForce);
-    const auto frames = detail::textureFrames(detail::textureBand(samples, sampleRate), motion, texture, params.speed);
+    const auto band = detail::textureBand(samples, sampleRate);
+    const auto frames = detail::textureFrames(band, motion, texture, params.speed);
     if (!frames)
         return frames.error();
     fit.frames = frames->size();
     detail::fitLevelLaws(*frames, fit);
-    texture.nodes = detail::textureNodes(*frames, texture.levelByForce, static_cast<std::size_t>(params.order));
+    // Tones first, then the noise without them.
+    std::vector<double> speed(band.size(), params.speed), force(band.size(), 1.0);
+    CurveReader speeds(motion.speed), forces(motion.force);
+    for (std::size_t n = 0; n < band.size(); ++n)
+    {
+        const double time = static_cast<double>(n) / detail::textureAnalysisRate;
+        if (!motion.speed.empty())
+            speed[n] = std::min(speeds.at(time) / texture.fullSpeed, 1.0);
+        if (!motion.force.empty())
+            force[n] = std::min(forces.at(time) / texture.fullForce, 1.0);
+    }
+    const FoundTones tones = findTones(band, speed, detail::textureAnalysisRate, detail::textureWindow(motion, band.size()),
+                                       static_cast<std::size_t>(params.tones));
+    std::vector<std::size_t> halves;
+    auto noise = tones.frequencies.empty() ? frames
+                                           : detail::textureFrames(tones.rest, motion, texture, params.speed);
+    const bool hasNoise = noise.ok();
+    if (!hasNoise)
+        noise = frames;
+    texture.nodes =
+        detail::textureNodes(*noise, texture.levelByForce, static_cast<std::size_t>(params.order), halves);
+    if (!hasNoise) // nothing but tones: a node has some noise, at -80 dB
+        for (TextureNode& node : texture.nodes)
+            node.level *= 1e-4;
+    detail::addTones(tones, speed, force, halves, texture);
     fit.pitchAssumed = !params.pitch && texture.nodes.size() == 1;
     texture.pitch = params.pitch.value_or(detail::texturePitch(texture));
     if (auto valid = validate(texture); !valid)

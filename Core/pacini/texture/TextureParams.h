@@ -17,6 +17,7 @@ struct TextureParams
 {
     int order = 32; ///< 24 and 32 are the knee of error against run time, see `pacini bench textures`
     std::optional<double> pitch;
+    int tones = 16;
     double speed = 0.5;
     std::optional<double> fullSpeed;
     std::optional<double> fullForce;
@@ -61,6 +62,10 @@ inline constexpr std::array textureParameters{
          .text = "How frequencies follow the speed: 1 in proportion, as ridges do, 0 not at all, as a river",
          .range = {0, 1},
          .usualText = "measured; 1 for a single speed"}),
+    described<&TextureParams::tones>(
+        {.name = "tones",
+         .text = "Most tones that follow the speed, such as orders of an engine; they are told from the noise",
+         .range = {0, 64}}),
     described<&TextureParams::speed>(
         {.name = "recordedSpeed",
          .text = "Speed (0 to 1) at which the recording plays, where no table of speeds is given",

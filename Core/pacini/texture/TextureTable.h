@@ -48,6 +48,18 @@ public:
         return between * std::pow(speed / texture.nodes[at.lower].speed, texture.levelBySpeed);
     }
 
+    /// RMS of a tone at force 1, wherever its frequency is. Between two nodes on a straight line over the logarithm of
+    /// the speed, as it may be 0 at one of them.
+    [[nodiscard]] double toneLevel(std::size_t tone, double speed) const noexcept
+    {
+        const Neighbours at = neighbours(speed);
+        const auto& levels = texture.tones[tone].levels;
+        const double between = levels[at.lower] + (levels[at.upper] - levels[at.lower]) * at.share;
+        if (at.lower != at.upper)
+            return between;
+        return between * std::pow(speed / texture.nodes[at.lower].speed, texture.levelBySpeed);
+    }
+
     /// Relative, up to 1200 Hz.
     [[nodiscard]] PowerSpectrum spectrum(double speed) const
     {
@@ -116,6 +128,8 @@ public:
     {
         assert(validate(texture).ok() && isPlayableRate(sampleRate));
         const TextureLaw law(texture);
+        for (const TextureTone& tone : texture.tones)
+            tones.push_back({tone.frequency, tone.phase});
         for (std::size_t i = 0; i <= steps; ++i)
         {
             const double root = static_cast<double>(std::max<std::size_t>(i, 1)) / static_cast<double>(steps);
@@ -126,6 +140,9 @@ public:
             // The lattice's whole power is 1, that between 20 and 1000 Hz is to be the level's.
             const double share = spectrum.sum(textureLow, textureHigh) / (spectrum.step * lags[0]);
             levels.push_back(i == 0 ? 0.0 : law.level(root * root) / std::sqrt(std::max(share, 1e-2)));
+            for (std::size_t k = 0; k < tones.size(); ++k)
+                toneLevels.push_back(
+                    i == 0 ? 0.0 : law.toneLevel(k, root * root) * audible(tones[k].frequency * root * root));
         }
     }
 
@@ -162,6 +179,34 @@ public:
         return reflection.first(order);
     }
 
+    /// A tone that follows the speed.
+    struct Tone
+    {
+        double frequency = 0.0; ///< Hz at speed 1
+        double phase = 0.0;     ///< cycles
+    };
+
+    [[nodiscard]] std::span<const Tone> allTones() const noexcept { return tones; }
+
+    /// The RMS of a tone at force 1; 0 where its frequency is beyond 1000 Hz. [audio]
+    [[nodiscard]] double toneLevel(std::size_t tone, const Place& place) const noexcept
+    {
+        const double* lower = toneLevels.data() + place.entry * tones.size() + tone;
+        return lower[0] + (lower[tones.size()] - lower[0]) * place.share;
+    }
+
+    /// The RMS of all tones together.
+    [[nodiscard]] double tonesLevel(const Place& place) const noexcept
+    {
+        double square = 0.0;
+        for (std::size_t k = 0; k < tones.size(); ++k)
+            square += toneLevel(k, place) * toneLevel(k, place);
+        return std::sqrt(square);
+    }
+
+    /// The highest frequency of noise and tones, Hz.
+    [[nodiscard]] double highest() const noexcept { return std::min(textureHigh, 0.42 * innerRate()); }
+
     /// Exponent of the level over force.
     [[nodiscard]] double levelByForce() const noexcept { return forceExponent; }
 
@@ -176,12 +221,20 @@ public:
 private:
     static constexpr std::size_t steps = 128;
 
+    /// Tones end at the highest frequency within a tenth of it.
+    [[nodiscard]] double audible(double frequency) const noexcept
+    {
+        return std::clamp((1.1 * highest() - frequency) / (0.1 * highest()), 0.0, 1.0);
+    }
+
     double fs;
     std::size_t factor;
     std::size_t order;
     double forceExponent;
     std::vector<double> levels;
     std::vector<double> reflections; ///< [entry][order]
+    std::vector<Tone> tones;
+    std::vector<double> toneLevels; ///< [entry][tone]
 };
 
 } // namespace pacini
