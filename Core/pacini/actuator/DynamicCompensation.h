@@ -11,6 +11,7 @@
 #include <cmath>
 #include <complex>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <span>
 #include <utility>
@@ -28,7 +29,19 @@ struct DynamicCompensationParams
     Seconds delay{0.0};             ///< from the drive to the feedback, 0 to 1 s, to 10 ms
     Decibels limit{12.0};           ///< largest gain up or down of a band, 0 to 24 dB
     std::optional<Decibels> target; ///< feedback per drive; none: that of `time`, 2 s after a band first sounds
+    bool needsEvidence = false;     ///< gains move only while the feedback is that of the drive, see SensorState
     bool operator==(const DynamicCompensationParams&) const = default;
+};
+
+/// What the feedback of the last 10 ms was like, with DynamicCompensationParams::needsEvidence. Full scale is 1.
+enum class SensorState
+{
+    waiting,     ///< nothing was driven that could come back
+    good,        ///< it follows the drive in some band
+    apart,       ///< it does not follow the drive: unplugged, come off, or with another delay than told
+    dead,        ///< it does not move at all
+    saturated,   ///< it is at full scale
+    notANumber   ///< it is NaN or infinite
 };
 
 /// Follows the response of a worn actuator by the level that comes back from a sensor (W. McMahan and K. J.
@@ -51,6 +64,14 @@ struct DynamicCompensationParams
 /// Besides, gains are held within +-limit, and sections of this form stay bounded however they move (Wishnick 2014, see
 /// StateVariable.h), so that no feedback at all, not even noise, makes the output grow.
 ///
+/// Evidence. A sensor may come off, break or be unplugged, and what comes then, hum or noise, says nothing of the
+/// actuator. With `needsEvidence`, levels of the drive (as it was played) and of the feedback, dB in steps of 10 ms and
+/// smoothed over 30 ms, are compared over some 3 s in each band: those of the drive have to vary, and those of the
+/// feedback with them, with a correlation of 0.6 at least (of some fifty levels; that of noise of its own is 0 within
+/// 0.15) and a slope of 0.2. A band without that, which a steady tone is too, holds the gain that it had before, and so do all bands for half a second after feedback that is no number, saturated or
+/// without any motion. So no feedback raises a gain but one that follows the drive. Holding a gain opens the loop, which
+/// is as stable as its filter; what was proven holds while it is closed.
+///
 /// Errors. Within a band the response keeps its shape; noise n dB below the feedback counts as 10 log10(1 + 10^(-n/10))
 /// dB of response; a band whose drive is below -60 dB or 20 dB below the strongest band is held.
 class DynamicCompensation : public DesignedBlock<DynamicCompensation, DynamicCompensationParams>
@@ -58,6 +79,7 @@ class DynamicCompensation : public DesignedBlock<DynamicCompensation, DynamicCom
 public:
     static constexpr std::size_t maxBands = 24;
     static constexpr double hopTime = 0.01; ///< s between two updates
+    static constexpr std::size_t gainHops = 20; ///< between two gains that are remembered
     static constexpr double lost = 12.0;    ///< dB beyond the limit from which on the feedback counts as lost
 
     /// Keeps what was learned unless the bands change.
@@ -87,6 +109,9 @@ public:
         follow = 1.0 - std::exp(-hop / clampTo(params.time.value, 2.0, 600.0));
         learning = static_cast<std::size_t>(clampTo(params.time.value, 2.0, 600.0) / hop);
         smooth = 1.0 - std::exp(-hop / 0.5);
+        quick = 1.0 - std::exp(-hop / 0.03);
+        memory = 1.0 - std::exp(-hop / 3.0);
+        holdHops = static_cast<std::size_t>(0.5 / hop);
         settling = static_cast<std::size_t>(2.0 / hop); // the longest delay, and what the smoothing of 0.5 s takes
         delayHops = static_cast<std::size_t>(std::round(clampTo(params.delay.value, 0.0, 1.0) / hop));
         delayHops = std::min(delayHops, history.size() - 1);
@@ -106,6 +131,9 @@ public:
         for (auto& powers : history)
             powers.fill(0.0);
         states.fill({});
+        check = {};
+        holding = 0;
+        sensorNow = SensorState::waiting;
         hopsDone = 0;
         frame = 0;
         design();
@@ -126,6 +154,7 @@ public:
         {
             const double y = filtered(finiteOrZero(in[i]));
             const double back = finiteOrZero(feedback[i]);
+            check.add(static_cast<double>(feedback[i]));
             passes.add(count, y, back);
             out[i] = toSample(y);
             if (++frame == hopFrames)
@@ -136,6 +165,29 @@ public:
         }
         flush();
     }
+
+    /// Learns from a drive as it was played, behind a limiter for one, and from what came back meanwhile, as many
+    /// frames; for filters that were run without feedback. [audio]
+    void learn(std::span<const float> played, std::span<const float> feedback) noexcept
+    {
+        for (std::size_t i = 0; i < played.size(); ++i)
+        {
+            check.add(static_cast<double>(feedback[i]));
+            passes.add(count, finiteOrZero(played[i]), finiteOrZero(feedback[i]));
+            if (++frame == hopFrames)
+            {
+                frame = 0;
+                update();
+            }
+        }
+        passes.flush();
+    }
+
+    /// What the sensor is like; without needsEvidence it is waiting. [audio]
+    [[nodiscard]] SensorState sensor() const noexcept { return sensorNow; }
+
+    /// Whether band k holds its gain, as nothing that followed the drive came back in it.
+    [[nodiscard]] bool holds(std::size_t k) const noexcept { return meters[k].held; }
 
     /// Centres of the bands, Hz.
     [[nodiscard]] std::span<const double> frequencies() const noexcept { return std::span(bands).first(count); }
@@ -175,6 +227,37 @@ private:
         std::size_t waited = 0;         // hops
         std::size_t learned = 0;        // hops
         std::optional<double> measured; // dB
+        double quickDrive = 0.0, quickBack = 0.0; // powers, smoothed over 30 ms
+        double meanDrive = 0.0, meanBack = 0.0;   // dB, over 3 s
+        double variance = 0.0, varianceBack = 0.0, covariance = 0.0; // dB^2
+        double weight = 0.0;                      // of these, up to 1
+        bool held = false;
+        std::array<float, 32> before{}; // gains of the last seconds, dB, the oldest at hopsDone
+    };
+
+    /// The feedback of a hop as numbers.
+    struct SensorCheck
+    {
+        double least = std::numeric_limits<double>::infinity(), most = -std::numeric_limits<double>::infinity();
+        std::size_t full = 0;
+        bool finite = true;
+
+        void add(double x) noexcept
+        {
+            finite = finite && std::isfinite(x);
+            least = std::min(least, x);
+            most = std::max(most, x);
+            full += std::abs(x) >= 0.999 ? 1 : 0;
+        }
+        /// Good here means that nothing is wrong.
+        [[nodiscard]] SensorState state() const noexcept
+        {
+            if (!finite)
+                return SensorState::notANumber;
+            if (full >= 3)
+                return SensorState::saturated;
+            return most - least > 1e-7 ? SensorState::good : SensorState::dead;
+        }
     };
 
     /// Two band-passes in series for each band, of the drive and of the feedback, side by side to fill vector
@@ -256,6 +339,11 @@ private:
     /// The end of a hop: new levels, and new gains of the bands that sound.
     void update() noexcept
     {
+        const SensorState state = std::exchange(check, {}).state();
+        if (current.needsEvidence && state != SensorState::good)
+            holding = holdHops;
+        const bool trusted = holding == 0;
+        holding -= trusted ? 0 : 1;
         const std::size_t now = hopsDone % history.size();
         const std::size_t then = (hopsDone + history.size() - delayHops) % history.size();
         ++hopsDone;
@@ -266,17 +354,38 @@ private:
         {
             Meter& meter = meters[k];
             history[now][k] = scale * std::exchange(passes.drive[k], 0.0);
+            const double back = scale * std::exchange(passes.back[k], 0.0);
+            if (!trusted)
+            {
+                meter.held = true;
+                continue;
+            }
             meter.smoothDrive += smooth * (history[then][k] - meter.smoothDrive);
-            meter.smoothBack += smooth * (scale * std::exchange(passes.back[k], 0.0) - meter.smoothBack);
+            meter.smoothBack += smooth * (back - meter.smoothBack);
+            compareLevels(meter, history[then][k], back);
             strongest = std::max(strongest, meter.smoothDrive);
         }
+        if (!trusted)
+        {
+            sensorNow = state != SensorState::good ? state : sensorNow;
+            return;
+        }
         const double least = std::max(1e-6, 0.01 * strongest);
-        bool moved = false;
+        bool moved = false, driven = false, followed = false;
         for (std::size_t k = 0; k < count; ++k)
         {
             Meter& meter = meters[k];
             if (!(meter.smoothDrive >= least))
                 continue;
+            driven = true;
+            if (current.needsEvidence && !hasEvidence(meter))
+            {
+                hold(meter);
+                moved = true;
+                continue;
+            }
+            meter.held = false;
+            followed = true;
             constexpr double silence = 1e-30;
             meter.measured = 10.0 * std::log10((meter.smoothBack + silence) / meter.smoothDrive);
             const auto wanted = reference(k);
@@ -292,12 +401,59 @@ private:
                 continue;
             }
             const double lack = *wanted - *meter.measured;
+            moved = true;
+            if (current.needsEvidence && lack > limit + lost)
+            {
+                hold(meter);
+                continue;
+            }
             const double goal = lack > limit + lost ? 0.0 : std::clamp(lack, -limit, limit);
             meter.gain += follow * (goal - meter.gain);
-            moved = true;
+            if (hopsDone % gainHops == 0)
+                meter.before[hopsDone / gainHops % meter.before.size()] = static_cast<float>(meter.gain);
         }
+        if (current.needsEvidence)
+            sensorNow = !driven ? SensorState::waiting : followed ? SensorState::good : SensorState::apart;
         if (moved)
             design();
+    }
+
+    /// Holds a band from now on, at its gain of before the evidence began to fade: some 6 s ago.
+    void hold(Meter& meter) noexcept
+    {
+        if (std::exchange(meter.held, true))
+            return;
+        meter.gain = static_cast<double>(meter.before[(hopsDone / gainHops + 1) % meter.before.size()]);
+        meter.before.fill(static_cast<float>(meter.gain));
+    }
+
+    /// Adds the powers of a hop to what is known of how the feedback varies with the drive.
+    void compareLevels(Meter& meter, double drive, double back) noexcept
+    {
+        if (!current.needsEvidence)
+            return;
+        constexpr double silence = 1e-12;
+        meter.quickDrive += quick * (drive - meter.quickDrive);
+        meter.quickBack += quick * (back - meter.quickBack);
+        // Pauses of the drive count as one level below which nothing has to come back.
+        const double x = 10.0 * std::log10(std::max(meter.quickDrive, 1e-6)), y = 10.0 * std::log10(meter.quickBack + silence);
+        meter.weight += memory * (1.0 - meter.weight);
+        const double share = memory / meter.weight;
+        const double dx = x - meter.meanDrive, dy = y - meter.meanBack;
+        meter.meanDrive += share * dx;
+        meter.meanBack += share * dy;
+        meter.variance += share * (dx * (x - meter.meanDrive) - meter.variance);
+        meter.varianceBack += share * (dy * (y - meter.meanBack) - meter.varianceBack);
+        meter.covariance += share * (dx * (y - meter.meanBack) - meter.covariance);
+    }
+
+    [[nodiscard]] static bool hasEvidence(const Meter& meter) noexcept
+    {
+        constexpr double leastVariance = 0.25; // dB^2: bands of noise vary by a dB and more
+        constexpr double leastCorrelation = 0.6, leastSlope = 0.2;
+        return meter.weight > 0.2 && meter.variance > leastVariance &&
+               meter.covariance > leastSlope * meter.variance &&
+               meter.covariance > leastCorrelation * std::sqrt(meter.variance * meter.varianceBack);
     }
 
     /// Sections whose responses have the gains of the bands at their centres.
@@ -356,7 +512,10 @@ private:
     double q = 1.0;
     double limit = 12.0; // dB
     double follow = 0.0; // share of a change in one hop
-    double smooth = 0.0;
+    double smooth = 0.0, quick = 0.0, memory = 0.0;
+    std::size_t holdHops = 50, holding = 0;
+    SensorCheck check;
+    SensorState sensorNow = SensorState::waiting;
     std::size_t hopFrames = 480;
     std::size_t learning = 0; // hops
     std::size_t settling = 0; // hops
