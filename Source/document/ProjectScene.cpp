@@ -162,6 +162,10 @@ double& valueOf(ScenePlay& play, SceneParameter parameter) noexcept
         return play.events;
     case SceneParameter::noise:
         return play.noise;
+    case SceneParameter::speed:
+        return play.speed;
+    case SceneParameter::force:
+        return play.force;
     case SceneParameter::gain:
         break;
     }

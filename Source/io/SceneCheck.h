@@ -36,6 +36,14 @@ inline void checkClips(const Scene& scene, std::vector<SceneFinding>& found)
             found.push_back({indexed("clips", i), "is never played"});
 }
 
+/// Whether a play has anything of a role, its texture included.
+inline bool hasRole(const Scene& scene, const ScenePlay& play, Role role)
+{
+    if (!play.texture)
+        return pacini::hasRole(scene.clips[play.clip], role);
+    return role == Role::noise || (role == Role::tones && !scene.textures[*play.texture].tones.empty());
+}
+
 /// Whether a place is a role of a play: to mute one does something.
 inline bool isRole(const std::string& where)
 {
@@ -83,16 +91,40 @@ inline void checkChanges(const Scene& scene, const SceneTimeline& timeline, std:
         else if (change.parameter == SceneParameter::pan && scene.actuators == 1)
             found.push_back({indexed("changes", i), "is a pan, but the scene has only one actuator"});
         else if (const auto role = roleOf(change.parameter);
-                 role && !hasRole(scene.clips[scene.plays[change.play].clip], *role))
+                 role && !hasRole(scene, scene.plays[change.play], *role))
             found.push_back({indexed("changes", i), fmt::format("is of {}, but the clip has none", nameOf(*role))});
+        else if (const bool moves =
+                     change.parameter == SceneParameter::speed || change.parameter == SceneParameter::force;
+                 moves && !scene.plays[change.play].texture)
+            found.push_back({indexed("changes", i), "is of a texture, but the play has none"});
     }
+}
+
+inline void checkTextures(const Scene& scene, std::vector<SceneFinding>& found)
+{
+    std::vector<bool> played(scene.textures.size(), false);
+    for (std::size_t i = 0; i < scene.plays.size(); ++i)
+    {
+        const ScenePlay& play = scene.plays[i];
+        if (play.texture)
+        {
+            played[*play.texture] = true;
+            if (play.transposition != 0.0)
+                found.push_back({indexed("plays", i) + ".transposition", "has no effect on a texture; change its speed"});
+        }
+        else if (play.speed != ScenePlay{}.speed || play.force != ScenePlay{}.force)
+            found.push_back({indexed("plays", i), "has a speed or a force, but no texture"});
+    }
+    for (std::size_t i = 0; i < played.size(); ++i)
+        if (!played[i])
+            found.push_back({indexed("textures", i), "is never played"});
 }
 
 inline void checkRoles(const Scene& scene, std::vector<SceneFinding>& found)
 {
     for (std::size_t i = 0; i < scene.plays.size(); ++i)
         for (const Role role : allRoles)
-            if (roleLevel(scene.plays[i], role) != 0.0 && !hasRole(scene.clips[scene.plays[i].clip], role))
+            if (roleLevel(scene.plays[i], role) != 0.0 && !hasRole(scene, scene.plays[i], role))
                 found.push_back({indexed("plays", i) + "." + nameOf(role), "has no effect: the clip has none"});
 }
 
@@ -120,6 +152,7 @@ inline void checkPans(const Scene& scene, std::vector<SceneFinding>& found)
     detail::checkEnds(timeline, found);
     detail::checkChanges(scene, timeline, found);
     detail::checkPans(scene, found);
+    detail::checkTextures(scene, found);
     detail::checkRoles(scene, found);
     return found;
 }

@@ -5,6 +5,7 @@
 #include "io/Fields.h"
 #include "io/FieldsHandler.h"
 #include "io/SceneJson.h"
+#include "io/TextureFields.h"
 #include "io/formats/json/ClipFields.h"
 
 #include <pacini/synthesis/Scene.h>
@@ -34,9 +35,16 @@ struct DraftClip
     std::optional<Clip> embedded;
 };
 
+struct DraftTexture
+{
+    std::string file;
+    std::optional<Texture> embedded;
+};
+
 struct DraftPlay : ScenePlay
 {
-    Reference clip; ///< instead of the index of a ScenePlay
+    std::optional<Reference> clip, texture; ///< instead of the indices of a ScenePlay
+    double duration = 0.0;                  ///< s, of a texture without a clip
     bool loopsAll = false;
 };
 
@@ -49,20 +57,23 @@ struct DraftChange : SceneChange
 struct Draft : Scene
 {
     std::vector<DraftClip> clips;
+    std::vector<DraftTexture> textures;
     std::vector<DraftPlay> plays;
     std::vector<DraftChange> changes;
 };
 
 inline constexpr std::array<Choice<PanLaw>, 3> panLaws{
     {{"constantPower", PanLaw::constantPower}, {"delay", PanLaw::delay}, {"both", PanLaw::both}}};
-inline constexpr std::array<Choice<SceneParameter>, 8> parameters{{{"gain", SceneParameter::gain},
+inline constexpr std::array<Choice<SceneParameter>, 10> parameters{{{"gain", SceneParameter::gain},
                                                                    {"pan", SceneParameter::pan},
                                                                    {"delay", SceneParameter::delay},
                                                                    {"transposition", SceneParameter::transposition},
                                                                    {"stretch", SceneParameter::stretch},
                                                                    {"tones", SceneParameter::tones},
                                                                    {"events", SceneParameter::events},
-                                                                   {"noise", SceneParameter::noise}}};
+                                                                   {"noise", SceneParameter::noise},
+                                                                   {"speed", SceneParameter::speed},
+                                                                   {"force", SceneParameter::force}}};
 inline constexpr std::array<Choice<VariationScope>, 2> variationScopes{
     {{"breakpoint", VariationScope::breakpoint}, {"band", VariationScope::band}}};
 
@@ -80,6 +91,49 @@ void visitReference(const char* name, Target& target, std::string_view needed, V
         visitor.scalar(name, target, Need::required, needed, takeAny<double, std::string>);
     else
         visitor.integer(name, target);
+}
+
+/// The clip of a play, or its texture, which is then there for `duration`; a scene that is written has both.
+template <typename Play, typename Visitor>
+void visitContent(Play& play, Visitor& visitor)
+{
+    if constexpr (isReader<Visitor>)
+    {
+        const auto take = [](std::optional<Reference>& target, JsonScalar& value)
+        {
+            return takeAny<double, std::string>(target.emplace(), value);
+        };
+        visitor.scalar("clip", play.clip, Need::usual, "the index, the file or the name of a clip", take);
+        visitor.scalar("texture", play.texture, Need::usual, "the index, the file or the name of a texture", take);
+        visitor.number("duration", play.duration, Need::usual);
+        visitor.check(
+            [&]() -> Result<void>
+            {
+                if (!play.clip && !play.texture)
+                    return Error{ErrorCode::invalidData, "clip", "is missing"};
+                if (play.texture && !play.clip && !(play.duration > 0.0))
+                    return Error{ErrorCode::invalidData, "duration", "is missing; say how long the texture plays, s"};
+                if (play.clip && play.duration != 0.0)
+                    return Error{ErrorCode::invalidData, "duration", "is that of the clip; it is for textures only"};
+                return {};
+            });
+    }
+    else
+    {
+        visitor.integer("clip", play.clip);
+        if (play.texture)
+            visitor.integer("texture", *play.texture);
+    }
+}
+
+template <typename Play, typename Visitor>
+void visitMovement(Play& play, Visitor& visitor)
+{
+    if constexpr (!isReader<Visitor>)
+        if (!play.texture)
+            return;
+    visitor.number("speed", play.speed, Need::usual);
+    visitor.number("force", play.force, Need::usual);
 }
 
 template <typename Seed, typename Visitor>
@@ -139,10 +193,32 @@ inline constexpr auto clipEntry = [](auto& clip, auto& visitor)
         visitor.object("clip", clip, Need::required, clipFields::document);
 };
 
-/// A clip that is nothing but the name of its file.
+/// A clip or a texture that is nothing but the name of its file.
 inline constexpr auto takeClipFile = [](auto& clip, JsonScalar& value)
 {
     return !takeAs<std::string>(value, clip.file) ? Taken::wrongKind : clip.file.empty() ? Taken::noName : Taken::yes;
+};
+
+inline constexpr auto textureEntry = [](auto& texture, auto& visitor)
+{
+    if constexpr (isReader<std::remove_cvref_t<decltype(visitor)>>)
+    {
+        const auto takeFile = [](std::string& file, JsonScalar& value)
+        {
+            return !takeAs<std::string>(value, file) ? Taken::wrongKind : file.empty() ? Taken::wrongValue : Taken::yes;
+        };
+        visitor.scalar("file", texture.file, Need::optional, "a file name in quotes", takeFile);
+        visitor.optionalObject("texture", texture.embedded, textureFields::embedded, "a texture in braces");
+        visitor.check(
+            [&]() -> Result<void>
+            {
+                if (texture.file.empty() == !texture.embedded)
+                    return Error{ErrorCode::invalidData, "", "needs either \"file\" or \"texture\""};
+                return {};
+            });
+    }
+    else
+        visitor.object("texture", texture, Need::required, textureFields::embedded);
 };
 
 inline constexpr auto variationFields = [](auto& variation, auto& visitor)
@@ -174,11 +250,12 @@ inline constexpr auto levelFields = [](auto& play, auto& visitor)
 inline constexpr auto playFields = [](auto& play, auto& visitor)
 {
     visitor.text("name", play.name, Need::usual);
-    visitReference("clip", play.clip, "the index, the file or the name of a clip", visitor);
+    visitContent(play, visitor);
     visitor.number("start", play.start, Need::usual);
     visitLoop(play, visitor);
     visitor.integer("passes", play.passes, passes);
     levelFields(play, visitor);
+    visitMovement(play, visitor);
     visitor.integer("priority", play.priority, priority);
     visitor.object("variation", play.variation, Need::usual, variationFields,
                    "a number, or an object with amount, scope and seed", takeAmount);
@@ -204,6 +281,8 @@ inline constexpr auto document = [](auto& scene, auto& visitor)
     visitor.number("panDelay", scene.panDelay, Need::usual);
     visitor.list("clips", scene.clips, limits::sceneClips, "clips that a scene may have", clipEntry, Need::usual,
                  "a file name in quotes or an object in braces", takeClipFile);
+    visitor.list("textures", scene.textures, limits::sceneTextures, "textures that a scene may have", textureEntry,
+                 Need::optional, "a file name in quotes or an object in braces", takeClipFile);
     visitor.rows("plays", scene.plays, limits::plays, "plays that a scene may have", playFields);
     visitor.rows("changes", scene.changes, limits::sceneChanges, "changes that a scene may have", changeFields);
 };

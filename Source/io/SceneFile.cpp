@@ -6,6 +6,7 @@
 #include "io/JsonText.h"
 #include "io/SceneJson.h"
 #include "io/TextMark.h"
+#include "io/TextureFile.h"
 #include "io/formats/json/ClipJson.h"
 
 #include <system_error>
@@ -74,7 +75,20 @@ Result<Scene> sceneOfText(std::string_view text, const fs::path& clipFolder, Rea
                 warnings->add(file, warning);
         return std::move(read->clip);
     };
-    return readSceneJson(text, load, warnings);
+    const auto loadTexture = [&](const std::string& file) -> Result<Texture>
+    {
+        const fs::path path = clipFolder / file;
+        std::error_code ignored;
+        if (fs::exists(path, ignored) && fs::is_other(path, ignored))
+            return Error{ErrorCode::io, "", "is a pipe or a device; name a texture file"};
+        ReadWarnings passed(warnings != nullptr && warnings->isStrict());
+        auto read = readTexture(path, &passed);
+        if (read && warnings != nullptr)
+            for (const std::string& warning : passed.texts())
+                warnings->add(file, warning);
+        return read;
+    };
+    return readSceneJson(text, load, warnings, loadTexture);
 }
 
 Result<Scene> readScene(const fs::path& path, const fs::path& clipFolder, ReadWarnings* warnings)

@@ -155,20 +155,103 @@ private:
     std::size_t points = 0;
 };
 
-Result<Scene> resolve(sceneFields::Draft draft, const ClipLoader& load)
+/// Puts the textures of a draft into its scene and finds those that are named.
+class SceneTextures
+{
+public:
+    SceneTextures(Scene& sceneToFill, const TextureLoader& textureLoader) : scene(sceneToFill), load(textureLoader) {}
+
+    Result<void> addAll(std::vector<sceneFields::DraftTexture>& drafts)
+    {
+        for (std::size_t i = 0; i < drafts.size(); ++i)
+            if (drafts[i].embedded)
+            {
+                names.add(drafts[i].embedded->name, scene.textures.size());
+                scene.textures.push_back(std::move(*drafts[i].embedded));
+            }
+            else if (auto added = addFile(drafts[i].file, detail::indexed("textures", i), ""); !added)
+                return added.error();
+        return {};
+    }
+
+    Result<std::size_t> find(const sceneFields::Reference& reference, const std::string& where)
+    {
+        if (const auto* number = std::get_if<double>(&reference))
+        {
+            if (const auto index = indexOf(*number, scene.textures.size()))
+                return *index;
+            return Error{ErrorCode::invalidData, where,
+                         fmt::format("is {}, but the scene has {} textures, counted from 0", *number,
+                                     scene.textures.size())};
+        }
+        const auto& name = std::get<std::string>(reference);
+        for (const Names* list : {&files, &names})
+            if (const auto index = list->find(name))
+            {
+                if (*index == Names::several)
+                    return Error{ErrorCode::invalidData, where,
+                                 fmt::format("is \"{}\", the name of several textures; give the index of one",
+                                             shownText(name))};
+                return *index;
+            }
+        return addFile(name, where, "is not one of the scene's textures, and as a file it ");
+    }
+
+private:
+    Result<std::size_t> addFile(const std::string& file, const std::string& where, const std::string& prefix)
+    {
+        if (!load)
+            return Error{ErrorCode::invalidData, where, onOneLine(file) + ": texture files are not read here; embed it"};
+        auto read = load(file);
+        if (!read)
+            return Error{read.error().code, where, onOneLine(file) + ": " + prefix + read.error().text()};
+        const std::size_t index = scene.textures.size();
+        files.add(file, index);
+        files.add(std::filesystem::path(file).filename().string(), index);
+        names.add(read->name, index);
+        scene.textures.push_back(std::move(*read));
+        return index;
+    }
+
+    Scene& scene;
+    const TextureLoader& load;
+    Names files, names;
+};
+
+Result<Scene> resolve(sceneFields::Draft draft, const ClipLoader& load, const TextureLoader& loadTexture)
 {
     Scene scene = std::move(static_cast<Scene&>(draft));
     SceneClips clips(scene, load);
     if (auto added = clips.addAll(draft.clips); !added)
         return added.error();
+    SceneTextures textures(scene, loadTexture);
+    if (auto added = textures.addAll(draft.textures); !added)
+        return added.error();
     Names names;
     for (std::size_t i = 0; i < draft.plays.size(); ++i)
     {
         const sceneFields::DraftPlay& named = draft.plays[i];
-        const auto index = clips.find(named.clip, detail::indexed("plays", i) + ".clip");
+        ScenePlay& play = scene.plays.emplace_back(named);
+        const std::string where = detail::indexed("plays", i);
+        if (named.texture)
+        {
+            const auto texture = textures.find(*named.texture, where + ".texture");
+            if (!texture)
+                return texture.error();
+            play.texture = *texture;
+        }
+        auto index = Result<std::size_t>(scene.clips.size());
+        if (named.clip)
+            index = clips.find(*named.clip, where + ".clip");
+        else
+        {
+            Clip silent;
+            silent.name = scene.textures[*play.texture].name;
+            silent.duration = named.duration;
+            scene.clips.push_back(std::move(silent));
+        }
         if (!index)
             return index.error();
-        ScenePlay& play = scene.plays.emplace_back(named);
         play.clip = *index;
         if (named.loopsAll)
             play.loop = scene.clips[*index].duration;
@@ -206,13 +289,14 @@ Result<Scene> resolve(sceneFields::Draft draft, const ClipLoader& load)
 }
 } // namespace
 
-Result<Scene> readSceneJson(std::string_view text, const ClipLoader& load, ReadWarnings* warnings)
+Result<Scene> readSceneJson(std::string_view text, const ClipLoader& load, ReadWarnings* warnings,
+                            const TextureLoader& loadTexture)
 {
     sceneFields::Draft draft;
     FieldsHandler handler(draft, sceneFields::document);
     if (auto parsed = parseJson(text, handler, largestSceneText, warnings); !parsed)
         return parsed.error();
-    return resolve(std::move(draft), load);
+    return resolve(std::move(draft), load, loadTexture);
 }
 
 std::string writeSceneJson(const Scene& scene)

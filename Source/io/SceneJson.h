@@ -28,14 +28,18 @@ inline constexpr std::size_t sceneClips = 10'000;
 /// Reads the clip file that a scene names; errors without the file's name.
 using ClipLoader = std::function<Result<Clip>(const std::string& file)>;
 
+/// Reads the texture file that a scene names, likewise.
+using TextureLoader = std::function<Result<Texture>(const std::string& file)>;
+
 /// Reads a scene and checks it with validate(). Clips are file names, which `load` reads (each file once), or embedded;
-/// a play names its clip by index, file or name, or a file that the scene does not list. Required are `format`,
-/// `version`, the `clip` of a play and all of a change but its `glide`; what is missing keeps the default of Scene.
+/// a play names its clip by index, file or name, or a file that the scene does not list; textures likewise (without
+/// `loadTexture` only embedded ones). A play of a texture without a clip gets a silent one of its `duration`. Required
+/// are `format`, `version`, the `clip` or the `texture` of a play and all of a change but its `glide`; what is missing keeps the default of Scene.
 /// Unknown keys are passed over with a warning each, if `warnings` are asked for; a key given twice is an error.
 /// Errors carry the place, such as `plays[3].clip` or `clips[2].clip.bands[0].amplitude[7].time`; those of `load` are
 /// at the reference, with the file's name in the message. Codes: those of readClipJson and `load`.
 [[nodiscard]] Result<Scene> readSceneJson(std::string_view text, const ClipLoader& load,
-                                          ReadWarnings* warnings = nullptr);
+                                          ReadWarnings* warnings = nullptr, const TextureLoader& loadTexture = {});
 
 /// The text of a scene for which validate() holds, with all members and its clips embedded, a play or a change on one
 /// line. readSceneJson(writeSceneJson(scene)) == scene, except that bytes which are not UTF-8 become U+FFFD.

@@ -135,7 +135,7 @@ TEST_CASE("A strict reader stops at the first key that is unknown", "[io][keys]"
 {
     ReadWarnings strict(true);
     const auto scene =
-        readSceneJson(R"({"format": "pacini.scene", "version": 1, "plays": [{"clip": "a", "gian": 1, "speed": 2}]})",
+        readSceneJson(R"({"format": "pacini.scene", "version": 1, "plays": [{"clip": "a", "gian": 1, "sped": 2}]})",
                       anyFile, &strict);
     REQUIRE_FALSE(scene.ok());
     CHECK(scene.error().text() == R"(plays[0].gian: is unknown; did you mean "gain"?)");

@@ -2,12 +2,14 @@
 
 #include "io/ClipFile.h"
 #include "io/SceneJson.h"
+#include "io/TextureFile.h"
 #include "io/formats/json/ClipJson.h"
 #include "support/Catch.h"
 #include "support/RandomScene.h"
 #include "support/TempFolder.h"
 
 #include <cmath>
+#include <optional>
 #include <string>
 
 using namespace pacini;
@@ -46,13 +48,71 @@ std::string whereOf(const std::string& members)
 }
 } // namespace
 
+TEST_CASE("A play of a texture names it by index, name or file, and lasts as long as it says", "[io][scene]")
+{
+    Texture wood;
+    wood.name = "wood";
+    wood.nodes.push_back({0.5, 0.1, {-0.5}});
+    const std::string embedded = R"({"texture": )" + textureJson(wood) + "}";
+    const auto file = [&](const std::string& name) -> Result<Texture>
+    {
+        if (name == "sub/wood.texture.json")
+            return wood;
+        return Error{ErrorCode::io, "", "does not exist"};
+    };
+    const auto read = [&](const std::string& members)
+    {
+        return readSceneJson(head + members + "}", twoClips, nullptr, file);
+    };
+    for (const std::string& members :
+         {R"("textures": [)" + embedded + R"(], "plays": [{"texture": 0, "duration": 2, "speed": 0.2}])",
+          R"("textures": [)" + embedded + R"(], "plays": [{"texture": "wood", "duration": 2, "speed": 0.2}])",
+          std::string(R"("plays": [{"texture": "sub/wood.texture.json", "duration": 2, "speed": 0.2}])"),
+          std::string(
+              R"("textures": ["sub/wood.texture.json"], "plays": [{"texture": "wood.texture.json", "duration": 2, "speed": 0.2}])")})
+    {
+        INFO(members);
+        const auto scene = read(members + R"(, "changes": [{"time": 1, "play": 0, "parameter": "speed", "value": 1}])");
+        INFO((scene.ok() ? "" : scene.error().text()));
+        REQUIRE(scene.ok());
+        REQUIRE(scene->plays.size() == 1);
+        CHECK(scene->plays[0].texture == std::optional<std::size_t>(0));
+        CHECK(scene->plays[0].speed == 0.2);
+        CHECK(scene->plays[0].force == 1.0);
+        CHECK(scene->clips.at(scene->plays[0].clip).duration == 2.0);
+        CHECK(scene->textures == std::vector<Texture>{wood});
+        CHECK(scene->changes[0].parameter == SceneParameter::speed);
+    }
+    const auto where = [&](const std::string& members)
+    {
+        const auto scene = read(members);
+        REQUIRE_FALSE(scene.ok());
+        return scene.error().where;
+    };
+    CHECK(where(R"("plays": [{}])") == "plays[0].clip");
+    CHECK(where(R"("plays": [{"texture": 0, "duration": 1}])") == "plays[0].texture");
+    CHECK(where(R"("plays": [{"texture": "none", "duration": 1}])") == "plays[0].texture");
+    CHECK(where(R"("plays": [{"texture": "sub/wood.texture.json"}])") == "plays[0].duration");
+    CHECK(where(R"("plays": [{"texture": "sub/wood.texture.json", "duration": -1}])") == "plays[0].duration");
+    CHECK(where(R"("plays": [{"clip": "a.pacb", "duration": 1}])") == "plays[0].duration");
+    CHECK(where(R"("plays": [{"clip": "a.pacb", "texture": "sub/wood.texture.json"}])") == "plays[0].texture");
+    CHECK(where(R"("plays": [{"texture": "sub/wood.texture.json", "duration": 1, "speed": 2}])") == "plays[0].speed");
+    CHECK(where(R"("textures": [{"file": "none"}])") == "textures[0]");
+    CHECK(where(R"("textures": [{}])") == "textures[0]");
+    CHECK(where(R"("textures": [{"texture": {"format": "pacini.texture", "version": 1, "pitch": 1, "levelBySpeed": 1,
+        "levelByForce": 1, "nodes": [{"speed": 1, "level": 1, "reflection": [{}]}]}}])") ==
+          "textures[0].texture.nodes[0].reflection[0]");
+    // Where no files are read.
+    CHECK(whereOf(R"("plays": [{"texture": "sub/wood.texture.json", "duration": 1}])") == "plays[0].texture");
+}
+
 TEST_CASE("A scene that is written and read is the same scene", "[io][scene]")
 {
     const TempFolder folder;
     for (std::uint64_t seed = 1; seed <= 30; ++seed)
     {
         CAPTURE(seed);
-        const Scene scene = randomScene(seed);
+        const Scene scene = seed % 3 == 0 ? texturedScene(seed) : randomScene(seed);
         REQUIRE(validate(scene).ok());
         const std::string text = writeSceneJson(scene);
         const auto read = readSceneJson(text, twoClips);

@@ -3,6 +3,7 @@
 // Scenes to test with.
 
 #include "support/ClipSamples.h"
+#include "support/RandomTexture.h"
 
 #include <pacini/foundation/Random.h>
 #include <pacini/synthesis/Scene.h>
@@ -64,6 +65,30 @@ inline Scene randomScene(std::uint64_t seed)
         const auto parameter = static_cast<SceneParameter>(below(8.0));
         scene.changes.push_back({time, below(static_cast<double>(scene.plays.size())), parameter,
                                  0.5 + 0.5 * random.uniform(), random.uniform()});
+    }
+    return scene;
+}
+
+/// The same with textures, which move.
+inline Scene texturedScene(std::uint64_t seed)
+{
+    Scene scene = randomScene(seed);
+    Random random(seed + 1);
+    for (std::uint64_t i = 0; i < 2; ++i)
+    {
+        Clip silent;
+        silent.duration = random.uniform(0.1, 3.0);
+        ScenePlay play;
+        play.clip = scene.clips.size();
+        play.texture = scene.textures.size();
+        play.speed = random.uniform();
+        play.force = random.uniform();
+        scene.clips.push_back(silent);
+        scene.textures.push_back(randomTexture(7 * seed + i));
+        scene.plays.push_back(play);
+        const double last = scene.changes.empty() ? 0.0 : scene.changes.back().time;
+        scene.changes.push_back({last, scene.plays.size() - 1, i == 0 ? SceneParameter::speed : SceneParameter::force,
+                                 random.uniform(), random.uniform()});
     }
     return scene;
 }

@@ -33,6 +33,15 @@ inline Texture randomTexture(std::uint64_t seed)
             k = random.uniform(-1.0, 1.0) * 0.999999;
         texture.nodes.push_back(node);
     }
+    for (std::size_t i = random.next() % 5; i > 0; --i)
+    {
+        TextureTone tone;
+        tone.frequency = random.uniform(1.0, limits::textureToneFrequency);
+        tone.phase = random.next() % 2 == 0 ? 0.0 : random.uniform();
+        for (std::size_t k = 0; k < count; ++k)
+            tone.levels.push_back(random.next() % 4 == 0 ? 0.0 : random.uniform(0.0, 2.0));
+        texture.tones.push_back(tone);
+    }
     return texture;
 }
 

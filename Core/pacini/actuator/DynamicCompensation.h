@@ -247,7 +247,7 @@ private:
             finite = finite && std::isfinite(x);
             least = std::min(least, x);
             most = std::max(most, x);
-            full += std::abs(x) >= 0.999 ? 1 : 0;
+            full += std::abs(x) >= 0.999 ? 1u : 0u;
         }
         /// Good here means that nothing is wrong.
         [[nodiscard]] SensorState state() const noexcept

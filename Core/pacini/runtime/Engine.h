@@ -96,6 +96,29 @@ public:
         return startPlay(clip, settings, time.at, time);
     }
 
+    /// A texture that begins at frame `frame` and plays until it is stopped, a day at most; its speed and force are
+    /// controls of the play. Of `settings` what counts are controls, priority, group, fade and the seed of the
+    /// variation. Errors: as play(); invalidArgument at `texture` for actuators that are all motors.
+    [[nodiscard]] Result<PlayId> play(const std::shared_ptr<const Texture>& texture, PlaySettings settings,
+                                      std::int64_t frame = 0)
+    {
+        if (!silence)
+        {
+            Clip day;
+            day.duration = limits::duration;
+            auto made = LoadedClip::asItIs(std::move(day));
+            if (!made)
+                return made.error();
+            silence = std::move(*made);
+        }
+        settings.texture = texture;
+        settings.from = settings.loop = settings.controls.transposition = settings.headroom = 0.0;
+        settings.variation.amount = 0.0;
+        settings.passes = 0;
+        settings.controls.speed = 1.0;
+        return startPlay(silence, settings, frame, {});
+    }
+
     /// Sets a control of a play from frame `frame` on, in a glide (pitch, speed and priority step). Errors:
     /// invalidArgument for a play that has ended (`play`), for values out of range (`value`).
     Result<void> set(PlayId play, LiveControl control, double value, Seconds glide = Seconds(0.005),
@@ -158,6 +181,8 @@ public:
     {
         if (auto there = check(play); !there)
             return there;
+        if (slots[play.slot].settings.texture)
+            return Error{ErrorCode::invalidArgument, "play", "is of a texture, which has no position"};
         if (!(position >= 0.0 && position <= limits::duration))
             return Error{ErrorCode::invalidArgument, "position", "must be 0 s or more, and a day at most"};
         return exchange(play, slots[play.slot].clip, position, frame);
@@ -549,6 +574,7 @@ private:
     double longestDelay;
     std::vector<ActuatorKind> kinds;
     PlayMaker maker;
+    std::shared_ptr<const LoadedClip> silence; ///< a day, during which textures play
     std::vector<PlaySlot> slots;
     std::vector<std::uint32_t> free;
     std::uint64_t sent = 0;

@@ -302,6 +302,12 @@ private:
             each([&](PlayVoice& voice)
                  { voice.setRole(*role, ofGroup ? RoleFader::group : RoleFader::play, value, glide); });
             return;
+        case LiveControl::textureSpeed:
+            each([&](PlayVoice& voice) { voice.setTextureSpeed(value, glide); });
+            return;
+        case LiveControl::textureForce:
+            each([&](PlayVoice& voice) { voice.setTextureForce(value, glide); });
+            return;
         case LiveControl::priority:
             return;
         }

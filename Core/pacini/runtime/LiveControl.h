@@ -25,7 +25,9 @@ enum class LiveControl
     priority,      ///< 0 is kept longest; steps
     tones,         ///< linear, 0 to 1000, as are the next two: levels of the roles of the clip
     events,
-    noise
+    noise,
+    textureSpeed, ///< 0 to 1, as is the next: of a texture
+    textureForce
 };
 
 /// The control that is the level of a role.
@@ -52,7 +54,7 @@ enum class LiveControl
         double low, high;
         const char* message;
     };
-    const std::array<Range, 10> ranges{{{"gain", 0.0, 1000.0, "must be 0 to 1000"},
+    const std::array<Range, 12> ranges{{{"gain", 0.0, 1000.0, "must be 0 to 1000"},
                                         {"intensity", 0.0, 1.0, "must be 0 to 1"},
                                         {"pan", 0.0, 1.0, "must be 0 to 1"},
                                         {"delay", 0.0, longestDelay, "must be 0 to the engine's longest delay"},
@@ -61,7 +63,9 @@ enum class LiveControl
                                         {"priority", -1e9, 1e9, "must be -1e9 to 1e9"},
                                         {"tones", 0.0, 1000.0, "must be 0 to 1000"},
                                         {"events", 0.0, 1000.0, "must be 0 to 1000"},
-                                        {"noise", 0.0, 1000.0, "must be 0 to 1000"}}};
+                                        {"noise", 0.0, 1000.0, "must be 0 to 1000"},
+                                        {"textureSpeed", 0.0, 1.0, "must be 0 to 1"},
+                                        {"textureForce", 0.0, 1.0, "must be 0 to 1"}}};
     const Range& range = ranges[static_cast<std::size_t>(control)];
     if (!(value >= range.low && value <= range.high))
         return Error{ErrorCode::invalidArgument, range.where, range.message};
@@ -69,7 +73,7 @@ enum class LiveControl
 }
 
 /// All controls that PlayControls has, with their values.
-[[nodiscard]] inline std::array<std::pair<LiveControl, double>, 9> valuesOf(const PlayControls& c)
+[[nodiscard]] inline std::array<std::pair<LiveControl, double>, 11> valuesOf(const PlayControls& c)
 {
     return {{{LiveControl::gain, c.gain},
              {LiveControl::intensity, c.intensity},
@@ -79,7 +83,9 @@ enum class LiveControl
              {LiveControl::speed, c.speed},
              {LiveControl::tones, c.roles[Role::tones]},
              {LiveControl::events, c.roles[Role::events]},
-             {LiveControl::noise, c.roles[Role::noise]}}};
+             {LiveControl::noise, c.roles[Role::noise]},
+             {LiveControl::textureSpeed, c.textureSpeed},
+             {LiveControl::textureForce, c.textureForce}}};
 }
 
 /// Sets a control; the priority is none of PlayControls.
@@ -109,6 +115,12 @@ inline void apply(PlayControls& controls, LiveControl control, double value) noe
     case LiveControl::events:
     case LiveControl::noise:
         controls.roles[*roleOf(control)] = value;
+        break;
+    case LiveControl::textureSpeed:
+        controls.textureSpeed = value;
+        break;
+    case LiveControl::textureForce:
+        controls.textureForce = value;
         break;
     case LiveControl::priority:
         break;

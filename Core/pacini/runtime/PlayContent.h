@@ -91,6 +91,8 @@ public:
                 }
                 v.voice.setPan(controls.pan, 0);
                 v.voice.setDelay(controls.delay, 0);
+                v.voice.setTextureSpeed(controls.textureSpeed, 0);
+                v.voice.setTextureForce(controls.textureForce, 0);
                 v.voice.setFader(Fader::leave, 1.0, 0);
                 v.voice.setFader(Fader::fade, fadeIn > 0 ? 0.0 : 1.0, 0);
                 v.voice.setFader(Fader::fade, 1.0, fadeIn);
@@ -279,6 +281,8 @@ public:
             made.pulses = heard[Role::events] ? made.pulses : 0;
             made.levelled = made.levelled && made.carriers + made.noiseBands > 0;
             sum += PlayCost::of(made, seconds, v.planned.timeline.gains.size(), params.sampleRate);
+            if (v.planned.texture && (heard[Role::noise] || heard[Role::tones]))
+                sum += PlayCost::texture + PlayCost::tone * static_cast<double>(v.planned.texture->allTones().size());
         }
         return sum;
     }

@@ -27,6 +27,8 @@ struct PlayCost
     static constexpr double pulse = 7.3;          ///< a frame while a pulse sounds
     static constexpr double pulseSeconds = 0.012; ///< of a pulse
     static constexpr double mostPulses = 4.0;     ///< at a time
+    static constexpr double texture = 8.0;        ///< a frame of a texture of order 32 (`pacini bench textures`)
+    static constexpr double tone = 0.5;           ///< a frame of each of its tones
     static constexpr double actuator = 0.4;       ///< a frame of an actuator without plays
 
     /// Of one decoder whose clip lasts `seconds` and goes to `actuators`, for a frame at `fs`.

@@ -33,6 +33,7 @@ struct PlaySettings
     std::uint32_t group = 0;   ///< below limits::groups
     int priority = 0;          ///< 0 is kept longest
     VariationParams variation; ///< of each pass
+    std::shared_ptr<const Texture> texture; ///< plays for as long as the clip, which is silent
 };
 
 namespace limits
@@ -66,6 +67,17 @@ public:
         PlayContent::Params params;
         params.sampleRate = fs;
         params.power = clip->power();
+        std::shared_ptr<const TextureTable> texture;
+        if (settings.texture)
+        {
+            auto found = tableOf(settings.texture);
+            if (!found)
+                return found.error();
+            texture = std::move(*found);
+            const auto fastest = TextureTable::placeOf(1.0);
+            params.power[Role::noise] = texture->level(fastest) * texture->level(fastest);
+            params.power[Role::tones] = texture->tonesLevel(fastest) * texture->tonesLevel(fastest);
+        }
         params.transposition = settings.controls.transposition;
         params.speed = settings.controls.speed;
         params.loop = endless ? stretch : 0.0;
@@ -78,7 +90,7 @@ public:
         for (auto& pass : passes)
             for (std::size_t k = 0; k < kinds.size(); ++k)
             {
-                auto voice = makeVoice((*fitted)->clips[k], kinds[k], settings, stretch, params.offset);
+                auto voice = makeVoice((*fitted)->clips[k], kinds[k], settings, stretch, params.offset, texture);
                 if (!voice)
                     return voice.error();
                 pass.push_back(std::move(voice).value());
@@ -156,6 +168,24 @@ private:
         return {};
     }
 
+    /// The table of a texture; the last ones are kept. Errors: invalidArgument where nothing can play one.
+    Result<std::shared_ptr<const TextureTable>> tableOf(const std::shared_ptr<const Texture>& texture)
+    {
+        constexpr std::size_t kept = 16;
+        if (std::all_of(kinds.begin(), kinds.end(), [](const ActuatorKind& kind) { return kind.plan.motor; }))
+            return Error{ErrorCode::invalidArgument, "texture",
+                         "cannot be followed by a motor; take another actuator"};
+        if (std::any_of(kinds.begin(), kinds.end(), [](const ActuatorKind& kind) { return kind.filtersVoices; }))
+            return Error{ErrorCode::invalidArgument, "texture", "cannot play where clips play as rendered"};
+        const auto found = std::find_if(tables.begin(), tables.end(),
+                                        [&](const auto& entry) { return entry.first == texture; });
+        if (found != tables.end())
+            return found->second;
+        if (tables.size() >= kept)
+            tables.erase(tables.begin());
+        return tables.emplace_back(texture, std::make_shared<const TextureTable>(*texture, fs)).second;
+    }
+
     /// The clip as it is fitted to each kind of actuator.
     Result<Fitted*> fittedTo(const std::shared_ptr<const LoadedClip>& clip)
     {
@@ -216,7 +246,8 @@ private:
     }
 
     Result<PlayContent::Voice> makeVoice(const FittedClip& forKind, const ActuatorKind& kind,
-                                         const PlaySettings& settings, double stretch, double offset) const
+                                         const PlaySettings& settings, double stretch, double offset,
+                                         const std::shared_ptr<const TextureTable>& texture) const
     {
         const Clip& fitted = forKind.clip;
         Clip clip;
@@ -258,6 +289,11 @@ private:
         decoder.apart = !forKind.filter;
         PlayContent::Voice made{{0, std::move(clip), 0.0, decoder, steadyTimeline(kind.actuators.size())},
                                 PlayVoice({}, kind.actuators.size(), fs)};
+        if (texture && !kind.plan.motor)
+        {
+            made.planned.texture = texture;
+            made.planned.textureSeed = settings.variation.seed;
+        }
         made.voice.prepare(made.planned,
                            {forKind.filter ? &*forKind.filter : nullptr, std::numeric_limits<std::int64_t>::max(),
                             &kind.plan.row, liveDelay, designs.get()});
@@ -279,6 +315,7 @@ private:
     Seconds liveDelay;
     std::list<std::unique_ptr<Fitted>> known; // used last first
     std::size_t points = 0;
+    std::vector<std::pair<std::shared_ptr<const Texture>, std::shared_ptr<const TextureTable>>> tables;
     std::unique_ptr<MixBuffers> buffers = std::make_unique<MixBuffers>();
     std::unique_ptr<InterpolatorDesigns> designs = std::make_unique<InterpolatorDesigns>();
 };

@@ -20,6 +20,8 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <memory>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
@@ -243,6 +245,59 @@ inline DecoderParams planDecoder(const RenderPlan& plan, const Clip& clip, const
     return decoder;
 }
 
+/// A clip that is like a texture as a play has it: a band of noise with its level over time, and a band with that of
+/// its tones. What it will carry is predicted of this.
+inline Clip standIn(Clip clip, const ScenePlay& play, const PlayTimeline& timeline, const TextureTable& table)
+{
+    constexpr int pieces = 16; // of a way on which the speed or the force moves
+    const PlayClock clock = makeClock(play.stretch, timeline);
+    std::vector<double> times = bends(timeline.force, timeline.speed, pieces);
+    for (const double time : bends(timeline.speed, timeline.force, pieces))
+        times.push_back(time);
+    times.push_back(play.start);
+    times.push_back(play.start + clock.frameOf(clip.duration));
+    std::sort(times.begin(), times.end());
+    times.erase(std::unique(times.begin(), times.end()), times.end());
+    Curve noise, tones;
+    double most = 0.0;
+    for (const double time : times)
+    {
+        const double inClip = clock.clipAt(std::max(time - play.start, 0.0));
+        if (time < play.start || inClip > clip.duration)
+            continue;
+        const auto level = [&](double (TextureTable::*of)(const TextureTable::Place&) const)
+        {
+            return [&, of](double t)
+            {
+                const double force = std::pow(valueAt(timeline.force, t), table.levelByForce());
+                return force * (table.*of)(TextureTable::placeOf(valueAt(timeline.speed, t)));
+            };
+        };
+        for (const auto& [curve, value] : {std::pair(&noise, level(&TextureTable::level)),
+                                           std::pair(&tones, level(&TextureTable::tonesLevel))})
+        {
+            Curve sides;
+            appendSides(sides, time, value);
+            for (const Breakpoint& side : sides)
+                curve->push_back({inClip, side.value});
+        }
+        most = std::max(most, tones.back().value);
+    }
+    clip.noise.push_back({textureLow, table.highest(), std::move(noise)});
+    if (most > 0.0)
+    {
+        for (Breakpoint& point : tones)
+            point.value *= std::numbers::sqrt2;
+        Band band;
+        band.lowFrequency = textureLow;
+        band.centreFrequency = std::sqrt(textureLow * table.highest());
+        band.highFrequency = table.highest();
+        band.amplitude = std::move(tones);
+        clip.bands.push_back(std::move(band));
+    }
+    return clip;
+}
+
 /// Plans all plays that can be heard, from the clips as they are fitted to the actuator. Errors: those of
 /// bakedClip().
 inline Result<void> planPlays(RenderPlan& plan, const Scene& scene, const std::vector<Clip>& clips,
@@ -250,11 +305,17 @@ inline Result<void> planPlays(RenderPlan& plan, const Scene& scene, const std::v
                               const std::optional<ActuatorFit>& fit)
 {
     std::size_t points = 0;
+    std::vector<std::shared_ptr<const TextureTable>> textures(scene.textures.size());
     for (std::size_t i = 0; i < scene.plays.size(); ++i)
     {
         const ScenePlay& play = scene.plays[i];
         const std::string where = indexed("plays", i);
-        if (params.leaveOut)
+        if (play.texture && plan.motor)
+        {
+            plan.leftOut.push_back({where, "is a texture, which a motor cannot follow", 0.0});
+            continue;
+        }
+        if (params.leaveOut && !play.texture)
             if (std::string why = whyUnheard(clips[play.clip], play, timelines[i], plan.duration); !why.empty())
             {
                 plan.leftOut.push_back({where, std::move(why), -std::numeric_limits<double>::infinity()});
@@ -263,9 +324,24 @@ inline Result<void> planPlays(RenderPlan& plan, const Scene& scene, const std::v
         auto played = bakedClip(clips[play.clip], play, timelines[i], plan.duration, where, points);
         if (!played)
             return played.error();
+        if (play.texture)
+        {
+            auto& table = textures[*play.texture];
+            if (!table)
+                table = std::make_shared<const TextureTable>(scene.textures[*play.texture], params.sampleRate);
+            *played = standIn(std::move(*played), play, timelines[i], *table);
+            if (params.leaveOut)
+                if (std::string why = whyUnheard(*played, play, timelines[i], plan.duration); !why.empty())
+                {
+                    plan.leftOut.push_back({where, std::move(why), -std::numeric_limits<double>::infinity()});
+                    continue;
+                }
+        }
         DecoderParams decoder = planDecoder(plan, *played, play, params, fit);
         planRoles(plan, *played, timelines[i], where, params.leaveOut, decoder);
-        plan.plays.push_back({i, std::move(*played), play.start, decoder, std::move(timelines[i])});
+        plan.plays.push_back({i, std::move(*played), play.start, decoder, std::move(timelines[i]),
+                              play.texture ? textures[*play.texture] : nullptr,
+                              play.variation.seed ^ 0xD1B54A32D192ED03u * i}); // textures of plays differ
     }
     return {};
 }
@@ -335,6 +411,9 @@ inline Result<void> planPlays(RenderPlan& plan, const Scene& scene, const std::v
                     detail::leaveOutFlatSections(plan, params.tolerance - Decibels::fromPower(wholeError).value,
                                                  params.sampleRate);
         plan.predictedError = detail::errorInDecibels(lost, whole);
+        for (PlannedPlay& planned : plan.plays)
+            if (planned.texture && planned.clip.bands.empty())
+                planned.decoder.leftOut[Role::tones] = true;
     }
     std::stable_sort(plan.plays.begin(), plan.plays.end(),
                      [](const PlannedPlay& a, const PlannedPlay& b) { return a.start < b.start; });

@@ -28,6 +28,7 @@ struct PlayTimeline
     Curve delay;                        ///< as delays, without the pan; empty where it is 0
     std::vector<DecoderChange> changes; ///< times from the play's start; in order
     PerRole<Curve> roles;               ///< levels of the roles of the clip, linear; empty where one is always 1
+    Curve speed = {}, force = {};       ///< of a texture, 0 to 1; empty without one
     bool operator==(const PlayTimeline&) const = default;
 };
 
@@ -130,11 +131,17 @@ struct PlayMoves
 {
     GlideCurve level, pan, delay;
     PerRole<std::optional<GlideCurve>> roles; ///< those that are ever off 1
+    GlideCurve speed, force;                  ///< of a texture
     bool late;                                ///< the delay is ever above 0
     std::vector<DecoderChange> changes;       ///< of pitch and speed
 
     PlayMoves(const ScenePlay& play, std::span<const SceneChange> moved)
-        : level(sceneGain(play.gain)), pan(play.pan), delay(play.delay), late(play.delay > 0.0)
+        : level(sceneGain(play.gain)),
+          pan(play.pan),
+          delay(play.delay),
+          speed(play.speed),
+          force(play.force),
+          late(play.delay > 0.0)
     {
         for (const Role role : allRoles)
             if (const double start = sceneGain(roleLevel(play, role)); start != 1.0)
@@ -153,6 +160,12 @@ struct PlayMoves
             case SceneParameter::delay:
                 delay.glideTo(change.value, change.time, change.glide);
                 late = late || change.value > 0.0;
+                continue;
+            case SceneParameter::speed:
+                speed.glideTo(change.value, change.time, change.glide);
+                continue;
+            case SceneParameter::force:
+                force.glideTo(change.value, change.time, change.glide);
                 continue;
             case SceneParameter::transposition:
                 transposition = change.value;
@@ -185,6 +198,11 @@ struct PlayMoves
     const Curve &level = moves.level.curve(), &pan = moves.pan.curve(), &delay = moves.delay.curve();
     PlayTimeline timeline;
     timeline.changes = std::move(moves.changes);
+    if (scene.plays[index].texture)
+    {
+        timeline.speed = moves.speed.curve();
+        timeline.force = moves.force.curve();
+    }
     for (const Role role : allRoles)
         if (moves.roles[role])
             timeline.roles[role] = moves.roles[role]->curve();

@@ -12,6 +12,7 @@
 #include <pacini/synthesis/DelayTap.h>
 #include <pacini/synthesis/PanSends.h>
 #include <pacini/synthesis/RenderPlan.h>
+#include <pacini/synthesis/TextureVoice.h>
 
 #include <algorithm>
 #include <array>
@@ -134,7 +135,16 @@ public:
     {
         DecoderParams params = play.decoder;
         params.sampleRate = fs;
-        decoder = std::make_unique<Decoder>(play.clip, params, play.timeline.changes, voice.designs);
+        Clip silent;
+        silent.duration = play.clip.duration;
+        decoder = std::make_unique<Decoder>(play.texture ? silent : play.clip, params, play.timeline.changes,
+                                            voice.designs);
+        if (play.texture)
+        {
+            texture = std::make_unique<TextureVoice>(play.texture, play.textureSeed, play.timeline.speed,
+                                                     play.timeline.force, MixBuffers::frames);
+            textureOut = play.decoder.leftOut;
+        }
         filtered = voice.filter != nullptr;
         if (filtered)
             decoder->filterBy(*voice.filter, voice.until - start);
@@ -158,6 +168,7 @@ public:
     void release()
     {
         decoder.reset();
+        texture.reset();
         delay.reset();
         sends.reset();
     }
@@ -175,6 +186,18 @@ public:
         mixesRoles = mixesRoles || wanted != 1.0;
     }
 
+    /// Glides to a speed and a force of its texture (0 to 1), instead of the scene's. [audio]
+    void setTextureSpeed(double wanted, std::size_t frames) noexcept
+    {
+        if (texture)
+            texture->setSpeed(wanted, frames);
+    }
+    void setTextureForce(double wanted, std::size_t frames) noexcept
+    {
+        if (texture)
+            texture->setForce(wanted, frames);
+    }
+
     [[nodiscard]] const Glide& fader(Fader which) const noexcept { return faders[static_cast<std::size_t>(which)]; }
 
     /// Begins (again) at frame `frame`: as it was prepared; live controls stay. [audio]
@@ -183,6 +206,8 @@ public:
         moveTo(frame);
         if (decoder)
             decoder->reset();
+        if (texture)
+            texture->reset();
         if (delay)
             delay->reset();
     }
@@ -209,6 +234,8 @@ public:
             for (Glide& fader : role)
                 fader.jump(frames);
         lateness.jump(frames);
+        if (texture)
+            texture->jump(frames);
         if (panned)
             sends->jump(frames);
         reached = now;
@@ -265,6 +292,8 @@ public:
         lateness = other.lateness;
         latest = other.latest;
         panned = other.panned;
+        if (texture && other.texture)
+            texture->follow(*other.texture);
         if (sends && other.sends)
             sends->follow(*other.sends);
     }
@@ -324,7 +353,7 @@ private:
     [[nodiscard]] bool isPlain(const PlannedPlay& play, std::size_t channels) const noexcept
     {
         const auto& gains = play.timeline.gains;
-        return channels == 1 && gains.size() == 1 && gains[0].size() == 1 && gains[0][0].value == 1.0 && !panned &&
+        return !texture && channels == 1 && gains.size() == 1 && gains[0].size() == 1 && gains[0][0].value == 1.0 && !panned &&
                !delay && !mixesRoles &&
                std::all_of(faders.begin(), faders.end(), [](const Glide& fader) { return fader.restsAt(1.0); });
     }
@@ -370,13 +399,28 @@ private:
         return gains;
     }
 
+    void addTexture(std::int64_t now, std::span<float> block, RoleGains levelsOfRoles) noexcept
+    {
+        static constexpr double out = 0.0;
+        for (const Role role : allRoles)
+            if (textureOut[role])
+                levelsOfRoles[role] = RoleGain(std::span(&out, 1));
+        texture->add(block, now, now - start, decoder->totalFrames(), levelsOfRoles);
+    }
+
     void addTo(const PlannedPlay& play, std::span<const std::span<float>> out, std::size_t at, std::int64_t now,
                std::span<float> block, MixBuffers& buffers) noexcept
     {
+        RoleGains levelsOfRoles;
         if (mixesRoles && !filtered)
-            decoder->process(block, roleGains(play, now, block.size(), buffers));
+        {
+            levelsOfRoles = roleGains(play, now, block.size(), buffers);
+            decoder->process(block, levelsOfRoles);
+        }
         else
             decoder->process(block);
+        if (texture)
+            addTexture(now, block, levelsOfRoles);
         const std::span<const double> gains = gainsOf(block.size(), buffers);
         if (delay)
             delay->write(block);
@@ -483,6 +527,8 @@ private:
     std::int64_t start;
     std::int64_t reached = 0; // frame that is mixed next
     std::unique_ptr<Decoder> decoder;
+    std::unique_ptr<TextureVoice> texture; // beside a silent decoder
+    PerRole<bool> textureOut{false};
     std::optional<DelayTap> delay;
     std::int64_t tail = 0, latest = 0; // frames that sound longer because of the scene's delays and live ones
     std::vector<Level> levels;

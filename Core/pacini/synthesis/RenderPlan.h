@@ -9,10 +9,12 @@
 #include <pacini/synthesis/DecoderParams.h>
 #include <pacini/synthesis/PanSends.h>
 #include <pacini/synthesis/PlayTimeline.h>
+#include <pacini/texture/TextureTable.h>
 
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,6 +30,8 @@ struct PlannedPlay
     double start = 0.0; ///< s
     DecoderParams decoder;
     PlayTimeline timeline;
+    std::shared_ptr<const TextureTable> texture = {}; ///< plays instead of the clip, which says what it will be like
+    std::uint64_t textureSeed = 1;
 };
 
 /// Report of culling: something that is not played.

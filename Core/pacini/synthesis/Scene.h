@@ -7,6 +7,7 @@
 #include <pacini/foundation/Units.h>
 #include <pacini/synthesis/Roles.h>
 #include <pacini/synthesis/Variation.h>
+#include <pacini/texture/Texture.h>
 
 #include <algorithm>
 #include <array>
@@ -29,7 +30,7 @@ enum class PanLaw
     both
 };
 
-/// One clip that plays.
+/// One clip that plays, or a texture.
 struct ScenePlay
 {
     std::string name;
@@ -45,6 +46,9 @@ struct ScenePlay
     VariationParams variation;                     ///< every pass of a loop has a new variation
     double delay = 0.0;                            ///< delay after its start, s, 0 to 1
     double tones = 0.0, events = 0.0, noise = 0.0; ///< dB, levels of the roles of its clip; silent at -120 and below
+    std::optional<std::size_t> texture = {}; ///< index into the scene's textures; sounds as long as its clip, which is
+                                             ///< silent then; pitch and variation are without effect but for the seed
+    double speed = 0.5, force = 1.0;         ///< 0 to 1, of the texture
     bool operator==(const ScenePlay&) const = default;
 };
 
@@ -58,7 +62,9 @@ enum class SceneParameter
     stretch,
     tones, ///< dB, as are the next two: levels of the roles of its clip
     events,
-    noise
+    noise,
+    speed, ///< 0 to 1, as is the next: of the texture
+    force
 };
 
 /// The role whose level a parameter is, if it is one.
@@ -77,6 +83,8 @@ enum class SceneParameter
     case SceneParameter::delay:
     case SceneParameter::transposition:
     case SceneParameter::stretch:
+    case SceneParameter::speed:
+    case SceneParameter::force:
         break;
     }
     return {};
@@ -88,8 +96,8 @@ enum class SceneParameter
     return role == Role::tones ? play.tones : role == Role::events ? play.events : play.noise;
 }
 
-/// Automation event: a parameter of a play that changes while it plays. Levels, pan and delay glide in a straight line;
-/// transposition and stretch step.
+/// Automation event: a parameter of a play that changes while it plays. Levels, pan, delay, speed and force glide in a
+/// straight line; transposition and stretch step.
 struct SceneChange
 {
     double time = 0.0;    ///< s of the scene
@@ -111,7 +119,8 @@ struct Scene
     double panDelay = 0.01; ///< delay of an actuator at the other end, s, for delay panning
     std::vector<Clip> clips;
     std::vector<ScenePlay> plays;
-    std::vector<SceneChange> changes; ///< in order of time
+    std::vector<SceneChange> changes;   ///< in order of time
+    std::vector<Texture> textures = {}; ///< of plays
     bool operator==(const Scene&) const = default;
 };
 
@@ -128,6 +137,7 @@ namespace limits
 {
 inline constexpr std::size_t plays = 10'000;
 inline constexpr std::size_t sceneChanges = 1'000'000;
+inline constexpr std::size_t sceneTextures = 1'000;
 inline constexpr double shortestLoop = 0.005; ///< s
 inline constexpr int actuators = 16;
 inline constexpr double silentGain = -120.0; ///< dB
@@ -149,7 +159,7 @@ struct ParameterRange
 };
 
 /// In the order of SceneParameter.
-inline constexpr std::array<ParameterRange, 8> parameterRanges{
+inline constexpr std::array<ParameterRange, 10> parameterRanges{
     {{"gain", -1000.0, 60.0, "must be -1000 to 60 dB"},
      {"pan", 0.0, 1.0, "must be 0 to 1"},
      {"delay", 0.0, limits::playDelay, "must be 0 to 1 s"},
@@ -157,13 +167,21 @@ inline constexpr std::array<ParameterRange, 8> parameterRanges{
      {"stretch", 0.01, 100.0, "must be 0.01 to 100"},
      {"tones", -1000.0, 60.0, "must be -1000 to 60 dB"},
      {"events", -1000.0, 60.0, "must be -1000 to 60 dB"},
-     {"noise", -1000.0, 60.0, "must be -1000 to 60 dB"}}};
+     {"noise", -1000.0, 60.0, "must be -1000 to 60 dB"},
+     {"speed", 0.0, 1.0, "must be 0 to 1"},
+     {"force", 0.0, 1.0, "must be 0 to 1"}}};
 
 /// Whether a value is one that a parameter takes.
 [[nodiscard]] inline bool inRange(SceneParameter parameter, double value) noexcept
 {
     const auto i = static_cast<std::size_t>(parameter);
     return i < parameterRanges.size() && value >= parameterRanges[i].low && value <= parameterRanges[i].high;
+}
+
+/// Whether a clip has nothing that sounds.
+[[nodiscard]] inline bool isSilent(const Clip& clip) noexcept
+{
+    return std::none_of(allRoles.begin(), allRoles.end(), [&](Role role) { return hasRole(clip, role); });
 }
 
 namespace detail
@@ -181,7 +199,8 @@ inline Result<void> checkParameters(const Scene& scene)
     {
         const ScenePlay& play = scene.plays[i];
         const double values[] = {play.gain,    play.pan,   play.delay,  play.transposition,
-                                 play.stretch, play.tones, play.events, play.noise};
+                                 play.stretch, play.tones, play.events, play.noise,
+                                 play.speed,   play.force};
         for (std::size_t k = 0; k < std::size(values); ++k)
             if (!inRange(static_cast<SceneParameter>(k), values[k]))
                 return outside(k, indexed("plays", i) + ".");
@@ -211,13 +230,23 @@ inline Result<void> checkParameters(const Scene& scene)
     for (std::size_t i = 0; i < scene.clips.size(); ++i)
         if (auto r = validate(scene.clips[i]); !r)
             return brokenRule(indexed("clips", i) + "." + r.error().where, r.error().message, r.error().code);
+    if (scene.textures.size() > limits::sceneTextures)
+        return brokenRule("textures", "has more than 1000 textures", ErrorCode::tooLarge);
+    for (std::size_t i = 0; i < scene.textures.size(); ++i)
+        if (auto r = validate(scene.textures[i]); !r)
+            return brokenRule(indexed("textures", i) + "." + r.error().where, r.error().message, r.error().code);
     for (std::size_t i = 0; i < scene.plays.size(); ++i)
     {
         const ScenePlay& play = scene.plays[i];
         const std::string where = indexed("plays", i);
+        if (play.texture && *play.texture >= scene.textures.size())
+            return brokenRule(where + ".texture", "is not one of the scene's " +
+                                                      std::to_string(scene.textures.size()) + " textures");
         if (play.clip >= scene.clips.size())
             return brokenRule(where + ".clip",
                               "is not one of the scene's " + std::to_string(scene.clips.size()) + " clips");
+        if (play.texture && !isSilent(scene.clips[play.clip]))
+            return brokenRule(where + ".texture", "plays instead of a clip; use two plays");
         if (auto r = checkNumber(play.start, 0.0, limits::duration, where + ".start"); !r)
             return r;
         if (play.loop != 0.0 && !(play.loop >= limits::shortestLoop && play.loop <= limits::duration))

@@ -202,7 +202,7 @@ private:
     /// play's live gain acts behind the filter then.
     [[nodiscard]] static bool isOnePlay(const RenderPlan& plan) noexcept
     {
-        if (!plan.profile || plan.motor || plan.actuators != 1 || plan.plays.size() != 1)
+        if (!plan.profile || plan.motor || plan.actuators != 1 || plan.plays.size() != 1 || plan.plays.front().texture)
             return false;
         const PlayTimeline& timeline = plan.plays.front().timeline;
         return !hasRoleLevels(timeline) && timeline.delays.empty() && timeline.gains.size() == 1 &&

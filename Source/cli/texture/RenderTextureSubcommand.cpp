@@ -10,9 +10,7 @@
 #include "io/MotionFile.h"
 #include "io/TextureFile.h"
 
-#include <pacini/synthesis/ActuatorOutput.h>
-#include <pacini/synthesis/AdaptationParams.h>
-#include <pacini/texture/TexturePlayer.h>
+#include <pacini/synthesis/RenderTexture.h>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -145,22 +143,17 @@ Exit RenderTextureSubcommand::run(Console& console)
 Exit RenderTextureSubcommand::render(Console& console, const Texture& texture, const TextureMotion& motion,
                                      const TextureRenderParams& params) const
 {
-    RenderPlan plan; // as far as an output needs it
+    std::optional<Profile> actuator;
     if (!profile.empty())
     {
-        plan.profile = openProfile(console, profile);
-        if (!plan.profile)
+        actuator = openProfile(console, profile);
+        if (!actuator)
             return Exit::failed;
-        if (plan.profile->technology == Technology::erm)
+        if (actuator->technology == Technology::erm)
             return console.fail(profile, {ErrorCode::invalidData, "technology",
                                           "is a motor, which cannot follow a texture; take another actuator"});
-        plan.flattening = flatteningOf(*plan.profile, AdaptationParams().maxBoost);
     }
     const double fs = params.sampleRate;
-    const auto block = static_cast<std::size_t>(std::max(1.0, std::floor(0.001 * fs)));
-    TexturePlayer player(std::make_shared<const TextureTable>(texture, fs), seed);
-    ActuatorOutput actuator(plan, {fs, block}, true, Seconds(0.001));
-
     AudioWriteParams writing;
     writing.sampleRate = static_cast<int>(fs);
     writing.encoding = lowerExtension(output) == ".flac" ? SampleEncoding::pcm24 : SampleEncoding::float32;
@@ -168,49 +161,28 @@ Exit RenderTextureSubcommand::render(Console& console, const Texture& texture, c
     auto writer = AudioWriter::create(output, writing);
     if (!writer)
         return console.fail(output, writer.error());
-    const auto frames = static_cast<std::int64_t>(writing.expectedFrames);
-    const auto late = static_cast<std::int64_t>(player.latencyFrames() + actuator.latencyFrames());
-    const double gain = params.gain.gain();
-    double peak = 0.0, square = 0.0;
-    CurveReader speeds(motion.speed), forces(motion.force);
-    std::vector<float> samples(block);
-    for (std::int64_t n = 0; n < frames + late; n += static_cast<std::int64_t>(block))
-    {
-        const double time = static_cast<double>(n) / fs;
-        player.setSpeed(speeds.at(time));
-        player.setForce(forces.at(time));
-        player.process(samples);
-        for (float& sample : samples)
-            sample = toSample(gain * static_cast<double>(sample));
-        actuator.process(samples);
-        // The first frames are from before the beginning.
-        const auto first =
-            static_cast<std::size_t>(std::clamp<std::int64_t>(late - n, 0, static_cast<std::int64_t>(block)));
-        const auto last =
-            static_cast<std::size_t>(std::clamp<std::int64_t>(frames + late - n, 0, static_cast<std::int64_t>(block)));
-        const auto written = std::span(samples).first(last).subspan(std::min(first, last));
-        for (const float sample : written)
-        {
-            peak = std::max(peak, std::abs(static_cast<double>(sample)));
-            square += static_cast<double>(sample) * static_cast<double>(sample);
-        }
-        if (auto taken = writer->write(written); !taken)
-            return console.fail(output, taken.error());
-        console.progress(static_cast<double>(n) / static_cast<double>(frames + late), output);
-    }
+    const auto rendered = renderTexture(texture, {motion.speed, motion.force}, params, seed,
+                                        actuator ? &*actuator : nullptr,
+                                        [&](std::span<const float> samples, double done) -> Result<void>
+                                        {
+                                            console.progress(done, output);
+                                            return writer->write(samples);
+                                        });
     console.endProgress();
+    if (!rendered)
+        return console.fail(output, rendered.error());
     const auto report = writer->finish();
     if (!report)
         return console.fail(output, report.error());
-    const double rms = std::sqrt(square / static_cast<double>(std::max<std::int64_t>(frames, 1)));
     console.addToReport({{"input", input},
                          {"output", output},
                          {"bytes", report->bytes},
                          {"duration", *params.duration},
                          {"sampleRate", fs},
-                         {"peak", peak},
-                         {"rms", rms}});
-    console.wrote(output, fmt::format("{}, RMS {:.3f}, peak {:.3f}", durationText(*params.duration), rms, peak));
+                         {"peak", rendered->peak},
+                         {"rms", rendered->rms}});
+    console.wrote(output, fmt::format("{}, RMS {:.3f}, peak {:.3f}", durationText(*params.duration), rendered->rms,
+                                      rendered->peak));
     return Exit::ok;
 }
 

@@ -9,7 +9,9 @@ int main(int argc, char** argv)
 {
     const auto writeSample = [](const std::filesystem::path& path, int number)
     {
-        return writeScene(path, number == 0 ? Scene{} : test::randomScene(static_cast<std::uint64_t>(number)));
+        const auto seed = static_cast<std::uint64_t>(number);
+        const bool textured = number % 4 == 3;
+        return writeScene(path, number == 0 ? Scene{} : textured ? test::texturedScene(seed) : test::randomScene(seed));
     };
     const auto noFiles = [](const std::string&) -> Result<Clip>
     {

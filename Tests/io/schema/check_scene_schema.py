@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Checks the schema of scenes with an independent validator against what the library writes and refuses.
 
-check_scene_schema.py SCENE_TOOL SCHEMA CLIP_SCHEMA DEMO_SCENES     exit 0 when both agree
+check_scene_schema.py SCENE_TOOL SCHEMA CLIP_SCHEMA TEXTURE_SCHEMA DEMO_SCENES     exit 0 when both agree
 """
 import json
 import re
@@ -16,16 +16,20 @@ from check_schema import Draft202012Validator, check
 # What the schema cannot say and only the reader checks: what names and numbers refer to, and rules between members.
 BEYOND_SCHEMA = re.compile(r"does not exist|which (several|no) |the name of several |the scene (lists|has) \d+ |is earlier than the|"
                            r"is later than the clip's|is longer than the clip|is needed, or a duration|"
-                           r"needs lowFrequency|digits of a larger one")
+                           r"needs lowFrequency|digits of a larger one|and the speeds before it|as many numbers as there are nodes|"
+                           r"plays instead of a clip")
 
 
-def bundled(schema, clip):
-    """The schema of scenes with that of clips inside: validators differ in how they look up what is elsewhere."""
-    inner = json.loads(json.dumps(clip).replace("#/$defs/", "#/$defs/clip-"))
-    definitions = {"clip-" + name: sub for name, sub in inner.pop("$defs").items()}
-    del inner["$id"]
-    whole = json.loads(json.dumps(schema).replace('"urn:pacini:clip:1"', '"#/$defs/clip-document"'))
-    whole["$defs"].update({**definitions, "clip-document": inner})
+def bundled(schema, **inside):
+    """The schema of scenes with those of clips and textures inside: validators differ in how they look up what is
+    elsewhere."""
+    whole = schema
+    for kind, other in inside.items():
+        inner = json.loads(json.dumps(other).replace("#/$defs/", f"#/$defs/{kind}-"))
+        definitions = {f"{kind}-" + name: sub for name, sub in inner.pop("$defs").items()}
+        del inner["$id"]
+        whole = json.loads(json.dumps(whole).replace(f'"urn:pacini:{kind}:1"', f'"#/$defs/{kind}-document"'))
+        whole["$defs"].update({**definitions, f"{kind}-document": inner})
     return whole
 
 
@@ -48,14 +52,14 @@ def check_written(tool, validator, schema, demo):
 
 def beyond_schema(where, message):
     return (BEYOND_SCHEMA.search(message) is not None or where.endswith(".value")
-            or common.beyond_schema(re.sub(r"^clips\[\d+\]\.clip\.", "", where), message))
+            or common.beyond_schema(re.sub(r"^(clips|textures)\[\d+\]\.(clip|texture)\.", "", where), message))
 
 
 def main():
-    tool, schema_path, clip_path, demo = sys.argv[1], *map(Path, sys.argv[2:5])
-    schema, clip = (common.strict_json(path.read_bytes()) for path in (schema_path, clip_path))
+    tool, schema_path, clip_path, texture_path, demo = sys.argv[1], *map(Path, sys.argv[2:6])
+    schema, clip, texture = (common.strict_json(path.read_bytes()) for path in (schema_path, clip_path, texture_path))
     common.check_schema_itself(schema)
-    validator = Draft202012Validator(bundled(schema, clip))
+    validator = Draft202012Validator(bundled(schema, clip=clip, texture=texture))
     documents = check_written(tool, validator, schema, demo)
     small = [document for document in documents if len(json.dumps(document)) < 60000]
     check(len(small) > 5, "the samples are too large")

@@ -12,7 +12,7 @@ import check_schema as common
 from check_schema import Draft202012Validator, check
 
 # What the schema cannot say and only the reader checks.
-BEYOND_SCHEMA = ("must be above 0 and the speeds before it",)
+BEYOND_SCHEMA = ("must be above 0 and the speeds before it", "must have as many numbers as there are nodes")
 
 
 def check_written(tool, validator, schema):

@@ -30,6 +30,10 @@ SceneRange sceneRangeOf(SceneParameter parameter) noexcept
         return {-24.0, 24.0, 0.0, " st"};
     case SceneParameter::stretch:
         return {0.25, 4.0, 1.0, ""};
+    case SceneParameter::speed:
+        return {0.0, 1.0, 0.5, ""};
+    case SceneParameter::force:
+        return {0.0, 1.0, 1.0, ""};
     case SceneParameter::gain:
     case SceneParameter::tones:
     case SceneParameter::events:
