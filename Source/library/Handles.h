@@ -17,6 +17,7 @@ namespace pacini::library
 enum class HandleKind : std::uint8_t
 {
     clip = 0xC1,
+    texture = 0xA1,
     engine = 0xE1,
     controller = 0xD1,
     play = 0xB1

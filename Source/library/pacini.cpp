@@ -9,6 +9,7 @@
 #include "io/ProfileJson.h"
 #include "io/SceneFile.h"
 #include "io/ShippedProfiles.h"
+#include "io/TextureFile.h"
 #include "io/formats/ClipFormat.h"
 #include "library/ControllerLink.h"
 #include "library/Handles.h"
@@ -46,6 +47,7 @@ using library::renderEngine;
 
 constexpr std::size_t mostEngines = 64; // 6 bits of a play's handle
 constexpr std::size_t mostClips = 1'000'000;
+constexpr std::size_t mostTextures = 10'000;
 constexpr std::size_t mostControllers = 1024;
 constexpr std::uint32_t blockFrames = 256; // of interleaved output at a time
 
@@ -78,6 +80,7 @@ struct Library
 {
     std::mutex control; ///< of everything but `engines` while rendering
     library::HandleTable<std::shared_ptr<const LoadedClip>> clips{HandleKind::clip, mostClips};
+    library::HandleTable<std::shared_ptr<const Texture>> textures{HandleKind::texture, mostTextures};
     library::SharedSlots<EngineEntry, mostEngines> engines;
     library::HandleTable<devices::Controller> controllers{HandleKind::controller, mostControllers};
     std::vector<std::uint64_t> connected; ///< handles of `controllers`
@@ -253,6 +256,20 @@ pacini_result addClip(const std::shared_ptr<const LoadedClip>& clip, pacini_clip
     const pacini_clip added = all().clips.add(clip);
     if (added == 0)
         return fail(PACINI_TOO_MANY, "a million clips are loaded: release some");
+    *handle = added;
+    return PACINI_OK;
+}
+
+/// `path`: of its file, if it is of one.
+pacini_result addTexture(Result<Texture>&& read, std::string_view path, pacini_texture* handle)
+{
+    if (!read)
+        return fail(read.error(), path);
+    auto texture = std::make_shared<const Texture>(std::move(read).value());
+    const std::lock_guard lock(all().control);
+    const pacini_texture added = all().textures.add(std::move(texture));
+    if (added == 0)
+        return fail(PACINI_TOO_MANY, "10000 textures are loaded: release some");
     *handle = added;
     return PACINI_OK;
 }
@@ -651,11 +668,41 @@ pacini_result within(const char* name, double seconds, Work&& work)
 template <typename Work>
 pacini_result setControl(std::int32_t control, double value, double glide, Work&& work)
 {
-    if (control < PACINI_GAIN || control > PACINI_NOISE)
+    if (control < PACINI_GAIN || control > PACINI_TEXTURE_FORCE)
         return fail(PACINI_INVALID, "control: must be a pacini_control");
     if (control == PACINI_PRIORITY && value != std::floor(value))
         return fail(PACINI_INVALID, "priority: must be a whole number");
     return within("glide", glide, [&](Seconds seconds) { return work(static_cast<LiveControl>(control), seconds); });
+}
+
+/// Starts a play by start(settings, frame), and gives its handle.
+template <typename Start>
+pacini_result startPlay(pacini_engine engine, const pacini_play_settings* settings, pacini_play* play, Start&& start)
+{
+    pacini_play_settings given;
+    pacini_play_settings_init(&given);
+    if (!readStruct(settings, given))
+        return fail(PACINI_INVALID, "settings: call pacini_play_settings_init() first");
+    if (std::abs(static_cast<double>(given.priority)) > 1e9)
+        return fail(PACINI_INVALID, "priority: must be -1e9 to 1e9");
+    PlaySettings wanted;
+    wanted.controls = {given.gain, given.intensity, given.pan, given.delay, given.transposition, given.speed};
+    wanted.from = given.from;
+    wanted.loop = given.loop;
+    wanted.passes = given.passes;
+    wanted.headroom = given.headroom;
+    wanted.fadeIn = Seconds(given.fade_in);
+    wanted.group = given.group;
+    wanted.priority = given.priority;
+    wanted.variation.amount = given.variation;
+    wanted.variation.seed = given.seed;
+    const Result<PlayId> started = start(std::move(wanted), given.frame);
+    if (!started)
+        return fail(started.error());
+    const Handle owner = Handle::of(engine);
+    if (play != nullptr)
+        *play = PlayHandle{owner.index, owner.generation, started->slot, started->generation}.number();
+    return PACINI_OK;
 }
 } // namespace
 
@@ -677,7 +724,7 @@ extern "C"
         case PACINI_STALE:
             return "a handle is not in use (any more)";
         case PACINI_BAD_DATA:
-            return "this is not a clip, scene or profile";
+            return "this is not a clip, scene, texture or profile";
         case PACINI_NEWER:
             return "this was written by a newer version";
         case PACINI_TOO_MANY:
@@ -1003,39 +1050,77 @@ extern "C"
     pacini_result pacini_play_start(pacini_engine engine, pacini_clip clip, const pacini_play_settings* settings,
                                     pacini_play* play)
     {
-        return withEngine(
-            engine,
-            [&](EngineEntry& entry)
+        return withEngine(engine,
+                          [&](EngineEntry& entry)
+                          {
+                              const auto* const held = all().clips.find(clip);
+                              if (held == nullptr)
+                                  return stale("clip");
+                              return startPlay(engine, settings, play,
+                                               [&](PlaySettings wanted, int64_t frame)
+                                               {
+                                                   if (wanted.loop == -1.0)
+                                                       wanted.loop = (*held)->duration();
+                                                   return entry.engine->play(*held, wanted, frame);
+                                               });
+                          });
+    }
+
+    pacini_result pacini_texture_load(const void* bytes, size_t size, pacini_texture* texture)
+    {
+        return guarded(
+            [&]
             {
-                const auto* const held = all().clips.find(clip);
-                if (held == nullptr)
-                    return stale("clip");
-                pacini_play_settings given;
-                pacini_play_settings_init(&given);
-                if (!readStruct(settings, given))
-                    return fail(PACINI_INVALID, "settings: call pacini_play_settings_init() first");
-                if (std::abs(static_cast<double>(given.priority)) > 1e9)
-                    return fail(PACINI_INVALID, "priority: must be -1e9 to 1e9");
-                PlaySettings wanted;
-                wanted.controls = {given.gain,  given.intensity,     given.pan,
-                                   given.delay, given.transposition, given.speed};
-                wanted.from = given.from;
-                wanted.loop = given.loop == -1.0 ? (*held)->duration() : given.loop;
-                wanted.passes = given.passes;
-                wanted.headroom = given.headroom;
-                wanted.fadeIn = Seconds(given.fade_in);
-                wanted.group = given.group;
-                wanted.priority = given.priority;
-                wanted.variation.amount = given.variation;
-                wanted.variation.seed = given.seed;
-                const auto started = entry.engine->play(*held, wanted, given.frame);
-                if (!started)
-                    return fail(started.error());
-                const Handle owner = Handle::of(engine);
-                if (play != nullptr)
-                    *play = PlayHandle{owner.index, owner.generation, started->slot, started->generation}.number();
+                if (texture == nullptr)
+                    return fail(PACINI_INVALID, "texture: is NULL");
+                if (bytes == nullptr || size == 0)
+                    return fail(PACINI_INVALID, "bytes: there are none");
+                return addTexture(readTextureJson({static_cast<const char*>(bytes), size}), {}, texture);
+            });
+    }
+
+    pacini_result pacini_texture_load_file(const char* path, pacini_texture* texture)
+    {
+        return guarded(
+            [&]
+            {
+                if (texture == nullptr || path == nullptr)
+                    return fail(PACINI_INVALID, texture == nullptr ? "texture: is NULL" : "path: is NULL");
+                const auto* const utf8 = reinterpret_cast<const char8_t*>(path);
+                return addTexture(readTexture(std::filesystem::path(std::u8string_view(utf8))), path, texture);
+            });
+    }
+
+    pacini_result pacini_texture_release(pacini_texture texture)
+    {
+        return guarded(
+            [&]
+            {
+                const std::lock_guard lock(all().control);
+                if (all().textures.find(texture) == nullptr)
+                    return stale("texture");
+                all().textures.remove(texture);
                 return PACINI_OK;
             });
+    }
+
+    pacini_result pacini_texture_start(pacini_engine engine, pacini_texture texture, double speed, double force,
+                                       const pacini_play_settings* settings, pacini_play* play)
+    {
+        return withEngine(engine,
+                          [&](EngineEntry& entry)
+                          {
+                              const auto* const held = all().textures.find(texture);
+                              if (held == nullptr)
+                                  return stale("texture");
+                              return startPlay(engine, settings, play,
+                                               [&](PlaySettings wanted, int64_t frame)
+                                               {
+                                                   wanted.controls.textureSpeed = speed;
+                                                   wanted.controls.textureForce = force;
+                                                   return entry.engine->play(*held, wanted, frame);
+                                               });
+                          });
     }
 
     pacini_result pacini_play_set(pacini_play play, std::int32_t control, double value, double glide, int64_t frame)

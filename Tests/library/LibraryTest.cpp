@@ -85,6 +85,56 @@ pacini_play_info infoOf(pacini_play play)
 }
 } // namespace
 
+TEST_CASE("A texture is loaded, started, moved while it plays and stopped through C")
+{
+    const std::string wood = R"({"format": "pacini.texture", "version": 1, "pitch": 1, "levelBySpeed": 1,
+ "levelByForce": 0.5, "nodes": [{"speed": 0.5, "level": 0.1, "reflection": [-0.6, 0.8]}],
+ "tones": [{"frequency": 300, "levels": [0.05]}]})";
+    pacini_texture texture = 0;
+    require(pacini_texture_load(wood.data(), wood.size(), &texture));
+    const pacini_engine engine = created();
+    pacini_play play = 0;
+    require(pacini_texture_start(engine, texture, 0.0, 1.0, nullptr, &play));
+    CHECK(largest(rendered(engine, 1000)) == 0.0f);
+    CHECK(infoOf(play).state == PACINI_PLAYING);
+    require(pacini_play_set(play, PACINI_TEXTURE_SPEED, 0.5, 0.0, 0));
+    rendered(engine, 100);
+    const float loud = largest(rendered(engine, 4000));
+    CHECK(loud > 0.2f);
+    require(pacini_play_set(play, PACINI_TEXTURE_FORCE, 0.01, 0.01, 0));
+    rendered(engine, 200);
+    CHECK(largest(rendered(engine, 4000)) < 0.2f * loud);
+    require(pacini_group_set(engine, 0, PACINI_NOISE, 0.0, 0.0, 0));
+    rendered(engine, 200);
+    CHECK(largest(rendered(engine, 1000)) == Approx(0.005 * std::sqrt(2.0)).epsilon(0.05));
+    CHECK(pacini_play_seek(play, 0.5, 0) == PACINI_INVALID);
+    CHECK(lastError() == "play: is of a texture, which has no position");
+    CHECK(pacini_play_set(play, PACINI_TEXTURE_SPEED, 1.5, 0.0, 0) == PACINI_INVALID);
+    CHECK(pacini_play_set(play, PACINI_TEXTURE_SPEED, std::numeric_limits<double>::quiet_NaN(), 0.0, 0) ==
+          PACINI_INVALID);
+    // A texture that is released plays on.
+    require(pacini_texture_release(texture));
+    CHECK(pacini_texture_release(texture) == PACINI_STALE);
+    CHECK(pacini_texture_start(engine, texture, 0.5, 1.0, nullptr, nullptr) == PACINI_STALE);
+    CHECK(largest(rendered(engine, 1000)) > 0.0f);
+    require(pacini_play_stop(play, 0.0, 0));
+    rendered(engine, 200);
+    CHECK(infoOf(play).state == PACINI_ENDED);
+    // What is no texture.
+    texture = 7;
+    CHECK(pacini_texture_load(hum.data(), hum.size(), &texture) == PACINI_BAD_DATA);
+    CHECK(pacini_texture_load("", 0, &texture) == PACINI_INVALID);
+    CHECK(pacini_texture_load(wood.data(), 40, &texture) == PACINI_BAD_DATA);
+    CHECK(pacini_texture_load_file("none.texture.json", &texture) == PACINI_IO);
+    CHECK(texture == 7);
+    const pacini_clip clip = loaded(hum);
+    CHECK(pacini_texture_start(engine, clip, 0.5, 1.0, nullptr, nullptr) == PACINI_STALE);
+    require(pacini_texture_load(wood.data(), wood.size(), &texture));
+    CHECK(pacini_texture_start(engine, texture, 2.0, 1.0, nullptr, nullptr) == PACINI_INVALID);
+    CHECK(pacini_texture_start(engine, texture, 0.5, -1.0, nullptr, nullptr) == PACINI_INVALID);
+    require(pacini_engine_destroy(engine));
+}
+
 TEST_CASE("A clip is loaded from memory in any format, played, changed and stopped through C")
 {
     CHECK(pacini_api_version() == 1000 * PACINI_API_MAJOR + PACINI_API_MINOR);
@@ -128,7 +178,7 @@ TEST_CASE("A clip is loaded from memory in any format, played, changed and stopp
     CHECK(largest(rendered(engine, 1000)) == 0.0f);
     CHECK(pacini_play_set(play, PACINI_NOISE, -1.0, 0.0, 0) == PACINI_INVALID);
     CHECK(lastError() == "noise: must be 0 to 1000");
-    CHECK(pacini_play_set(play, PACINI_NOISE + 1, 1.0, 0.0, 0) == PACINI_INVALID);
+    CHECK(pacini_play_set(play, PACINI_TEXTURE_FORCE + 1, 1.0, 0.0, 0) == PACINI_INVALID);
     require(pacini_group_set(engine, 0, PACINI_TONES, 1.0, 0.0, 0));
     require(pacini_play_seek(play, 0.9, 0));
     require(pacini_play_pause(play, 0.0, 0));
@@ -337,7 +387,7 @@ TEST_CASE("Controllers that are not there, and engines without one, are errors t
     require(pacini_engine_destroy(engine));
     CHECK(pacini_engine_detach(engine) == PACINI_STALE);
     CHECK(pacini_engine_get_attachment(engine, &info) == PACINI_STALE);
-    CHECK(pacini_api_version() == 1002);
+    CHECK(pacini_api_version() == 1003);
 }
 
 namespace
@@ -578,7 +628,7 @@ TEST_CASE("A thousand calls with something wrong in each name it and change noth
         }
         case 16:
         {
-            const std::int32_t none = dice.below(2) == 0 ? -1 : PACINI_NOISE + 1;
+            const std::int32_t none = dice.below(2) == 0 ? -1 : PACINI_TEXTURE_FORCE + 1;
             fails(kind, PACINI_INVALID, pacini_play_set(play, none, 0.5, 0.0, frame), "control");
             fails(kind, PACINI_INVALID, pacini_group_set(engine, 0, none, 0.5, 0.0, frame), "control");
             fails(kind, PACINI_INVALID, pacini_play_set(play, PACINI_PRIORITY, 0.5, 0.0, frame), "whole");

@@ -60,7 +60,7 @@ extern "C"
 
 /* Version of this header. It works with a library of the same major version and at least this minor version. */
 #define PACINI_API_MAJOR 1
-#define PACINI_API_MINOR 2
+#define PACINI_API_MINOR 3
 
     /* Version of the library: major * 1000 + minor. [any thread] */
     PACINI_API uint32_t pacini_api_version(void);
@@ -70,7 +70,7 @@ extern "C"
         PACINI_OK = 0,
         PACINI_INVALID = 1,  /* an argument is out of its range */
         PACINI_STALE = 2,    /* a handle is not, or no longer, valid */
-        PACINI_BAD_DATA = 3, /* the data is not a clip, scene or profile */
+        PACINI_BAD_DATA = 3, /* the data is not a clip, scene, texture or profile */
         PACINI_NEWER = 4,    /* the data was written by a newer version */
         PACINI_TOO_MANY = 5, /* too many plays, commands, clips or engines; or too large */
         PACINI_IO = 6,       /* a file cannot be read */
@@ -88,6 +88,7 @@ extern "C"
 
     typedef uint64_t pacini_clip;
     typedef uint64_t pacini_engine;
+    typedef uint64_t pacini_texture; /* since 1.3 */
     typedef uint64_t pacini_play;
     typedef uint64_t pacini_controller;
 
@@ -119,6 +120,26 @@ extern "C"
 
     /* Releases a clip. Active plays of the clip continue to their end. [any thread but audio] */
     PACINI_API pacini_result pacini_clip_release(pacini_clip clip);
+
+    /* ---- Textures (since 1.3)
+     * --------------------------------------------------------------------------------------------------------
+     * A texture is what a hand feels of a surface, or a seat of an engine: made of a recording by `pacini texture
+     * analyse`, it plays for as long as it is let, without repeating, and follows a speed and a force.
+     *
+     *     pacini_texture_load_file("wood.texture.json", &wood);
+     *     pacini_texture_start(engine, wood, 0.0, 1.0, NULL, &play);
+     *     pacini_play_set(play, PACINI_TEXTURE_SPEED, 0.4, 0.02, 0);   // whenever the hand moves
+     *     pacini_play_stop(play, 0.01, 0); */
+
+    /* Loads a texture from memory; copies the data. It can play any number of times, on any engine. [any thread but
+     * audio] */
+    PACINI_API pacini_result pacini_texture_load(const void* bytes, size_t size, pacini_texture* texture);
+
+    /* Loads a texture from a file; the path is UTF-8. [any thread but audio] */
+    PACINI_API pacini_result pacini_texture_load_file(const char* path, pacini_texture* texture);
+
+    /* Releases a texture. Active plays of it continue. [any thread but audio] */
+    PACINI_API pacini_result pacini_texture_release(pacini_texture texture);
 
     /* ---- Engines
      * ----------------------------------------------------------------------------------------------------- */
@@ -232,7 +253,11 @@ extern "C"
         /* Levels of the roles of the clip, linear, 0 to 1000; initially 1. Since 1.2. */
         PACINI_TONES = 7,  /* the bands */
         PACINI_EVENTS = 8, /* the transients */
-        PACINI_NOISE = 9   /* the bands of noise */
+        PACINI_NOISE = 9,  /* the bands of noise; of a texture its noise, and PACINI_TONES its tones */
+
+        /* Of a texture, 0 to 1; at 0 it is silent. Felt within 9 ms. Since 1.3. */
+        PACINI_TEXTURE_SPEED = 10,
+        PACINI_TEXTURE_FORCE = 11
     } pacini_control;
 
     typedef struct pacini_play_settings
@@ -257,6 +282,15 @@ extern "C"
     /* Starts a play. NULL settings are the defaults. `play` may be NULL. [any thread but audio] */
     PACINI_API pacini_result pacini_play_start(pacini_engine engine, pacini_clip clip,
                                                const pacini_play_settings* settings, pacini_play* play);
+
+    /* Starts a texture, which plays until it is stopped, a day at most. `speed` and `force` are 0 to 1; set them with
+     * PACINI_TEXTURE_SPEED and PACINI_TEXTURE_FORCE while it plays. Of the settings, transposition, speed, from, loop,
+     * passes, headroom and variation are without effect; different seeds make different noise. A play of a texture
+     * cannot be moved by pacini_play_seek(). PACINI_INVALID: all actuators are motors. Takes some 15 ms the first time
+     * on an engine. [any thread but audio] Since 1.3. */
+    PACINI_API pacini_result pacini_texture_start(pacini_engine engine, pacini_texture texture, double speed,
+                                                  double force, const pacini_play_settings* settings,
+                                                  pacini_play* play);
 
     /* Sets a control, a pacini_control. The value moves linearly over `glide` s, from `frame` on. To set initial values
      * that pacini_play_settings does not have, call this right after pacini_play_start() for the same frame. [any

@@ -8,7 +8,7 @@ from bindings import BINDINGS, declarations
 KINDS = {
     "u32": {"uint32_t", "u32", "uint"},
     "i32": {"int32_t", "int", "pacini_result", "i32", "c_int"},
-    "u64": {"uint64_t", "pacini_clip", "pacini_engine", "pacini_play", "pacini_controller", "ulong"},
+    "u64": {"uint64_t", "pacini_clip", "pacini_texture", "pacini_engine", "pacini_play", "pacini_controller", "ulong"},
     "i64": {"int64_t", "i64", "long"},
     "f64": {"double", "f64"},
     "size": {"size_t", "usize", "UIntPtr"},

@@ -22,6 +22,7 @@ typedef enum pacini_result {
 const char* pacini_result_text(pacini_result result);
 size_t pacini_last_error(char* text, size_t size);
 typedef uint64_t pacini_clip;
+typedef uint64_t pacini_texture;
 typedef uint64_t pacini_engine;
 typedef uint64_t pacini_play;
 typedef uint64_t pacini_controller;
@@ -33,6 +34,9 @@ typedef struct pacini_clip_info {
     uint64_t bytes;
     char name[64];
 } pacini_clip_info;
+pacini_result pacini_texture_load(const void* bytes, size_t size, pacini_texture* texture);
+pacini_result pacini_texture_load_file(const char* path, pacini_texture* texture);
+pacini_result pacini_texture_release(pacini_texture texture);
 pacini_result pacini_clip_load(const void* bytes, size_t size, pacini_clip* clip);
 pacini_result pacini_clip_load_file(const char* path, pacini_clip* clip);
 pacini_result pacini_clip_reload(pacini_clip clip, const void* bytes, size_t size);
@@ -104,6 +108,8 @@ typedef struct pacini_play_settings {
 void pacini_play_settings_init(pacini_play_settings* settings);
 pacini_result pacini_play_start(pacini_engine engine, pacini_clip clip,
     const pacini_play_settings* settings, pacini_play* play);
+pacini_result pacini_texture_start(pacini_engine engine, pacini_texture texture, double speed, double force,
+    const pacini_play_settings* settings, pacini_play* play);
 pacini_result pacini_play_set(pacini_play play, int32_t control, double value, double glide,
     int64_t frame);
 pacini_result pacini_play_stop(pacini_play play, double fade, int64_t frame);
@@ -172,12 +178,12 @@ end
 
 local library = loadLibrary()
 local version = library.pacini_api_version()
-if version < 1002 or version >= 2000 then
-    error("pacini: libpacini has the interface " .. version / 1000 .. ", this file is for 1.2 or a newer 1.x", 0)
+if version < 1003 or version >= 2000 then
+    error("pacini: libpacini has the interface " .. version / 1000 .. ", this file is for 1.3 or a newer 1.x", 0)
 end
 
 local controls = {gain = 0, intensity = 1, pan = 2, delay = 3, transposition = 4, speed = 5, priority = 6,
-    tones = 7, events = 8, noise = 9}
+    tones = 7, events = 8, noise = 9, textureSpeed = 10, textureForce = 11}
 local panLaws = {power = 0, delay = 1, both = 2}
 local states = {[0] = "ended", "waiting", "playing", "paused", "left out"}
 local haptics = {[0] = "HD rumble", "DualShock 4", "DualSense", "Xbox", "waveforms", "Steam Controller", "Steam Deck"}
@@ -258,6 +264,18 @@ function pacini.clip(path)
     return ownedClip(out)
 end
 
+--- A texture from a file, as `pacini texture analyse` makes it: of the game in LÖVE, or of the system.
+function pacini.texture(path)
+    local out = ffi.new "pacini_texture[1]"
+    if filesystem and filesystem.getInfo(path, "file") then
+        local bytes = assert(filesystem.read(path))
+        check(library.pacini_texture_load(bytes, #bytes, out))
+    else
+        check(library.pacini_texture_load_file(path, out))
+    end
+    return {box = boxed("pacini_texture", out[0], library.pacini_texture_release)}
+end
+
 --- Puts other content in its place; what plays of it fades over.
 function Clip:reload(bytes)
     check(library.pacini_clip_reload(self.box[0], bytes, #bytes))
@@ -323,6 +341,15 @@ function Engine:play(clip, settings)
     fill(struct, settingFields, settings or {}, "a play")
     local out = ffi.new "pacini_play[1]"
     check(library.pacini_play_start(self.box[0], clip.box[0], struct, out))
+    return setmetatable({handle = out[0]}, Play)
+end
+
+--- Starts a texture, which plays until it is stopped; set "textureSpeed" and "textureForce" (0 to 1) while it does.
+function Engine:playTexture(texture, speed, force, settings)
+    local struct = filled("pacini_play_settings", library.pacini_play_settings_init)
+    fill(struct, settingFields, settings or {}, "a play")
+    local out = ffi.new "pacini_play[1]"
+    check(library.pacini_texture_start(self.box[0], texture.box[0], speed or 0, force or 1, struct, out))
     return setmetatable({handle = out[0]}, Play)
 end
 

@@ -24,7 +24,7 @@ function loadLibrary() {
 
 const library = loadLibrary();
 const apiVersion = library.func('uint32_t pacini_api_version()');
-if (apiVersion() < 1002 || apiVersion() >= 2000) {
+if (apiVersion() < 1003 || apiVersion() >= 2000) {
   throw new Error(`libpacini has the interface ${apiVersion() / 1000}, this module is for 1.2 or a newer 1.x`);
 }
 
@@ -65,6 +65,11 @@ const c = {
   lastError: library.func('size_t pacini_last_error(uint8_t *text, size_t size)'),
   clipLoad: library.func('int pacini_clip_load(const void *bytes, size_t size, _Out_ uint64_t *clip)'),
   clipLoadFile: library.func('int pacini_clip_load_file(const char *path, _Out_ uint64_t *clip)'),
+  textureLoad: library.func('int pacini_texture_load(const void *bytes, size_t size, _Out_ uint64_t *texture)'),
+  textureLoadFile: library.func('int pacini_texture_load_file(const char *path, _Out_ uint64_t *texture)'),
+  textureRelease: library.func('int pacini_texture_release(uint64_t texture)'),
+  textureStart: library.func(
+    'int pacini_texture_start(uint64_t engine, uint64_t texture, double speed, double force, pacini_play_settings *settings, _Out_ uint64_t *play)'),
   clipReload: library.func('int pacini_clip_reload(uint64_t clip, const void *bytes, size_t size)'),
   clipInfoInit: library.func('void pacini_clip_info_init(_Out_ pacini_clip_info *info)'),
   clipGetInfo: library.func('int pacini_clip_get_info(uint64_t clip, _Inout_ pacini_clip_info *info)'),
@@ -115,7 +120,7 @@ export const version = apiVersion();
 
 const codes = ['ok', 'invalid', 'stale', 'bad data', 'newer', 'too many', 'io', 'no memory', 'internal', 'busy'];
 const controls = { gain: 0, intensity: 1, pan: 2, delay: 3, transposition: 4, speed: 5, priority: 6,
-  tones: 7, events: 8, noise: 9 };
+  tones: 7, events: 8, noise: 9, textureSpeed: 10, textureForce: 11 };
 const panLaws = { power: 0, delay: 1, both: 2 };
 const states = ['ended', 'waiting', 'playing', 'paused', 'left out'];
 const haptics = ['HD rumble', 'DualShock 4', 'DualSense', 'Xbox', 'waveforms', 'Steam Controller', 'Steam Deck'];
@@ -170,7 +175,41 @@ function number(names, given, what) {
 }
 
 const clips = new FinalizationRegistry((handle) => c.clipRelease(handle));
+const textures = new FinalizationRegistry((handle) => c.textureRelease(handle));
 const engines = new FinalizationRegistry((handle) => c.engineDestroy(handle));
+
+/** What a hand feels of a surface: made of a recording by `pacini texture analyse`, played by speed and force. */
+export class Texture {
+  #handle;
+
+  constructor(handle) {
+    this.#handle = handle;
+    textures.register(this, handle, this);
+  }
+
+  /** From a file. */
+  static load(path) {
+    const out = [0n];
+    check(c.textureLoadFile(path, out));
+    return new Texture(out[0]);
+  }
+
+  /** From the bytes of such a file, a Uint8Array. */
+  static fromBytes(bytes) {
+    const out = [0n];
+    check(c.textureLoad(bytes, bytes.length, out));
+    return new Texture(out[0]);
+  }
+
+  get handle() { return this.#handle; }
+
+  /** What plays of it goes on. */
+  release() {
+    check(c.textureRelease(this.#handle));
+    textures.unregister(this);
+    this.#handle = 0n;
+  }
+}
 
 /** A haptic clip in memory. It can play as often as one likes, on any engine. */
 export class Clip {
@@ -251,6 +290,14 @@ export class Engine {
     return new Play(out[0]);
   }
 
+  /** Starts a texture, which plays until it is stopped; set 'textureSpeed' and 'textureForce' (0 to 1) while it does. */
+  playTexture(texture, speed = 0, force = 1, settings = {}) {
+    const struct = fill(filled(c.playSettingsInit), settingFields, settings, 'a play');
+    const out = [0n];
+    check(c.textureStart(this.#handle, texture.handle, speed, force, struct, out));
+    return new Play(out[0]);
+  }
+
   /** Fills a Float32Array with the next frames: samples[frame * channels + actuator]; returns it. */
   render(samples, channels = this.#actuators) {
     const result = c.renderInterleaved(this.#handle, samples, channels, Math.floor(samples.length / channels));
@@ -327,7 +374,7 @@ export class Play {
 
   constructor(handle) { this.#handle = handle; }
 
-  /** 'gain', 'intensity', 'pan', 'delay', 'transposition', 'speed', 'priority', 'tones', 'events' or 'noise',
+  /** 'gain', 'intensity', 'pan', 'delay', 'transposition', 'speed', 'priority', 'tones', 'events', 'noise', 'textureSpeed' or 'textureForce',
    * in a glide (s), from a frame on. */
   set(control, value, glide = 0, frame = 0) {
     check(c.playSet(this.#handle, number(controls, control, 'control'), value, glide, frame));

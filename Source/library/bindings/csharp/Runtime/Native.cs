@@ -121,6 +121,9 @@ namespace Pacini
 
         [DllImport(Library, CallingConvention = C)] internal static extern int pacini_clip_load(byte[] bytes, UIntPtr size, out ulong clip);
         [DllImport(Library, CallingConvention = C)] internal static extern int pacini_clip_load_file(byte[] path, out ulong clip);
+        [DllImport(Library, CallingConvention = C)] internal static extern int pacini_texture_load(byte[] bytes, UIntPtr size, out ulong texture);
+        [DllImport(Library, CallingConvention = C)] internal static extern int pacini_texture_load_file(byte[] path, out ulong texture);
+        [DllImport(Library, CallingConvention = C)] internal static extern int pacini_texture_release(ulong texture);
         [DllImport(Library, CallingConvention = C)] internal static extern int pacini_clip_reload(ulong clip, byte[] bytes, UIntPtr size);
         [DllImport(Library, CallingConvention = C)] internal static extern void pacini_clip_info_init(ref pacini_clip_info info);
         [DllImport(Library, CallingConvention = C)] internal static extern int pacini_clip_get_info(ulong clip, ref pacini_clip_info info);
@@ -139,6 +142,7 @@ namespace Pacini
 
         [DllImport(Library, CallingConvention = C)] internal static extern void pacini_play_settings_init(ref pacini_play_settings settings);
         [DllImport(Library, CallingConvention = C)] internal static extern int pacini_play_start(ulong engine, ulong clip, ref pacini_play_settings settings, out ulong play);
+        [DllImport(Library, CallingConvention = C)] internal static extern int pacini_texture_start(ulong engine, ulong texture, double speed, double force, ref pacini_play_settings settings, out ulong play);
         [DllImport(Library, CallingConvention = C)] internal static extern int pacini_play_set(ulong play, int control, double value, double glide, long frame);
         [DllImport(Library, CallingConvention = C)] internal static extern int pacini_play_stop(ulong play, double fade, long frame);
         [DllImport(Library, CallingConvention = C)] internal static extern int pacini_play_pause(ulong play, double fade, long frame);

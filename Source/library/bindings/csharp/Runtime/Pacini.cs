@@ -44,7 +44,9 @@ namespace Pacini
         Priority = 6,
         Tones = 7,
         Events = 8,
-        Noise = 9
+        Noise = 9,
+        TextureSpeed = 10,
+        TextureForce = 11
     }
 
     public enum PlayState
@@ -74,7 +76,7 @@ namespace Pacini
         /// <summary>Throws when this binding is not for it.</summary>
         internal static void Check()
         {
-            if (Version < 1002 || Version >= 2000)
+            if (Version < 1003 || Version >= 2000)
                 throw new PaciniException(Result.Newer, "libpacini has the interface " + Version / 1000.0 + ", this binding is for 1.2 or a newer 1.x");
         }
     }
@@ -218,6 +220,49 @@ namespace Pacini
         {
             if (Handle != 0)
                 Native.pacini_clip_release(Handle);
+        }
+    }
+
+    /// <summary>What a hand feels of a surface: made of a recording by `pacini texture analyse`, played by speed and
+    /// force.</summary>
+    public sealed class HapticTexture : IDisposable
+    {
+        internal ulong Handle { get; private set; }
+
+        private HapticTexture(ulong handle)
+        {
+            Handle = handle;
+        }
+
+        /// <summary>From a file.</summary>
+        public static HapticTexture Load(string path)
+        {
+            ulong handle;
+            Native.Check(Native.pacini_texture_load_file(Native.Utf8(path), out handle));
+            return new HapticTexture(handle);
+        }
+
+        /// <summary>From the bytes of such a file.</summary>
+        public static HapticTexture FromBytes(byte[] bytes)
+        {
+            ulong handle;
+            Native.Check(Native.pacini_texture_load(bytes, (UIntPtr)(uint)bytes.Length, out handle));
+            return new HapticTexture(handle);
+        }
+
+        /// <summary>Releases it; what plays of it goes on.</summary>
+        public void Dispose()
+        {
+            if (Handle != 0)
+                Native.pacini_texture_release(Handle);
+            Handle = 0;
+            GC.SuppressFinalize(this);
+        }
+
+        ~HapticTexture()
+        {
+            if (Handle != 0)
+                Native.pacini_texture_release(Handle);
         }
     }
 
@@ -407,6 +452,17 @@ namespace Pacini
             ulong play;
             Native.Check(Native.pacini_play_start(handle, clip.Handle, ref given, out play));
             GC.KeepAlive(clip);
+            return new Play(play);
+        }
+
+        /// <summary>Starts a texture, which plays until it is stopped; set Control.TextureSpeed and Control.TextureForce
+        /// (0 to 1) while it does.</summary>
+        public Play Play(HapticTexture texture, double speed, double force = 1.0, PlaySettings settings = null)
+        {
+            var given = settings == null ? PlaySettings.Usual() : settings.Struct();
+            ulong play;
+            Native.Check(Native.pacini_texture_start(handle, texture.Handle, speed, force, ref given, out play));
+            GC.KeepAlive(texture);
             return new Play(play);
         }
 

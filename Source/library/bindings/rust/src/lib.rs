@@ -179,6 +179,36 @@ impl Clip {
     }
 }
 
+/// What a hand feels of a surface: made of a recording by `pacini texture analyse`, played by speed and force.
+#[derive(Debug)]
+pub struct Texture(sys::pacini_texture);
+
+impl Texture {
+    /// From the bytes of a texture file.
+    pub fn from_bytes(bytes: &[u8]) -> Result<Texture, Error> {
+        let mut handle = 0;
+        // SAFETY: as many bytes as it is told; the library copies them.
+        check(unsafe { sys::pacini_texture_load(bytes.as_ptr().cast(), bytes.len(), &mut handle) })?;
+        Ok(Texture(handle))
+    }
+
+    /// From a file.
+    pub fn load(file: impl AsRef<Path>) -> Result<Texture, Error> {
+        let file = path(file.as_ref())?;
+        let mut handle = 0;
+        // SAFETY: the text ends with a 0.
+        check(unsafe { sys::pacini_texture_load_file(file.as_ptr(), &mut handle) })?;
+        Ok(Texture(handle))
+    }
+}
+
+impl Drop for Texture {
+    fn drop(&mut self) {
+        // SAFETY: handles are checked by the library.
+        unsafe { sys::pacini_texture_release(self.0) };
+    }
+}
+
 impl Drop for Clip {
     fn drop(&mut self) {
         // SAFETY: handles are checked by the library.
@@ -247,7 +277,7 @@ pub struct Config {
 
 impl Default for Config {
     fn default() -> Self {
-        assert!((1002..2000).contains(&library_version()), "libpacini has another interface than this crate");
+        assert!((1003..2000).contains(&library_version()), "libpacini has another interface than this crate");
         let usual = filled(sys::pacini_engine_config_init);
         Config {
             actuators: vec![Actuator::default()],
@@ -358,6 +388,16 @@ impl Engine {
         let mut play = 0;
         // SAFETY: the struct knows its size.
         check(unsafe { sys::pacini_play_start(self.0, clip.0, &settings, &mut play) })?;
+        Ok(Play(play))
+    }
+
+    /// Starts a texture, which plays until it is stopped; set `Control::TextureSpeed` and `Control::TextureForce` (0 to
+    /// 1) while it does.
+    pub fn play_texture(&self, texture: &Texture, speed: f64, force: f64, settings: &Settings) -> Result<Play, Error> {
+        let settings = settings.to_struct();
+        let mut play = 0;
+        // SAFETY: the struct knows its size.
+        check(unsafe { sys::pacini_texture_start(self.0, texture.0, speed, force, &settings, &mut play) })?;
         Ok(Play(play))
     }
 
@@ -552,6 +592,8 @@ pub enum Control {
     Tones = 7,
     Events = 8,
     Noise = 9,
+    TextureSpeed = 10,
+    TextureForce = 11,
 }
 
 /// How a clip is played; the defaults are the library's: once, now, in the middle, as it is. pacini.h has the ranges.

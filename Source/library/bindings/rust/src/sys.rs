@@ -5,6 +5,7 @@ use std::os::raw::{c_char, c_int, c_void};
 
 pub type pacini_result = c_int;
 pub type pacini_clip = u64;
+pub type pacini_texture = u64;
 pub type pacini_engine = u64;
 pub type pacini_play = u64;
 pub type pacini_controller = u64;
@@ -114,6 +115,9 @@ extern "C" {
 
     pub fn pacini_clip_load(bytes: *const c_void, size: usize, clip: *mut pacini_clip) -> pacini_result;
     pub fn pacini_clip_load_file(path: *const c_char, clip: *mut pacini_clip) -> pacini_result;
+    pub fn pacini_texture_load(bytes: *const c_void, size: usize, texture: *mut pacini_texture) -> pacini_result;
+    pub fn pacini_texture_load_file(path: *const c_char, texture: *mut pacini_texture) -> pacini_result;
+    pub fn pacini_texture_release(texture: pacini_texture) -> pacini_result;
     pub fn pacini_clip_reload(clip: pacini_clip, bytes: *const c_void, size: usize) -> pacini_result;
     pub fn pacini_clip_info_init(info: *mut pacini_clip_info);
     pub fn pacini_clip_get_info(clip: pacini_clip, info: *mut pacini_clip_info) -> pacini_result;
@@ -160,6 +164,14 @@ extern "C" {
     pub fn pacini_play_start(
         engine: pacini_engine,
         clip: pacini_clip,
+        settings: *const pacini_play_settings,
+        play: *mut pacini_play,
+    ) -> pacini_result;
+    pub fn pacini_texture_start(
+        engine: pacini_engine,
+        texture: pacini_texture,
+        speed: f64,
+        force: f64,
         settings: *const pacini_play_settings,
         play: *mut pacini_play,
     ) -> pacini_result;
