@@ -1,11 +1,11 @@
-#include "io/Overwrite.h"
-
 #include "io/AudioReader.h"
 #include "io/ClipFile.h"
 #include "io/FileExtension.h"
 #include "io/InputFile.h"
+#include "io/Overwrite.h"
 #include "io/ProfileFile.h"
 #include "io/SceneFile.h"
+#include "io/TextureFile.h"
 
 #include <cstddef>
 #include <string>
@@ -87,6 +87,8 @@ FileKind kindOf(const fs::path& path)
         return FileKind::project;
     if (isProfile(path))
         return FileKind::profile;
+    if (lowerExtension(path) == ".json" && readTexture(path))
+        return FileKind::texture;
     if (const auto read = readClipOrScene(path))
         return std::holds_alternative<Scene>(read->content) ? FileKind::scene : FileKind::clip;
     return FileKind::other;

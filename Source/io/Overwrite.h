@@ -50,6 +50,7 @@ enum class FileKind
     madeSound, ///< one that Pacini has made
     clip,
     scene,
+    texture,
     profile,
     project,
     folder,

@@ -15,6 +15,7 @@ NB_MODULE(_native, module)
     bindCompare(module);
     bindAudio(module);
     bindTranslator(module);
+    bindTextures(module);
     bindMeasure(module);
     module.def("wait_for_abandoned_work", [] { unlocked([] { AbandonedWork::wait(); }); });
     module.attr("VERSION") = PACINI_VERSION;

@@ -41,6 +41,8 @@ const char* reasonToKeep(const fs::path& path, FileKind there, FileKind kind)
         return kind == FileKind::clip ? nullptr : "is a clip";
     case FileKind::scene:
         return kind == FileKind::scene ? nullptr : "is a scene";
+    case FileKind::texture:
+        return kind == FileKind::texture ? nullptr : "is a texture";
     case FileKind::profile:
         return kind == FileKind::profile ? nullptr : "is the profile of an actuator";
     case FileKind::project:

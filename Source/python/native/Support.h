@@ -246,6 +246,7 @@ void bindCompare(nb::module_& module);
 void bindProfile(nb::module_& module);
 void bindMeasure(nb::module_& module);
 void bindTranslator(nb::module_& module);
+void bindTextures(nb::module_& module);
 void bindAudio(nb::module_& module);
 
 } // namespace pacini::python

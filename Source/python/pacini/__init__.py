@@ -41,6 +41,7 @@ from ._sound import (
     translate,
     write_audio,
 )
+from ._texture import Texture
 from ._translator import Translator
 
 __version__: str = _native.VERSION
@@ -66,6 +67,7 @@ __all__ = [
     "Scene",
     "SimplifiedLane",
     "Source",
+    "Texture",
     "Translator",
     "compare",
     "compare_files",

@@ -102,6 +102,34 @@ class SceneHandle:
     def lint(self) -> list[tuple[str, str]]: ...
     def __eq__(self, other: object, /) -> bool: ...
 
+class TextureHandle:
+    @staticmethod
+    def from_json(text: str) -> TextureHandle: ...
+    @staticmethod
+    def read(path: str, strict: bool) -> tuple[TextureHandle, list[str]]: ...
+    def to_json(self) -> str: ...
+    def save(self, path: str, overwrite: bool | None) -> int: ...
+    def render(
+        self,
+        speed: tuple[Sequence[float], Sequence[float]],
+        force: tuple[Sequence[float], Sequence[float]],
+        profile: ProfileHandle | None,
+        seed: int,
+        options: dict[str, Any],
+        progress: _Progress,
+    ) -> npt.NDArray[np.float32]: ...
+    def __eq__(self, other: object, /) -> bool: ...
+
+def analyse_texture(
+    sound: FloatArray,
+    sample_rate: int,
+    times: Sequence[float],
+    speeds: Sequence[float],
+    forces: Sequence[float],
+    name: str,
+    options: dict[str, Any],
+) -> tuple[TextureHandle, dict[str, Any]]: ...
+
 class ProfileHandle:
     @staticmethod
     def from_json(text: str) -> ProfileHandle: ...

@@ -12,6 +12,7 @@ from . import _native
 from ._arrays import PathLike
 from ._clip import Clip
 from ._errors import Error
+from ._texture import Texture
 
 
 class Scene:
@@ -34,6 +35,9 @@ class Scene:
         Gain of the whole, dB.
     actuators : int, default 1
         Number of actuators, 1 to 16.
+    textures : iterable of Texture, optional
+        The textures that plays refer to by their index: ``{"texture": 0, "duration": 4, "speed": 0.2}``; changes of
+        ``"speed"`` and ``"force"`` move them.
     **options
         Other entries of scene files.
 
@@ -55,12 +59,17 @@ class Scene:
         duration: float = 0.0,
         gain: float = 0.0,
         actuators: int = 1,
+        textures: Iterable[Texture] = (),
         **options: Any,
     ) -> None:
         listed = list(clips)
         for i, clip in enumerate(listed):
             if not isinstance(clip, Clip):
                 raise Error("must be a Clip", f"clips[{i}]")
+        surfaces = list(textures)
+        for i, texture in enumerate(surfaces):
+            if not isinstance(texture, Texture):
+                raise Error("must be a Texture", f"textures[{i}]")
         content = {
             "format": "pacini.scene",
             "version": 1,
@@ -70,6 +79,7 @@ class Scene:
             "actuators": actuators,
             **options,
             "clips": [str(i) for i in range(len(listed))],
+            "textures": [{"texture": texture.to_dict()} for texture in surfaces],
             "plays": [{"clip": i} for i in range(len(listed))] if plays is None else [dict(play) for play in plays],
             "changes": [dict(change) for change in changes],
         }
@@ -146,6 +156,10 @@ class Scene:
     @property
     def clips(self) -> list[Clip]:
         return [Clip._of(handle) for handle in self._handle.clips]
+
+    @property
+    def textures(self) -> list[Texture]:
+        return [Texture.from_dict(entry["texture"]) for entry in self.to_dict().get("textures", [])]
 
     @property
     def plays(self) -> list[dict[str, Any]]:

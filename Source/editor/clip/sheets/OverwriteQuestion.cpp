@@ -30,6 +30,9 @@ juce::String kindText(const StandingFile& file)
     case FileKind::scene:
         what = "{0} is a scene.";
         break;
+    case FileKind::texture:
+        what = "{0} is a texture.";
+        break;
     case FileKind::profile:
         what = "{0} is the profile of an actuator.";
         break;
