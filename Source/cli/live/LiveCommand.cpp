@@ -9,6 +9,7 @@
 #include "cli/ProfileInput.h"
 #include "cli/live/LiveEngine.h"
 #include "cli/live/LiveFile.h"
+#include "cli/live/LiveFollow.h"
 #include "cli/live/LiveInput.h"
 #include "cli/live/LivePad.h"
 #include "cli/live/SoundOutput.h"
@@ -101,6 +102,7 @@ private:
         std::unique_ptr<LiveEngine> engine;
         std::vector<std::unique_ptr<LiveDrive>> drives;
         std::unique_ptr<LatencyProbe> probe;
+        std::unique_ptr<LiveFollow> follow;
         std::vector<std::unique_ptr<LivePad>> pads;
         std::vector<std::unique_ptr<SoundOutput>> outputs;
         std::unique_ptr<SoundPort> port; ///< ends before all that it hands the sound to
@@ -118,6 +120,8 @@ private:
     [[nodiscard]] Exit openOutputs(Console& console, Session& session) const;
     [[nodiscard]] Exit openSoundOutput(Console& console, Session& session, const std::string& name) const;
     [[nodiscard]] Exit openFile(Console& console, Session& session) const;
+    [[nodiscard]] Result<void> openFollow(Session& session, const TranslatorSetup& setup) const;
+    [[nodiscard]] Json followReport(Console& console, const Session& session) const;
     [[nodiscard]] Result<void> start(Session& session) const;
     void feed(Session& session) const;
     [[nodiscard]] std::uint64_t mostFrames(const Session& session) const;
@@ -144,6 +148,10 @@ private:
     DescribedOptions described;
     double duration = -1.0; ///< s; negative: until the sound ends
     bool measuring = false;
+    std::optional<std::size_t> followInput; ///< channel from 1
+    double followDelay = 20.0;              ///< ms
+    double followTime = DynamicCompensationParams{}.time.value;
+    double followLimit = DynamicCompensationParams{}.limit.value;
     OverwriteOptions overwriting;
 };
 } // namespace
@@ -178,6 +186,19 @@ CLI::App* LiveCommand::declare(CLI::App& app)
               numberFrom(0.0, limits::duration, "24 h"), "S");
     command->add_flag("--measure-latency", measuring,
                       "Play impulses in place of the sound and print how long each takes to the controller's report");
+    auto* follow = addOption(*command, "--follow-input", followInput,
+                             "Channel of the sound that is an accelerometer on the actuator: the drive is kept at the "
+                             "level that it had at first, however the actuator is worn; it is not mixed into the sound",
+                             wholeNumberFrom<std::size_t>(std::size_t(1), std::size_t(64)), "CHANNEL");
+    addPreset(*command, "--follow-delay", followDelay, "Delay from the drive to the accelerometer's channel, ms",
+              numberFrom(0.0, 1000.0), "MS")
+        ->needs(follow);
+    addPreset(*command, "--follow-time", followTime, "Time in which 63 % of a change are followed, s",
+              numberFrom(2.0, 600.0), "S")
+        ->needs(follow);
+    addPreset(*command, "--follow-limit", followLimit, "Largest gain of a band, up or down, dB", numberFrom(0.0, 24.0),
+              "DB")
+        ->needs(follow);
     overwriting.declare(*command);
     command->footer(
         "The channels of the sound are mixed to one. A pipe is played as it comes, a file at its rate, or "
@@ -190,6 +211,7 @@ CLI::App* LiveCommand::declare(CLI::App& app)
         "  pacini live --sound-input pulse:@DEFAULT_MONITOR@       what this machine plays\n"
         "  pacini live --sound-input jack --device pro\n"
         "  pacini live rain.wav --device pro --sound-output jack\n"
+        "  pacini live --sound-input jack --sound-output jack --follow-input 2\n"
         "  pacini live - --preset music -o - < rain.wav");
     return command;
 }
@@ -208,7 +230,52 @@ std::optional<Error> LiveCommand::usageError() const
         return Error{ErrorCode::invalidArgument, output, "is the sound itself; name another output"};
     if (measuring && controllers.empty() && !(output.empty() && soundOutputs.empty()))
         return wrong("--measure-latency needs a controller; name it with --device");
+    if (followInput && soundOutputs.empty() && output.empty())
+        return wrong("--follow-input needs a drive signal; name an output with --sound-output or -o");
     return std::nullopt;
+}
+
+Result<void> LiveCommand::openFollow(Session& session, const TranslatorSetup& setup) const
+{
+    constexpr std::size_t ofDevices = 2; // channels, at most
+    const std::size_t there = session.port ? ofDevices : session.input->channels();
+    if (there < 2)
+        return Error{ErrorCode::invalidArgument, "--follow-input",
+                     "needs a channel beside the sound; this has one channel"};
+    if (*followInput > there)
+        return Error{ErrorCode::invalidArgument, "--follow-input",
+                     fmt::format("is {}, but there are {} channels", *followInput, there)};
+    if (setup.profile && setup.profile->technology == Technology::erm)
+        return Error{ErrorCode::invalidArgument, "--follow-input", "cannot be for a motor, whose drive is a voltage"};
+    DynamicCompensationParams params;
+    params.delay = Seconds(1e-3 * followDelay);
+    params.time = Seconds(followTime);
+    params.limit = Decibels(followLimit);
+    session.follow = std::make_unique<LiveFollow>(session.engine->sampleRate(), LiveEngine::longestPiece,
+                                                  *followInput - 1, params, setup.profile);
+    session.engine->follow(*session.follow);
+    return {};
+}
+
+Json LiveCommand::followReport(Console& console, const Session& session) const
+{
+    const LiveFollow& follow = *session.follow;
+    const double held = static_cast<double>(follow.held()) / session.engine->sampleRate();
+    Json bands = Json::array();
+    double least = 0.0, most = 0.0;
+    for (const LiveFollow::Band& band : follow.bands())
+    {
+        bands.push_back({{"frequency", band.frequency}, {"gain", band.gain}, {"held", band.held}});
+        least = std::min(least, band.gain);
+        most = std::max(most, band.gain);
+    }
+    console.note(fmt::format("accelerometer {}; gains {} to {} dB, held for {}", sensorText(follow.sensor()),
+                             signedText(least, 1), signedText(most, 1), durationText(held)));
+    if (follow.sensor() != SensorState::good && follow.sensor() != SensorState::waiting)
+        console.warning("", fmt::format("the accelerometer {}: gains stay as they were; check its cable, its channel "
+                                        "(--follow-input) and its delay (--follow-delay)",
+                                        sensorText(follow.sensor())));
+    return {{"sensor", sensorText(follow.sensor())}, {"heldSeconds", held}, {"bands", std::move(bands)}};
 }
 
 Result<void> LiveCommand::openInput(Session& session) const
@@ -386,9 +453,17 @@ void LiveCommand::watch(Console& console, Session& session, Interruption& interr
         constexpr float kept = 0.9f;
         heard = std::max(session.engine->takeHeard(), kept * heard);
         felt = std::max(session.engine->takeFelt(), kept * felt);
-        console.status(
-            fmt::format("sound {}  touch {}  {}", levelText(heard), levelText(felt),
-                        durationText(static_cast<double>(session.engine->frames()) / session.engine->sampleRate())));
+        std::string followed;
+        if (session.follow)
+        {
+            double most = 0.0;
+            for (const LiveFollow::Band& band : session.follow->bands())
+                most = std::abs(band.gain) > std::abs(most) ? band.gain : most;
+            followed = fmt::format("  sensor {}, {} dB", sensorText(session.follow->sensor()), signedText(most, 1));
+        }
+        console.status(fmt::format(
+            "sound {}  touch {}  {}{}", levelText(heard), levelText(felt),
+            durationText(static_cast<double>(session.engine->frames()) / session.engine->sampleRate()), followed));
     }
     console.endProgress();
 }
@@ -426,6 +501,8 @@ void LiveCommand::tell(Console& console, Session& session, std::uint64_t written
                 {"translatorMilliseconds",
                  1e3 * static_cast<double>(session.engine->latencyFrames()) / session.engine->sampleRate()},
                 {"outputs", outputs}};
+    if (session.follow)
+        report["follow"] = followReport(console, session);
     if (session.port)
     {
         const std::uint64_t interruptions = session.port->interruptions();
@@ -513,6 +590,9 @@ Exit LiveCommand::run(Console& console)
         interruption.emplace();
     session.engine = std::make_unique<LiveEngine>(
         session.port ? session.port->sampleRate() : session.input->sampleRate(), setup, params);
+    if (followInput)
+        if (const auto opened = openFollow(session, setup); !opened)
+            return console.fail(soundName(), opened.error(), Exit::usage);
     if (measuring)
     {
         session.probe = std::make_unique<LatencyProbe>();

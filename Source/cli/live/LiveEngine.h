@@ -4,6 +4,7 @@
 
 #include "cli/live/LatencyProbe.h"
 #include "cli/live/LiveDrive.h"
+#include "cli/live/LiveFollow.h"
 
 #include <pacini/foundation/LargestMagnitude.h>
 #include <pacini/realtime/Translator.h>
@@ -23,7 +24,7 @@ class LiveEngine
 {
 public:
     LiveEngine(double sampleRate, const TranslatorSetup& setup, const TranslatorParams& params)
-        : fs(sampleRate), mono(longestPiece), drive(longestPiece)
+        : fs(sampleRate), mono(longestPiece), drive(longestPiece), back(longestPiece)
     {
         translator.prepare({sampleRate, longestPiece});
         translator.setSetup(setup);
@@ -34,8 +35,11 @@ public:
     /// Both outlive the engine. [message]
     void add(LiveDrive& output) { outputs.push_back(&output); }
     void measure(LatencyProbe& wanted) { probe = &wanted; }
+    void follow(LiveFollow& wanted) { follower = &wanted; }
 
-    /// Whole frames of `interleaved`, the mean of whose `channels` is translated. [audio]
+    static constexpr std::size_t longestPiece = 256; ///< frames made at a time
+
+    /// Whole frames of `interleaved`, the mean of whose `channels` is translated, but for one that is followed. [audio]
     void process(std::span<const float> interleaved, std::size_t channels) noexcept
     {
         const std::size_t frames = interleaved.size() / channels;
@@ -50,6 +54,8 @@ public:
             const auto made = std::span(drive).first(n);
             note(heard, std::span(mono).first(n));
             translator.process(std::span(mono).first(n), made);
+            if (follower)
+                follower->process(made, std::span<const float>(back).first(n));
             note(felt, made);
             for (LiveDrive* output : outputs)
                 output->push(made);
@@ -71,11 +77,12 @@ public:
 
     [[nodiscard]] std::uint64_t frames() const noexcept { return framesDone.load(std::memory_order_relaxed); }
     [[nodiscard]] double sampleRate() const noexcept { return fs; }
-    [[nodiscard]] std::size_t latencyFrames() const noexcept { return translator.latencyFrames(); }
+    [[nodiscard]] std::size_t latencyFrames() const noexcept
+    {
+        return translator.latencyFrames() + (follower ? follower->latencyFrames() : 0);
+    }
 
 private:
-    static constexpr std::size_t longestPiece = 256;
-
     static void note(std::atomic<float>& peak, std::span<const float> samples) noexcept
     {
         const float here = largestMagnitude(samples);
@@ -85,13 +92,18 @@ private:
 
     void mix(std::span<const float> interleaved, std::size_t channels) noexcept
     {
-        const float share = 1.0f / static_cast<float>(channels);
+        const std::size_t apart = follower ? follower->followedChannel() : channels;
+        const float share = 1.0f / static_cast<float>(apart < channels ? channels - 1 : channels);
         for (std::size_t i = 0; i < interleaved.size() / channels; ++i)
         {
             float sum = 0.0f;
-            for (const float sample : interleaved.subspan(i * channels, channels))
-                sum += sample;
+            const auto frame = interleaved.subspan(i * channels, channels);
+            for (std::size_t c = 0; c < channels; ++c)
+                if (c != apart)
+                    sum += frame[c];
             mono[i] = channels == 1 ? sum : share * sum;
+            if (apart < channels)
+                back[i] = frame[apart];
         }
     }
 
@@ -99,8 +111,10 @@ private:
     Translator translator;
     std::vector<float> mono;
     std::vector<float> drive;
+    std::vector<float> back; ///< of the channel that is followed
     std::vector<LiveDrive*> outputs;
     LatencyProbe* probe = nullptr;
+    LiveFollow* follower = nullptr;
     std::atomic<float> heard{0.0f};
     std::atomic<float> felt{0.0f};
     std::atomic<std::uint64_t> framesDone{0};
