@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 using namespace pacini;
 
@@ -122,4 +123,44 @@ TEST_CASE("MPEG's files start a wave at its phase", "[io][formats]")
     const auto without = writtenAs("hjif", twoBands(0.0)).files.at(0).bytes;
     CHECK(with.find("\"phase\":1.571") != std::string::npos);
     CHECK(without.find("\"phase\":1.571") == std::string::npos);
+}
+
+TEST_CASE("MPEG's files give the phase of a band back, in text and in bits", "[io][formats]")
+{
+    for (const char* name : {"hjif", "hmpg"})
+        for (const double phase : {0.0, 0.25, 0.7})
+        {
+            CAPTURE(name, phase);
+            const auto read = clipFormatNamed(name)->read(writtenAs(name, twoBands(phase)).files.at(0).bytes);
+            REQUIRE(read);
+            REQUIRE(read->clip.bands.size() == 2);
+            CHECK(read->clip.bands[0].phase == 0.0);
+            CHECK(read->clip.bands[1].phase == Approx(phase).margin(1e-3));
+            // And again the same file.
+            CHECK(writtenAs(name, read->clip).losses.size() == writtenAs(name, twoBands(phase)).losses.size());
+        }
+    // A wave that begins late says nothing of the start, as its frequency is a whole number of Hz.
+    Clip late = twoBands(0.25);
+    late.bands[1].amplitude = {{0.0, 0.0}, {0.5, 0.0}, {0.5, 0.5}, {1.0, 0.5}};
+    const auto read = clipFormatNamed("hjif")->read(writtenAs("hjif", late).files.at(0).bytes);
+    REQUIRE(read);
+    for (const Band& band : read->clip.bands)
+        CHECK(band.phase == 0.0);
+}
+
+TEST_CASE("A phase in an MPEG file that is no angle of one turn is read as one", "[io][formats]")
+{
+    const std::string file = writtenAs("hjif", twoBands(0.25)).files.at(0).bytes;
+    for (const auto& [text, cycles] : {std::pair("-1.571", 0.75), std::pair("7.854", 0.25), std::pair("1e300", -1.0)})
+    {
+        CAPTURE(text);
+        std::string changed = file;
+        changed.replace(changed.find("1.571"), 5, text);
+        const auto read = clipFormatNamed("hjif")->read(changed);
+        REQUIRE(read);
+        const double phase = read->clip.bands.back().phase;
+        CHECK((phase >= 0.0 && phase <= 1.0));
+        if (cycles >= 0.0)
+            CHECK(phase == Approx(cycles).margin(1e-3));
+    }
 }

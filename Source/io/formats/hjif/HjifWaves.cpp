@@ -30,6 +30,20 @@ std::optional<double> fundamentalOf(std::string_view signal)
     return {};
 }
 
+/// Cycles at the start of a clip of a wave that is at `phase` (rad) `start` s later: what a band keeps. 0 for a wave that
+/// starts so late that whole numbers of Hz, as files have them, leave it open; later waves of a band go on from the
+/// first.
+double phaseAtStart(double phase, double start, const Curve& pitch)
+{
+    constexpr double latest = 0.04; // s: half a Hz is a fiftieth of a cycle until then
+    constexpr double least = 0.001; // cycles, of which files have fewer
+    if (!(start <= latest) || (pitch.empty() && start > 0.0))
+        return 0.0;
+    const double cycles = phase / (2.0 * std::numbers::pi) - (pitch.empty() ? 0.0 : pitch.front().value * start);
+    const double fraction = cycles - std::floor(cycles);
+    return fraction < least || fraction > 1.0 - least ? 0.0 : fraction;
+}
+
 /// Between effects there is silence.
 void append(Curve& curve, const Curve& next)
 {
@@ -93,7 +107,7 @@ void appendHjifWave(Band& lane, const HjifEffect& effect, double position, const
     if (effect.baseSignal != "Sine")
         report.warn(where, fmt::format("the base signal '{}' becomes a sine", shownText(effect.baseSignal)));
     const double level = scale.level * fundamental.value_or(1.0);
-    // Only audible where effects meet: waves start at phase 0.
+    const bool isFirst = lane.amplitude.empty() && lane.pitch.empty();
     Curve amplitude;
     bool inverted = false, clamped = false;
     for (const HjifKeyframe& keyframe : effect.keyframes)
@@ -123,6 +137,8 @@ void appendHjifWave(Band& lane, const HjifEffect& effect, double position, const
         amplitude.insert(amplitude.begin(), {start, amplitude.front().value});
     if (end > amplitude.back().time)
         amplitude.push_back({end, amplitude.back().value});
+    if (isFirst && effect.phase)
+        lane.phase = phaseAtStart(*effect.phase, start, lane.pitch);
     append(lane.amplitude, amplitude);
 }
 
