@@ -41,6 +41,8 @@ ELSEWHERE = {
     "parec --device=@DEFAULT_MONITOR@ --latency-msec=5 | pacini live - --raw s16 --rate 44100": ("Tests/cli/test_live.py",
                                                                                              '"--raw", "s16", "--rate"'),
     "pacini live --sound-input pulse:@DEFAULT_MONITOR@": ("Tests/hosts/check_live.py", "--sound-input"),
+    "pacini live --sound-input jack --sound-output jack --follow-input 2 --profile l5-wristband": ("Tests/cli/test_live_follow.py",
+                                                                                                   '"--follow-input"'),
     "pacini serve door.json": ("Tests/web/check_phone.mjs", "['serve', "),
     # Needs ffmpeg.
     "pacini encode film.mp4": ("Tests/cli/test_films.py", 'self.succeeds("encode", "film.mp4")'),
@@ -171,6 +173,8 @@ class Documents(CommandTest):
         self.put("labels.txt", "0.2\t0.2\tknock\n0.9\t1.1\tanother\n")
         self.put("quest.acf", ACF)
         self.put("stroke.wav", wav(rain(3.0, seed=6), RATE))
+        self.put("engine.wav", wav(rain(3.0, seed=7), RATE))
+        self.put("rpm.csv", "time,rpm\n0,900\n3,6000\n")
         self.put("hand.csv", "time,speed\n0,40\n1,250\n2,90\n3,180\n")
         self.put("ratings.csv", "group,stimulus,participant,rating\n" + "".join(
             f"{group},{stimulus},{person},{(person * stimulus + ord(group)) % 9}\n"
@@ -180,7 +184,7 @@ class Documents(CommandTest):
         self.put("corpus/gate.wav", wav(hits(0.1, 0.4, seconds=0.8, seed=5), RATE))
         for block in [block for document in self.documents for block in document.blocks]:
             text = "\n".join(line.text for line in block)
-            if '"pacini.scene"' in text:
+            if '"pacini.scene"' in text and '"texture"' not in text:
                 self.put("hall.scene.json", text)
         self.shell("pacini encode rain.wav -o rain.pacb")
         self.shell("pacini study new lab --template jnd")
