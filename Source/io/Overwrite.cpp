@@ -1,8 +1,9 @@
+#include "io/Overwrite.h"
+
 #include "io/AudioReader.h"
 #include "io/ClipFile.h"
 #include "io/FileExtension.h"
 #include "io/InputFile.h"
-#include "io/Overwrite.h"
 #include "io/ProfileFile.h"
 #include "io/SceneFile.h"
 #include "io/TextureFile.h"

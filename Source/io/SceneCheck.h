@@ -90,8 +90,7 @@ inline void checkChanges(const Scene& scene, const SceneTimeline& timeline, std:
                              fmt::format("comes after plays[{}], which ends at {:.3f} s", change.play, timed.end)});
         else if (change.parameter == SceneParameter::pan && scene.actuators == 1)
             found.push_back({indexed("changes", i), "is a pan, but the scene has only one actuator"});
-        else if (const auto role = roleOf(change.parameter);
-                 role && !hasRole(scene, scene.plays[change.play], *role))
+        else if (const auto role = roleOf(change.parameter); role && !hasRole(scene, scene.plays[change.play], *role))
             found.push_back({indexed("changes", i), fmt::format("is of {}, but the clip has none", nameOf(*role))});
         else if (const bool moves =
                      change.parameter == SceneParameter::speed || change.parameter == SceneParameter::force;
@@ -110,7 +109,8 @@ inline void checkTextures(const Scene& scene, std::vector<SceneFinding>& found)
         {
             played[*play.texture] = true;
             if (play.transposition != 0.0)
-                found.push_back({indexed("plays", i) + ".transposition", "has no effect on a texture; change its speed"});
+                found.push_back(
+                    {indexed("plays", i) + ".transposition", "has no effect on a texture; change its speed"});
         }
         else if (play.speed != ScenePlay{}.speed || play.force != ScenePlay{}.force)
             found.push_back({indexed("plays", i), "has a speed or a force, but no texture"});

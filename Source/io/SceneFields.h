@@ -65,15 +65,15 @@ struct Draft : Scene
 inline constexpr std::array<Choice<PanLaw>, 3> panLaws{
     {{"constantPower", PanLaw::constantPower}, {"delay", PanLaw::delay}, {"both", PanLaw::both}}};
 inline constexpr std::array<Choice<SceneParameter>, 10> parameters{{{"gain", SceneParameter::gain},
-                                                                   {"pan", SceneParameter::pan},
-                                                                   {"delay", SceneParameter::delay},
-                                                                   {"transposition", SceneParameter::transposition},
-                                                                   {"stretch", SceneParameter::stretch},
-                                                                   {"tones", SceneParameter::tones},
-                                                                   {"events", SceneParameter::events},
-                                                                   {"noise", SceneParameter::noise},
-                                                                   {"speed", SceneParameter::speed},
-                                                                   {"force", SceneParameter::force}}};
+                                                                    {"pan", SceneParameter::pan},
+                                                                    {"delay", SceneParameter::delay},
+                                                                    {"transposition", SceneParameter::transposition},
+                                                                    {"stretch", SceneParameter::stretch},
+                                                                    {"tones", SceneParameter::tones},
+                                                                    {"events", SceneParameter::events},
+                                                                    {"noise", SceneParameter::noise},
+                                                                    {"speed", SceneParameter::speed},
+                                                                    {"force", SceneParameter::force}}};
 inline constexpr std::array<Choice<VariationScope>, 2> variationScopes{
     {{"breakpoint", VariationScope::breakpoint}, {"band", VariationScope::band}}};
 
@@ -110,11 +110,11 @@ void visitContent(Play& play, Visitor& visitor)
             [&]() -> Result<void>
             {
                 if (!play.clip && !play.texture)
-                    return Error{ErrorCode::invalidData, "clip", "is missing"};
+                    return Error{ErrorCode::invalidData, ".clip", "is missing"};
                 if (play.texture && !play.clip && !(play.duration > 0.0))
-                    return Error{ErrorCode::invalidData, "duration", "is missing; say how long the texture plays, s"};
+                    return Error{ErrorCode::invalidData, ".duration", "is missing; say how long the texture plays, s"};
                 if (play.clip && play.duration != 0.0)
-                    return Error{ErrorCode::invalidData, "duration", "is that of the clip; it is for textures only"};
+                    return Error{ErrorCode::invalidData, ".duration", "is that of the clip; it is for textures only"};
                 return {};
             });
     }

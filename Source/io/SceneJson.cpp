@@ -180,18 +180,18 @@ public:
         {
             if (const auto index = indexOf(*number, scene.textures.size()))
                 return *index;
-            return Error{ErrorCode::invalidData, where,
-                         fmt::format("is {}, but the scene has {} textures, counted from 0", *number,
-                                     scene.textures.size())};
+            return Error{
+                ErrorCode::invalidData, where,
+                fmt::format("is {}, but the scene has {} textures, counted from 0", *number, scene.textures.size())};
         }
         const auto& name = std::get<std::string>(reference);
         for (const Names* list : {&files, &names})
             if (const auto index = list->find(name))
             {
                 if (*index == Names::several)
-                    return Error{ErrorCode::invalidData, where,
-                                 fmt::format("is \"{}\", the name of several textures; give the index of one",
-                                             shownText(name))};
+                    return Error{
+                        ErrorCode::invalidData, where,
+                        fmt::format("is \"{}\", the name of several textures; give the index of one", shownText(name))};
                 return *index;
             }
         return addFile(name, where, "is not one of the scene's textures, and as a file it ");
@@ -201,7 +201,8 @@ private:
     Result<std::size_t> addFile(const std::string& file, const std::string& where, const std::string& prefix)
     {
         if (!load)
-            return Error{ErrorCode::invalidData, where, onOneLine(file) + ": texture files are not read here; embed it"};
+            return Error{ErrorCode::invalidData, where,
+                         onOneLine(file) + ": texture files are not read here; embed it"};
         auto read = load(file);
         if (!read)
             return Error{read.error().code, where, onOneLine(file) + ": " + prefix + read.error().text()};

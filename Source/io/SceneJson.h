@@ -34,10 +34,11 @@ using TextureLoader = std::function<Result<Texture>(const std::string& file)>;
 /// Reads a scene and checks it with validate(). Clips are file names, which `load` reads (each file once), or embedded;
 /// a play names its clip by index, file or name, or a file that the scene does not list; textures likewise (without
 /// `loadTexture` only embedded ones). A play of a texture without a clip gets a silent one of its `duration`. Required
-/// are `format`, `version`, the `clip` or the `texture` of a play and all of a change but its `glide`; what is missing keeps the default of Scene.
-/// Unknown keys are passed over with a warning each, if `warnings` are asked for; a key given twice is an error.
-/// Errors carry the place, such as `plays[3].clip` or `clips[2].clip.bands[0].amplitude[7].time`; those of `load` are
-/// at the reference, with the file's name in the message. Codes: those of readClipJson and `load`.
+/// are `format`, `version`, the `clip` or the `texture` of a play and all of a change but its `glide`; what is missing
+/// keeps the default of Scene. Unknown keys are passed over with a warning each, if `warnings` are asked for; a key
+/// given twice is an error. Errors carry the place, such as `plays[3].clip` or
+/// `clips[2].clip.bands[0].amplitude[7].time`; those of `load` are at the reference, with the file's name in the
+/// message. Codes: those of readClipJson and `load`.
 [[nodiscard]] Result<Scene> readSceneJson(std::string_view text, const ClipLoader& load,
                                           ReadWarnings* warnings = nullptr, const TextureLoader& loadTexture = {});
 

@@ -105,19 +105,49 @@ TEST_CASE("A sensor that is dead, saturated, unplugged or no number holds the la
     const auto sine = [](double f, double level)
     {
         return [f, level](float, std::size_t n)
-        { return static_cast<float>(level * std::sin(2.0 * std::numbers::pi * f * static_cast<double>(n) / 4000.0)); };
+        {
+            return static_cast<float>(level * std::sin(2.0 * std::numbers::pi * f * static_cast<double>(n) / 4000.0));
+        };
     };
-    const std::pair<const char*, WornLoop::Sensor> sensors[] = {
-        {"dead", [](float, std::size_t) { return 0.0f; }},
-        {"stuck", [](float, std::size_t) { return 0.3f; }},
-        {"saturated", [](float felt, std::size_t) { return felt > 0.0f ? 1.0f : -1.0f; }},
-        {"not a number", [](float, std::size_t) { return std::numeric_limits<float>::quiet_NaN(); }},
-        {"sometimes no number", [](float felt, std::size_t n)
-         { return n % 997 == 0 ? std::numeric_limits<float>::infinity() : felt * 0.1f; }},
-        {"unplugged, soft noise", [&](float, std::size_t) { return static_cast<float>(1e-4 * hiss.next()); }},
-        {"unplugged, loud noise", [&](float, std::size_t) { return static_cast<float>(0.05 * hiss.next()); }},
-        {"unplugged, soft hum", sine(50.0, 1e-3)},
-        {"unplugged, loud hum", sine(150.0, 0.5)}};
+    const std::pair<const char*, WornLoop::Sensor> sensors[] = {{"dead",
+                                                                 [](float, std::size_t)
+                                                                 {
+                                                                     return 0.0f;
+                                                                 }},
+                                                                {"stuck",
+                                                                 [](float, std::size_t)
+                                                                 {
+                                                                     return 0.3f;
+                                                                 }},
+                                                                {"saturated",
+                                                                 [](float felt, std::size_t)
+                                                                 {
+                                                                     return felt > 0.0f ? 1.0f : -1.0f;
+                                                                 }},
+                                                                {"not a number",
+                                                                 [](float, std::size_t)
+                                                                 {
+                                                                     return std::numeric_limits<float>::quiet_NaN();
+                                                                 }},
+                                                                {"sometimes no number",
+                                                                 [](float felt, std::size_t n)
+                                                                 {
+                                                                     return n % 997 == 0
+                                                                                ? std::numeric_limits<float>::infinity()
+                                                                                : felt * 0.1f;
+                                                                 }},
+                                                                {"unplugged, soft noise",
+                                                                 [&](float, std::size_t)
+                                                                 {
+                                                                     return static_cast<float>(1e-4 * hiss.next());
+                                                                 }},
+                                                                {"unplugged, loud noise",
+                                                                 [&](float, std::size_t)
+                                                                 {
+                                                                     return static_cast<float>(0.05 * hiss.next());
+                                                                 }},
+                                                                {"unplugged, soft hum", sine(50.0, 1e-3)},
+                                                                {"unplugged, loud hum", sine(150.0, 0.5)}};
     for (const auto& [what, sensor] : sensors)
     {
         INFO(what);

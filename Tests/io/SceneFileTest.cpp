@@ -64,12 +64,13 @@ TEST_CASE("A play of a texture names it by index, name or file, and lasts as lon
     {
         return readSceneJson(head + members + "}", twoClips, nullptr, file);
     };
-    for (const std::string& members :
-         {R"("textures": [)" + embedded + R"(], "plays": [{"texture": 0, "duration": 2, "speed": 0.2}])",
-          R"("textures": [)" + embedded + R"(], "plays": [{"texture": "wood", "duration": 2, "speed": 0.2}])",
-          std::string(R"("plays": [{"texture": "sub/wood.texture.json", "duration": 2, "speed": 0.2}])"),
-          std::string(
-              R"("textures": ["sub/wood.texture.json"], "plays": [{"texture": "wood.texture.json", "duration": 2, "speed": 0.2}])")})
+    for (
+        const std::string& members :
+        {R"("textures": [)" + embedded + R"(], "plays": [{"texture": 0, "duration": 2, "speed": 0.2}])",
+         R"("textures": [)" + embedded + R"(], "plays": [{"texture": "wood", "duration": 2, "speed": 0.2}])",
+         std::string(R"("plays": [{"texture": "sub/wood.texture.json", "duration": 2, "speed": 0.2}])"),
+         std::string(
+             R"("textures": ["sub/wood.texture.json"], "plays": [{"texture": "wood.texture.json", "duration": 2, "speed": 0.2}])")})
     {
         INFO(members);
         const auto scene = read(members + R"(, "changes": [{"time": 1, "play": 0, "parameter": "speed", "value": 1}])");
@@ -271,7 +272,7 @@ TEST_CASE("A bad scene is refused with its place", "[io][scene]")
     CHECK(whereOf(change(R"("play": "y")")) == "changes[0].play");
     CHECK(whereOf(change(R"("play": "x")")) == "changes[0].play"); // two are called so
     CHECK(whereOf(change(R"("play": 0, "glide": -1)")) == "changes[0].glide");
-    CHECK(whereOf(play + R"("changes": [{"time": 1, "play": 0, "parameter": "speed", "value": 0}])") ==
+    CHECK(whereOf(play + R"("changes": [{"time": 1, "play": 0, "parameter": "rate", "value": 0}])") ==
           "changes[0].parameter");
 
     const auto errorOf = [](const std::string& text)

@@ -18,12 +18,12 @@ CORE = {
     "analysis": {"foundation", "filters", "clip", "simplify", "hearing"},
     "actuator": {"foundation", "filters"},
     "linearize": {"foundation", "filters", "actuator"},
-    "synthesis": {"foundation", "filters", "clip", "actuator", "linearize"},
+    "synthesis": {"foundation", "filters", "clip", "actuator", "linearize", "texture"},
     "hearing": {"foundation"},
     "texture": {"foundation", "filters", "clip"},
     "evaluate": {"foundation", "filters", "hearing"},
 }
-CORE["runtime"] = {"foundation", "clip", "actuator", "synthesis"}
+CORE["runtime"] = {"foundation", "clip", "actuator", "synthesis", "texture"}
 CORE["realtime"] = set(CORE)
 ALL = set(CORE)
 

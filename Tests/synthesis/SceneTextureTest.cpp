@@ -51,8 +51,8 @@ std::vector<float> rendered(const Scene& scene, const Profile* profile = nullptr
 
 double rmsBetween(const std::vector<float>& x, double from, double to)
 {
-    return test::rms(std::span(x).subspan(static_cast<std::size_t>(from * 8000.0),
-                                          static_cast<std::size_t>((to - from) * 8000.0)));
+    return test::rms(
+        std::span(x).subspan(static_cast<std::size_t>(from * 8000.0), static_cast<std::size_t>((to - from) * 8000.0)));
 }
 } // namespace
 
@@ -81,15 +81,18 @@ TEST_CASE("What a scene with a texture plays does not depend on blocks, and has 
     scene.plays[1].delay = 0.01;
     scene.plays[1].pan = 0.2;
     scene.actuators = 2;
-    scene.changes = {{0.5, 0, SceneParameter::speed, 1.0, 0.7}, {0.6, 1, SceneParameter::noise, -12.0, 0.2},
-                     {0.9, 1, SceneParameter::force, 0.3, 0.2}, {1.0, 0, SceneParameter::pan, 0.0, 0.3}};
+    scene.changes = {{0.5, 0, SceneParameter::speed, 1.0, 0.7},
+                     {0.6, 1, SceneParameter::noise, -12.0, 0.2},
+                     {0.9, 1, SceneParameter::force, 0.3, 0.2},
+                     {1.0, 0, SceneParameter::pan, 0.0, 0.3}};
     const auto whole = rendered(scene);
     CHECK(rendered(scene, nullptr, 1) == whole);
     CHECK(rendered(scene, nullptr, 77) == whole);
 
     Scene quiet = rubbing(2.0);
     quiet.plays[0].gain = -20.0;
-    CHECK(rmsBetween(rendered(quiet), 0.1, 1.9) == Approx(0.1 * rmsBetween(rendered(rubbing(2.0)), 0.1, 1.9)).epsilon(1e-4));
+    CHECK(rmsBetween(rendered(quiet), 0.1, 1.9) ==
+          Approx(0.1 * rmsBetween(rendered(rubbing(2.0)), 0.1, 1.9)).epsilon(1e-4));
     Scene tone = rubbing(2.0, rubbed(true));
     tone.plays[0].tones = -20.0;
     CHECK(rmsBetween(rendered(tone), 0.1, 1.9) == Approx(0.01).epsilon(0.02));
@@ -158,7 +161,9 @@ TEST_CASE("Rules of textures in scenes", "[scene][texture]")
     CHECK(wrong([](Scene& s) { s.clips[0].transients.push_back({0.1, 1.0, 0.5}); }) == "plays[0].texture");
     CHECK(wrong([](Scene& s) { s.plays[0].speed = 1.5; }) == "plays[0].speed");
     CHECK(wrong([](Scene& s) { s.plays[0].force = std::nan(""); }) == "plays[0].force");
-    CHECK(wrong([](Scene& s) { s.changes.push_back({0.0, 0, SceneParameter::speed, -0.1, 0.0}); }) ==
-          "changes[0].value");
+    CHECK(wrong(
+              [](Scene& s) {
+                  s.changes.push_back({0.0, 0, SceneParameter::speed, -0.1, 0.0});
+              }) == "changes[0].value");
     CHECK(wrong([](Scene& s) { s.textures[0].nodes[0].level = -1.0; }) == "textures[0].nodes[0].level");
 }

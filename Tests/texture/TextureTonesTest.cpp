@@ -140,7 +140,8 @@ TEST_CASE("Noise, a river and one steady hum without a table of speeds: what is 
     // A mains hum does not follow the speed.
     auto hum = noise;
     for (std::size_t n = 0; n < hum.size(); ++n)
-        hum[n] += static_cast<float>(0.05 * std::sin(2.0 * std::numbers::pi * 100.0 * static_cast<double>(n) / tonesRate));
+        hum[n] +=
+            static_cast<float>(0.05 * std::sin(2.0 * std::numbers::pi * 100.0 * static_cast<double>(n) / tonesRate));
     CHECK(fitOf(hum, sweep).texture.tones.empty());
     // At one speed it cannot be told from a tone.
     CHECK(fitOf(hum, {}).texture.tones.size() == 1);
@@ -229,7 +230,8 @@ TEST_CASE("A day of a tone stays in tune", "[texture][tones]")
     std::vector<float> out(20000);
     for (int i = 0; i < 24 * 360; ++i)
         player.process(out);
-    CHECK(std::abs(test::spectrumAt(std::span<const float>(out), 200.0, 2000.0)) * std::numbers::sqrt2 / 20000.0 == Approx(0.4).epsilon(0.01));
+    CHECK(std::abs(test::spectrumAt(std::span<const float>(out), 200.0, 2000.0)) * std::numbers::sqrt2 / 20000.0 ==
+          Approx(0.4).epsilon(0.01));
 }
 
 TEST_CASE("Errors of tones name their place", "[texture][tones]")

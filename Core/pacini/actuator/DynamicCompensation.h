@@ -36,12 +36,12 @@ struct DynamicCompensationParams
 /// What the feedback of the last 10 ms was like, with DynamicCompensationParams::needsEvidence. Full scale is 1.
 enum class SensorState
 {
-    waiting,     ///< nothing was driven that could come back
-    good,        ///< it follows the drive in some band
-    apart,       ///< it does not follow the drive: unplugged, come off, or with another delay than told
-    dead,        ///< it does not move at all
-    saturated,   ///< it is at full scale
-    notANumber   ///< it is NaN or infinite
+    waiting,   ///< nothing was driven that could come back
+    good,      ///< it follows the drive in some band
+    apart,     ///< it does not follow the drive: unplugged, come off, or with another delay than told
+    dead,      ///< it does not move at all
+    saturated, ///< it is at full scale
+    notANumber ///< it is NaN or infinite
 };
 
 /// Follows the response of a worn actuator by the level that comes back from a sensor (W. McMahan and K. J.
@@ -68,9 +68,10 @@ enum class SensorState
 /// actuator. With `needsEvidence`, levels of the drive (as it was played) and of the feedback, dB in steps of 10 ms and
 /// smoothed over 30 ms, are compared over some 3 s in each band: those of the drive have to vary, and those of the
 /// feedback with them, with a correlation of 0.6 at least (of some fifty levels; that of noise of its own is 0 within
-/// 0.15) and a slope of 0.2. A band without that, which a steady tone is too, holds the gain that it had before, and so do all bands for half a second after feedback that is no number, saturated or
-/// without any motion. So no feedback raises a gain but one that follows the drive. Holding a gain opens the loop, which
-/// is as stable as its filter; what was proven holds while it is closed.
+/// 0.15) and a slope of 0.2. A band without that, which a steady tone is too, holds the gain that it had before, and so
+/// do all bands for half a second after feedback that is no number, saturated or without any motion. So no feedback
+/// raises a gain but one that follows the drive. Holding a gain opens the loop, which is as stable as its filter; what
+/// was proven holds while it is closed.
 ///
 /// Errors. Within a band the response keeps its shape; noise n dB below the feedback counts as 10 log10(1 + 10^(-n/10))
 /// dB of response; a band whose drive is below -60 dB or 20 dB below the strongest band is held.
@@ -78,9 +79,9 @@ class DynamicCompensation : public DesignedBlock<DynamicCompensation, DynamicCom
 {
 public:
     static constexpr std::size_t maxBands = 24;
-    static constexpr double hopTime = 0.01; ///< s between two updates
+    static constexpr double hopTime = 0.01;     ///< s between two updates
     static constexpr std::size_t gainHops = 20; ///< between two gains that are remembered
-    static constexpr double lost = 12.0;    ///< dB beyond the limit from which on the feedback counts as lost
+    static constexpr double lost = 12.0;        ///< dB beyond the limit from which on the feedback counts as lost
 
     /// Keeps what was learned unless the bands change.
     void setParams(const Params& params) noexcept
@@ -220,17 +221,17 @@ private:
     /// What is known of one band.
     struct Meter
     {
-        double smoothDrive = 0.0;       // power of the delayed drive
-        double smoothBack = 0.0;        // and of the feedback
-        double gain = 0.0;              // dB
-        double sum = 0.0;               // dB, of the hops learned from
-        std::size_t waited = 0;         // hops
-        std::size_t learned = 0;        // hops
-        std::optional<double> measured; // dB
-        double quickDrive = 0.0, quickBack = 0.0; // powers, smoothed over 30 ms
-        double meanDrive = 0.0, meanBack = 0.0;   // dB, over 3 s
+        double smoothDrive = 0.0;                                    // power of the delayed drive
+        double smoothBack = 0.0;                                     // and of the feedback
+        double gain = 0.0;                                           // dB
+        double sum = 0.0;                                            // dB, of the hops learned from
+        std::size_t waited = 0;                                      // hops
+        std::size_t learned = 0;                                     // hops
+        std::optional<double> measured;                              // dB
+        double quickDrive = 0.0, quickBack = 0.0;                    // powers, smoothed over 30 ms
+        double meanDrive = 0.0, meanBack = 0.0;                      // dB, over 3 s
         double variance = 0.0, varianceBack = 0.0, covariance = 0.0; // dB^2
-        double weight = 0.0;                      // of these, up to 1
+        double weight = 0.0;                                         // of these, up to 1
         bool held = false;
         std::array<float, 32> before{}; // gains of the last seconds, dB, the oldest at hopsDone
     };
@@ -436,7 +437,8 @@ private:
         meter.quickDrive += quick * (drive - meter.quickDrive);
         meter.quickBack += quick * (back - meter.quickBack);
         // Pauses of the drive count as one level below which nothing has to come back.
-        const double x = 10.0 * std::log10(std::max(meter.quickDrive, 1e-6)), y = 10.0 * std::log10(meter.quickBack + silence);
+        const double x = 10.0 * std::log10(std::max(meter.quickDrive, 1e-6)),
+                     y = 10.0 * std::log10(meter.quickBack + silence);
         meter.weight += memory * (1.0 - meter.weight);
         const double share = memory / meter.weight;
         const double dx = x - meter.meanDrive, dy = y - meter.meanBack;
@@ -451,8 +453,7 @@ private:
     {
         constexpr double leastVariance = 0.25; // dB^2: bands of noise vary by a dB and more
         constexpr double leastCorrelation = 0.6, leastSlope = 0.2;
-        return meter.weight > 0.2 && meter.variance > leastVariance &&
-               meter.covariance > leastSlope * meter.variance &&
+        return meter.weight > 0.2 && meter.variance > leastVariance && meter.covariance > leastSlope * meter.variance &&
                meter.covariance > leastCorrelation * std::sqrt(meter.variance * meter.varianceBack);
     }
 

@@ -25,14 +25,14 @@ namespace pacini
 struct PlaySettings
 {
     PlayControls controls;
-    double from = 0.0;         ///< s of the clip
-    double loop = 0.0;         ///< s of the clip that are repeated, 0.005 at least; 0 plays it once
-    std::size_t passes = 0;    ///< of a loop; 0 = until it is stopped
-    double headroom = 0.0;     ///< semitones by which it may be transposed up later without loss, 0 to 48
-    Seconds fadeIn{0.0};       ///< 0 to an hour
-    std::uint32_t group = 0;   ///< below limits::groups
-    int priority = 0;          ///< 0 is kept longest
-    VariationParams variation; ///< of each pass
+    double from = 0.0;                      ///< s of the clip
+    double loop = 0.0;                      ///< s of the clip that are repeated, 0.005 at least; 0 plays it once
+    std::size_t passes = 0;                 ///< of a loop; 0 = until it is stopped
+    double headroom = 0.0;                  ///< semitones by which it may be transposed up later without loss, 0 to 48
+    Seconds fadeIn{0.0};                    ///< 0 to an hour
+    std::uint32_t group = 0;                ///< below limits::groups
+    int priority = 0;                       ///< 0 is kept longest
+    VariationParams variation;              ///< of each pass
     std::shared_ptr<const Texture> texture; ///< plays for as long as the clip, which is silent
 };
 
@@ -173,12 +173,11 @@ private:
     {
         constexpr std::size_t kept = 16;
         if (std::all_of(kinds.begin(), kinds.end(), [](const ActuatorKind& kind) { return kind.plan.motor; }))
-            return Error{ErrorCode::invalidArgument, "texture",
-                         "cannot be followed by a motor; take another actuator"};
+            return Error{ErrorCode::invalidArgument, "texture", "cannot be followed by a motor; take another actuator"};
         if (std::any_of(kinds.begin(), kinds.end(), [](const ActuatorKind& kind) { return kind.filtersVoices; }))
             return Error{ErrorCode::invalidArgument, "texture", "cannot play where clips play as rendered"};
-        const auto found = std::find_if(tables.begin(), tables.end(),
-                                        [&](const auto& entry) { return entry.first == texture; });
+        const auto found =
+            std::find_if(tables.begin(), tables.end(), [&](const auto& entry) { return entry.first == texture; });
         if (found != tables.end())
             return found->second;
         if (tables.size() >= kept)

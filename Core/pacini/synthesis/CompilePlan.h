@@ -273,8 +273,8 @@ inline Clip standIn(Clip clip, const ScenePlay& play, const PlayTimeline& timeli
                 return force * (table.*of)(TextureTable::placeOf(valueAt(timeline.speed, t)));
             };
         };
-        for (const auto& [curve, value] : {std::pair(&noise, level(&TextureTable::level)),
-                                           std::pair(&tones, level(&TextureTable::tonesLevel))})
+        for (const auto& [curve, value] :
+             {std::pair(&noise, level(&TextureTable::level)), std::pair(&tones, level(&TextureTable::tonesLevel))})
         {
             Curve sides;
             appendSides(sides, time, value);

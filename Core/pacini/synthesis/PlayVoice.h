@@ -137,8 +137,8 @@ public:
         params.sampleRate = fs;
         Clip silent;
         silent.duration = play.clip.duration;
-        decoder = std::make_unique<Decoder>(play.texture ? silent : play.clip, params, play.timeline.changes,
-                                            voice.designs);
+        decoder =
+            std::make_unique<Decoder>(play.texture ? silent : play.clip, params, play.timeline.changes, voice.designs);
         if (play.texture)
         {
             texture = std::make_unique<TextureVoice>(play.texture, play.textureSeed, play.timeline.speed,
@@ -353,8 +353,8 @@ private:
     [[nodiscard]] bool isPlain(const PlannedPlay& play, std::size_t channels) const noexcept
     {
         const auto& gains = play.timeline.gains;
-        return !texture && channels == 1 && gains.size() == 1 && gains[0].size() == 1 && gains[0][0].value == 1.0 && !panned &&
-               !delay && !mixesRoles &&
+        return !texture && channels == 1 && gains.size() == 1 && gains[0].size() == 1 && gains[0][0].value == 1.0 &&
+               !panned && !delay && !mixesRoles &&
                std::all_of(faders.begin(), faders.end(), [](const Glide& fader) { return fader.restsAt(1.0); });
     }
 

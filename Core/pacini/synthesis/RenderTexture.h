@@ -45,9 +45,9 @@ using TextureSink = std::function<Result<void>(std::span<const float> samples, d
 
 /// Renders a valid texture for an actuator: through the equaliser of `profile` or the inverse of its resonance and
 /// within its limits, without one within full drive. Delays are taken out. The same arguments give the same samples.
-/// Errors: those of checkParameters(textureRenderParameters) and of the sink; invalidArgument at `speed` without points,
-/// at `duration` without one where the last point of the speed is at 0; invalidData at `technology` for a motor.
-/// [worker]
+/// Errors: those of checkParameters(textureRenderParameters) and of the sink; invalidArgument at `speed` without
+/// points, at `duration` without one where the last point of the speed is at 0; invalidData at `technology` for a
+/// motor. [worker]
 [[nodiscard]] inline Result<TextureRenderReport> renderTexture(const Texture& texture, const TextureCourse& course,
                                                                TextureRenderParams params, std::uint64_t seed,
                                                                const Profile* profile, const TextureSink& sink)
@@ -57,7 +57,8 @@ using TextureSink = std::function<Result<void>(std::span<const float> samples, d
     if (!params.duration)
         params.duration = course.speed.back().time;
     if (!(*params.duration > 0.0))
-        return Error{ErrorCode::invalidArgument, "duration", "is missing; a speed without points has no end of its own"};
+        return Error{ErrorCode::invalidArgument, "duration",
+                     "is missing; a speed without points has no end of its own"};
     if (auto allowed = checkParameters(textureRenderParameters, params); !allowed)
         return allowed.error();
     RenderPlan plan; // as far as an output needs it

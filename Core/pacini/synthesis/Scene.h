@@ -198,9 +198,8 @@ inline Result<void> checkParameters(const Scene& scene)
     for (std::size_t i = 0; i < scene.plays.size(); ++i)
     {
         const ScenePlay& play = scene.plays[i];
-        const double values[] = {play.gain,    play.pan,   play.delay,  play.transposition,
-                                 play.stretch, play.tones, play.events, play.noise,
-                                 play.speed,   play.force};
+        const double values[] = {play.gain,  play.pan,    play.delay, play.transposition, play.stretch,
+                                 play.tones, play.events, play.noise, play.speed,         play.force};
         for (std::size_t k = 0; k < std::size(values); ++k)
             if (!inRange(static_cast<SceneParameter>(k), values[k]))
                 return outside(k, indexed("plays", i) + ".");
@@ -240,8 +239,8 @@ inline Result<void> checkParameters(const Scene& scene)
         const ScenePlay& play = scene.plays[i];
         const std::string where = indexed("plays", i);
         if (play.texture && *play.texture >= scene.textures.size())
-            return brokenRule(where + ".texture", "is not one of the scene's " +
-                                                      std::to_string(scene.textures.size()) + " textures");
+            return brokenRule(where + ".texture",
+                              "is not one of the scene's " + std::to_string(scene.textures.size()) + " textures");
         if (play.clip >= scene.clips.size())
             return brokenRule(where + ".clip",
                               "is not one of the scene's " + std::to_string(scene.clips.size()) + " clips");

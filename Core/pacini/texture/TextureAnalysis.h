@@ -466,16 +466,15 @@ inline void addTones(const FoundTones& found, std::span<const double> speed, std
         if (!motion.force.empty())
             force[n] = std::min(forces.at(time) / texture.fullForce, 1.0);
     }
-    const FoundTones tones = findTones(band, speed, detail::textureAnalysisRate, detail::textureWindow(motion, band.size()),
-                                       static_cast<std::size_t>(params.tones));
+    const FoundTones tones =
+        findTones(band, speed, detail::textureAnalysisRate, detail::textureWindow(motion, band.size()),
+                  static_cast<std::size_t>(params.tones));
     std::vector<std::size_t> halves;
-    auto noise = tones.frequencies.empty() ? frames
-                                           : detail::textureFrames(tones.rest, motion, texture, params.speed);
+    auto noise = tones.frequencies.empty() ? frames : detail::textureFrames(tones.rest, motion, texture, params.speed);
     const bool hasNoise = noise.ok();
     if (!hasNoise)
         noise = frames;
-    texture.nodes =
-        detail::textureNodes(*noise, texture.levelByForce, static_cast<std::size_t>(params.order), halves);
+    texture.nodes = detail::textureNodes(*noise, texture.levelByForce, static_cast<std::size_t>(params.order), halves);
     if (!hasNoise) // nothing but tones: a node has some noise, at -80 dB
         for (TextureNode& node : texture.nodes)
             node.level *= 1e-4;

@@ -23,8 +23,8 @@
 namespace pacini
 {
 
-/// Noise of a texture's spectrum and level, with its tones. It never repeats: the random numbers come back after 2^64 frames. The same
-/// table, seed and course of speed and force give the same output, however that is cut into calls.
+/// Noise of a texture's spectrum and level, with its tones. It never repeats: the random numbers come back after 2^64
+/// frames. The same table, seed and course of speed and force give the same output, however that is cut into calls.
 ///
 /// Noise is made at 2400 Hz or a little more and interpolated. Speed and force are read at every fourth of its frames
 /// (1.7 ms); the level glides on until the next, the spectrum changes at once, which a lattice bears. A change is heard
@@ -165,7 +165,7 @@ private:
     PolyphaseInterpolator interpolator;
     std::vector<double> toneLevels; ///< amplitudes at the end of the last hop
     double speed = 0.0, forceGain = 1.0, noiseGain = 1.0, toneGain = 1.0;
-    double way = 0.0; ///< integral of the speed, s
+    double way = 0.0;   ///< integral of the speed, s
     double level = 0.0; ///< at the end of the last hop
     TextureTable::Place place;
     std::vector<float> hop; ///< output of the last one

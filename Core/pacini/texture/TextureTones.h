@@ -7,7 +7,6 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
-
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -71,8 +70,8 @@ namespace detail
                 break;
             const double t = (wanted - way[n]) / (way[n + 1] - way[n]);
             const double a = at(n > 0 ? n - 1 : 0), b = at(n), c = at(n + 1), d = at(n + 2);
-            result.push_back(b + 0.5 * t * (c - a + t * (2.0 * a - 5.0 * b + 4.0 * c - d +
-                                                         t * (3.0 * (b - c) + d - a))));
+            result.push_back(b +
+                             0.5 * t * (c - a + t * (2.0 * a - 5.0 * b + 4.0 * c - d + t * (3.0 * (b - c) + d - a))));
         }
     return result;
 }
@@ -83,9 +82,9 @@ struct WayLine
     double frequency = 0.0, power = 0.0;
 };
 
-/// Lines that stand 9 dB out of the median around them, in the mean of at least four spectra; each is related to its own
-/// power, so that loud speeds do not count more. A line of noise comes about once in 10^7 bins. `resolution` gets the
-/// distance of two bins.
+/// Lines that stand 9 dB out of the median around them, in the mean of at least four spectra; each is related to its
+/// own power, so that loud speeds do not count more. A line of noise comes about once in 10^7 bins. `resolution` gets
+/// the distance of two bins.
 [[nodiscard]] inline std::vector<WayLine> linesOverWay(std::span<const double> samples, double step, double& resolution)
 {
     constexpr double longest = 1.0; // s of full speed: lines 1.5 Hz apart are told apart

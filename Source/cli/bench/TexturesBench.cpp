@@ -43,6 +43,7 @@ public:
         ridges, ///< 150 of them a unit with uneven distances, three harmonics and a rough ground
         rough,  ///< noise that falls with spatial frequency
         tool,   ///< the same through the resonance of a tool at 220 Hz, which stays where it is
+        engine, ///< orders 1, 2, 3 and 6 of 80 Hz at full speed, beside that tool
     };
 
     MadeSurface(Kind kindToMake, std::uint64_t seed) : kind(kindToMake), random(seed) {}
@@ -73,6 +74,15 @@ private:
             return rough;
         if (kind == Kind::tool)
             return resonate(rough);
+        if (kind == Kind::engine)
+        {
+            phase += 80.0 * speed / strokeRate;
+            double sum = 0.3 * resonate(rough);
+            for (const auto& [order, level] :
+                 {std::pair(1, 0.5), std::pair(2, 1.0), std::pair(3, 0.3), std::pair(6, 0.25)})
+                sum += level * std::sin(2.0 * std::numbers::pi * order * phase + 0.7 * order);
+            return sum;
+        }
         const double passed = 150.0 * speed / strokeRate;
         phase += passed + 0.02 * std::sqrt(passed) * random.next();
         const double angle = 2.0 * std::numbers::pi * phase;
@@ -197,10 +207,11 @@ struct Training
 using Played = Timed<std::vector<float>>;
 using Play = std::function<Played(double speed, int repeats)>;
 
-Result<Texture> textureOf(const Training& training, int order)
+Result<Texture> textureOf(const Training& training, int order, int tones = 0)
 {
     TextureParams params;
     params.order = order;
+    params.tones = tones;
     auto fit = analyseTexture(training.samples, strokeRate, training.motion, params);
     if (!fit)
         return fit.error();
@@ -209,9 +220,9 @@ Result<Texture> textureOf(const Training& training, int order)
 
 constexpr auto playedFrames = static_cast<std::size_t>(strokeSeconds * driveRate);
 
-Play autoregressive(const Training& training, int order)
+Play texturePlay(const Training& training, int order, int tones)
 {
-    const auto texture = textureOf(training, order);
+    const auto texture = textureOf(training, order, tones);
     if (!texture)
         return {};
     return [table = std::make_shared<const TextureTable>(*texture, driveRate)](double speed, int repeats)
@@ -226,6 +237,17 @@ Play autoregressive(const Training& training, int order)
                          return out;
                      });
     };
+}
+
+Play autoregressive(const Training& training, int order)
+{
+    return texturePlay(training, order, 0);
+}
+
+/// With tones that follow the speed, as textures are made.
+Play withTones(const Training& training, int order)
+{
+    return texturePlay(training, order, TextureParams().tones);
 }
 
 /// Bands of noise from 20 to 1000 Hz, equally wide in octaves; levels as a texture of order 64 has them, by the same
@@ -326,11 +348,12 @@ struct TextureForm
 void measureTextures(const BenchSound&, const BenchSettings& settings, BenchTable& rows)
 {
     const std::array forms = {TextureForm{"autoregressive", autoregressive, {2, 4, 8, 12, 16, 24, 32, 48, 64}},
+                              TextureForm{"with tones", withTones, {2, 8, 16, 32}},
                               TextureForm{"noise bands", noiseBands, {1, 4, 8, 12, 16, 24}},
                               TextureForm{"loop", loop, {1}}};
     using Kind = MadeSurface::Kind;
-    for (const auto& [name, kind] :
-         {std::pair("ridges", Kind::ridges), std::pair("rough", Kind::rough), std::pair("tool", Kind::tool)})
+    for (const auto& [name, kind] : {std::pair("ridges", Kind::ridges), std::pair("rough", Kind::rough),
+                                     std::pair("tool", Kind::tool), std::pair("engine", Kind::engine)})
     {
         Training training;
         MadeSurface here(kind, 1), elsewhere(kind, 2);
@@ -381,7 +404,8 @@ Bench texturesBench()
         "textures",
         "Textures by movement",
         "Strokes over three made surfaces (no recordings with a known speed may be shipped): ridges with harmonics, "
-        "a rough ground, and that through the resonance of a tool. Each form is made of strokes at four speeds and "
+        "a rough ground, and that through the resonance of a tool; beside them an engine of four orders. Each form is "
+        "made of strokes at four speeds and "
         "plays 6 s at 48 kHz at these or at three others, against strokes over another place of the same surface. "
         "The error is the RMS difference in sixths of octaves from 25 to 950 Hz, mean of spectra of 20 ms, 125 ms "
         "and 1 s; modulation is that of the envelope's octaves from 1 to 32 Hz; repetition is the largest "
@@ -397,7 +421,8 @@ Bench texturesBench()
                    {"time", "ns/frame", Reduction::ratio, "seconds", "frames", 1e9},
                    {"realTime", "x", Reduction::ratio, "duration", "seconds", 1.0}}),
         {{"ridges", "Textures: ridges", "form", "time", "error", "size", "surface", "ridges"},
-         {"rough", "Textures: rough ground", "form", "time", "error", "size", "surface", "rough"}},
+         {"rough", "Textures: rough ground", "form", "time", "error", "size", "surface", "rough"},
+         {"engine", "Textures: engine", "form", "time", "error", "size", "surface", "engine"}},
         {},
         measureTextures,
         false};

@@ -1,6 +1,7 @@
 // Subcommand that makes a texture of a recording.
 
 #include "cli/Command.h"
+#include "cli/Counted.h"
 #include "cli/DescribedOptions.h"
 #include "cli/Options.h"
 #include "cli/texture/TextureOutput.h"
@@ -65,13 +66,17 @@ void AnalyseTextureSubcommand::tell(Console& console, const TextureFit& fit) con
     nlohmann::ordered_json nodes = nlohmann::ordered_json::array();
     for (const TextureNode& node : texture.nodes)
         nodes.push_back({{"speed", node.speed}, {"level", node.level}});
+    nlohmann::ordered_json tones = nlohmann::ordered_json::array();
+    for (const TextureTone& tone : texture.tones)
+        tones.push_back({{"frequency", tone.frequency}, {"levels", tone.levels}});
     console.addToReport({{"input", input},
                          {"output", output},
                          {"frames", fit.frames},
                          {"pitch", texture.pitch},
                          {"levelBySpeed", texture.levelBySpeed},
                          {"levelByForce", texture.levelByForce},
-                         {"nodes", std::move(nodes)}});
+                         {"nodes", std::move(nodes)},
+                         {"tones", std::move(tones)}});
     const auto law = [](bool assumed)
     {
         return assumed ? " (assumed)" : "";
@@ -81,8 +86,9 @@ void AnalyseTextureSubcommand::tell(Console& console, const TextureFit& fit) con
         texture.nodes.size() == 1
             ? fmt::format("one speed, {:.2g}", slowest)
             : fmt::format("{} speeds from {:.2g} to {:.2g}", texture.nodes.size(), slowest, texture.nodes.back().speed);
-    console.wrote(output, fmt::format("{}; frequencies as speed^{:.2g}{}, level as speed^{:.2g}{} and force^{:.2g}{}",
-                                      speeds, texture.pitch, law(fit.pitchAssumed), texture.levelBySpeed,
+    const std::string found = texture.tones.empty() ? "" : ", " + counted(texture.tones.size(), "tone", "tones");
+    console.wrote(output, fmt::format("{}{}; frequencies as speed^{:.2g}{}, level as speed^{:.2g}{} and force^{:.2g}{}",
+                                      speeds, found, texture.pitch, law(fit.pitchAssumed), texture.levelBySpeed,
                                       law(fit.speedLawAssumed), texture.levelByForce, law(fit.forceLawAssumed)));
 }
 

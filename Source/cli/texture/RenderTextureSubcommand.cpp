@@ -161,13 +161,13 @@ Exit RenderTextureSubcommand::render(Console& console, const Texture& texture, c
     auto writer = AudioWriter::create(output, writing);
     if (!writer)
         return console.fail(output, writer.error());
-    const auto rendered = renderTexture(texture, {motion.speed, motion.force}, params, seed,
-                                        actuator ? &*actuator : nullptr,
-                                        [&](std::span<const float> samples, double done) -> Result<void>
-                                        {
-                                            console.progress(done, output);
-                                            return writer->write(samples);
-                                        });
+    const auto rendered =
+        renderTexture(texture, {motion.speed, motion.force}, params, seed, actuator ? &*actuator : nullptr,
+                      [&](std::span<const float> samples, double done) -> Result<void>
+                      {
+                          console.progress(done, output);
+                          return writer->write(samples);
+                      });
     console.endProgress();
     if (!rendered)
         return console.fail(output, rendered.error());

@@ -131,8 +131,7 @@ void bindTextures(nb::module_& module)
                 return take(unlocked([&] { return writeFileAtomically(path, textureJson(*self.texture), existing); }));
             },
             "path"_a, "overwrite"_a.none())
-        .def("render", &render, "speed"_a, "force"_a, "profile"_a.none(), "seed"_a, "options"_a,
-             "progress"_a.none())
+        .def("render", &render, "speed"_a, "force"_a, "profile"_a.none(), "seed"_a, "options"_a, "progress"_a.none())
         .def(
             "__eq__",
             [](const TextureHandle& self, const TextureHandle& other) { return *self.texture == *other.texture; },

@@ -30,9 +30,9 @@ std::optional<double> fundamentalOf(std::string_view signal)
     return {};
 }
 
-/// Cycles at the start of a clip of a wave that is at `phase` (rad) `start` s later: what a band keeps. 0 for a wave that
-/// starts so late that whole numbers of Hz, as files have them, leave it open; later waves of a band go on from the
-/// first.
+/// Cycles at the start of a clip of a wave that is at `phase` (rad) `start` s later: what a band keeps. 0 for a wave
+/// that starts so late that whole numbers of Hz, as files have them, leave it open; later waves of a band go on from
+/// the first.
 double phaseAtStart(double phase, double start, const Curve& pitch)
 {
     constexpr double latest = 0.04; // s: half a Hz is a fiftieth of a cycle until then
