@@ -14,7 +14,7 @@ from . import _native
 from ._arrays import PathLike, as_rate, as_sound, is_path
 from ._errors import Error
 from ._profile import AnyProfile, as_profile
-from ._progress import Progress
+from ._progress import Progress, shown
 
 if TYPE_CHECKING:
     from ._sound import Sound
@@ -237,7 +237,8 @@ class Texture:
             curves.append((moments.tolist(), np.nan_to_num(values, nan=0.0, posinf=1.0, neginf=0.0).tolist()))
         options = {"sample_rate": rate, "gain": gain, "duration": duration}
         handle = None if profile is None else as_profile(profile)._handle
-        return np.asarray(self._handle.render(curves[0], curves[1], handle, seed, options, progress), np.float32)
+        with shown(progress, "rendering") as tell:
+            return np.asarray(self._handle.render(curves[0], curves[1], handle, seed, options, tell), np.float32)
 
     def __eq__(self, other: object) -> bool:
         return self._handle == other._handle if isinstance(other, Texture) else NotImplemented
