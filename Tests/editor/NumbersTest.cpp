@@ -65,7 +65,7 @@ TEST_CASE("A number has the decimal mark of the language, and only between two d
                                                                     {"", ""},
                                                                     {"1..2", "1..2"}})
         CHECK(editor::withDecimalMark(given) == juce::String(wanted));
-    CHECK(editor::hertzText(52.25) == "52,3 Hz");
+    CHECK(editor::hertzText(52.34) == "52,3 Hz");
     CHECK(editor::amplitudeText(0.5) == "-6,0 dB");
 }
 

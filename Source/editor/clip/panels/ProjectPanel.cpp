@@ -34,7 +34,7 @@ std::vector<std::string> tagsIn(const juce::String& text)
 
 juce::String sizeText(std::uint64_t bytes)
 {
-    return juce::File::descriptionOfSizeInBytes(static_cast<juce::int64>(bytes));
+    return withDecimalMark(juce::File::descriptionOfSizeInBytes(static_cast<juce::int64>(bytes)));
 }
 } // namespace
 
