@@ -31,7 +31,7 @@ void prepareField(juce::TextEditor& field, const juce::String& title, const juce
 }
 } // namespace
 
-NewStudySheet::NewStudySheet(EditorView& shown) : Sheet("New study", 720, 560), view(shown)
+NewStudySheet::NewStudySheet(EditorView& shown) : Sheet("New study", 720, 500), view(shown)
 {
     for (const auto& [label, text] :
          {std::pair(&questionLabel, "Question"), std::pair(&groupsLabel, "Groups"), std::pair(&peopleLabel, "People")})
@@ -100,6 +100,7 @@ void NewStudySheet::showTemplate()
 {
     const auto& chosen = study::studyTemplates()[static_cast<std::size_t>(question.getSelectedId() - 1)];
     juce::String text = translateMessage(toText(chosen.purpose));
+    text = text.substring(0, 1).toUpperCase() + text.substring(1);
     if (chosen.fewestSounds > 0)
         text << "\n" << counted(chosen.fewestSounds, "Needs {0} sound or more.", "Needs {0} sounds or more.");
     else

@@ -231,8 +231,11 @@ void CurveLane::paintBehind(juce::Graphics& g, juce::Rectangle<int> plot, int fi
     }
     g.setColour(p.dim);
     g.setFont(captionFont());
-    g.drawText(tr("Thin line: the sound"), plot.reduced(grid / 2, 2).removeFromTop(12), juce::Justification::topRight,
-               true);
+    const auto clip = model.clip();
+    const double end = std::min(axis.xOf(clip ? clip->duration : 0.0), static_cast<double>(plot.getWidth()));
+    g.drawText(tr("Thin line: the sound"),
+               plot.withWidth(std::max(0, juce::roundToInt(end))).reduced(grid / 2, 2).removeFromTop(12),
+               juce::Justification::topRight, true);
 }
 
 /// The area under the curve as a bar in each column; with `bars` also the curve, whose points are too many for lines.

@@ -74,8 +74,8 @@ juce::String designerWord(const juce::String& technical)
     constexpr std::array<std::pair<const char*, const char*>, 3> words{
         {{"Transients", "Events"}, {"Envelope", "Intensity"}, {"Centroid", "Brightness"}}};
     for (const auto& [term, word] : words)
-        if (technical == term)
-            return word;
+        if (technical == tr(term))
+            return tr(word);
     return technical;
 }
 
