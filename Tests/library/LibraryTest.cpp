@@ -108,7 +108,7 @@ TEST_CASE("A texture is loaded, started, moved while it plays and stopped throug
     rendered(engine, 200);
     CHECK(largest(rendered(engine, 1000)) == Approx(0.005 * std::sqrt(2.0)).epsilon(0.05));
     CHECK(pacini_play_seek(play, 0.5, 0) == PACINI_INVALID);
-    CHECK(lastError() == "play: is of a texture, which has no position");
+    CHECK(lastError() == "position: is none: a texture has no length");
     CHECK(pacini_play_set(play, PACINI_TEXTURE_SPEED, 1.5, 0.0, 0) == PACINI_INVALID);
     CHECK(pacini_play_set(play, PACINI_TEXTURE_SPEED, std::numeric_limits<double>::quiet_NaN(), 0.0, 0) ==
           PACINI_INVALID);

@@ -87,7 +87,7 @@ TEST_CASE("An engine plays a texture by speed and force until it is stopped", "[
     REQUIRE(engine->resume(*play).ok());
     pulled(*engine, 800);
     CHECK(test::rms(pulled(*engine, 800)) > 0.01);
-    CHECK(engine->seek(*play, 1.0).error().where == "play");
+    CHECK(engine->seek(*play, 1.0).error().where == "position");
     CHECK(engine->set(*play, LiveControl::textureSpeed, 1.5).error().where == "textureSpeed");
     CHECK(engine->set(*play, LiveControl::textureSpeed, std::nan("")).error().where == "textureSpeed");
     REQUIRE(engine->stop(*play).ok());

@@ -182,7 +182,7 @@ public:
         if (auto there = check(play); !there)
             return there;
         if (slots[play.slot].settings.texture)
-            return Error{ErrorCode::invalidArgument, "play", "is of a texture, which has no position"};
+            return Error{ErrorCode::invalidArgument, "position", "is none: a texture has no length"};
         if (!(position >= 0.0 && position <= limits::duration))
             return Error{ErrorCode::invalidArgument, "position", "must be 0 s or more, and a day at most"};
         return exchange(play, slots[play.slot].clip, position, frame);
