@@ -31,7 +31,6 @@ ELSEWHERE = {
     "bash cmake/bootstrap.sh windows": ("cmake/bootstrap.sh", "windows)"),
     "bash cmake/bootstrap.sh release": (".github/workflows/release.yml", "cmake/bootstrap.sh release"),
     "bash cmake/bootstrap.sh wheels": ("cmake/bootstrap.sh", "wheels)"),
-    "build/wheels": ("cmake/bootstrap.sh", "make_wheels.py build/wheels"),
     "bash cmake/bootstrap.sh build": ("cmake/bootstrap.sh", "build)"),
     "bash cmake/bootstrap.sh package": ("cmake/bootstrap.sh", "package)"),
     "cmake --workflow --preset release": ("CMakePresets.json", '"name": "release"'),
