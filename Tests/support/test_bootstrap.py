@@ -114,7 +114,8 @@ class Bootstrap(unittest.TestCase):
     def test_all_its_commands_are_those_of_its_help_and_the_documents(self):
         shown = subprocess.run(["bash", BOOTSTRAP, "help"], capture_output=True, text=True, check=True).stdout
         commands = set(re.findall(r"bootstrap\.sh (\w+)", shown))
-        self.assertEqual(commands, {"demo", "test", "build", "plugin", "package", "web", "windows", "release", "wheels", "deps"})
+        self.assertEqual(commands, {"demo", "test", "build", "plugin", "package", "web", "windows", "release", "wheels",
+                                    "deps"})
         self.assertLessEqual(set(re.findall(r"bootstrap\.sh (\w+)", DOCUMENTS)), commands)
         for command in commands:
             self.assertRegex(BOOTSTRAP.read_text(), rf"(?m)^{command}\)$")
