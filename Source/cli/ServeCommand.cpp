@@ -89,7 +89,8 @@ CLI::App* ServeCommand::declare(CLI::App& app)
     command->add_flag("--inverted", inverted, "Invert the QR code, for terminals with a light background");
     return command->footer(
         "Scan the QR code with the phone. Each code works once; a new one appears for the next phone, up "
-        "to 64. A browser on this machine that opens the address shows the codes too.\nEnter plays the clip on all connected phones, Ctrl-C ends. Browsers on Android vibrate, "
+        "to 64. A browser on this machine that opens the address shows the codes too.\nEnter plays the clip on all "
+        "connected phones, Ctrl-C ends. Browsers on Android vibrate, "
         "those on\niPhones and Firefox do not. The connection is not encrypted.\n"
         "Examples:\n  pacini serve door.json\n"
         "  pacini serve film.json --film film.mp4       the phone shows the film and vibrates with it");

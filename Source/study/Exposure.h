@@ -15,8 +15,8 @@ enum class ExposedPart
     wholeBody ///< a sitting person, along the spine, by Wk
 };
 
-/// The daily exposure A(8), m/s2, from which an employer must act, and that which nobody may pass (directive 2002/44/EC,
-/// article 3).
+/// The daily exposure A(8), m/s2, from which an employer must act, and that which nobody may pass (directive
+/// 2002/44/EC, article 3).
 [[nodiscard]] constexpr double actionValue(ExposedPart part) noexcept
 {
     return part == ExposedPart::hand ? 2.5 : 0.5;

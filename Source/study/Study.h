@@ -258,7 +258,7 @@ struct ExposureLimits
 {
     ExposedPart part = ExposedPart::hand;
     double daily = actionValue(ExposedPart::hand); ///< m/s2, A(8)
-    double minutes = 60; ///< of a session
+    double minutes = 60;                           ///< of a session
     /// dB(A), equivalent level of a stimulus; only with a calibration. None: 85.
     std::optional<double> soundLevel;
     /// dB(A), L_EX,8h of a session, at most 87 (limit value of the directive 2003/10/EC); only with a calibration.

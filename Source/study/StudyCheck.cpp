@@ -112,8 +112,7 @@ private:
             const int fs = maker.params().sampleRate;
             MadeStimulus one;
             one.seconds = static_cast<double>(prepared->touch.size()) / fs;
-            one.dose = largestDose(prepared->touch, prepared->more, maker.params().profile, fs,
-                                   study.limits.part);
+            one.dose = largestDose(prepared->touch, prepared->more, maker.params().profile, fs, study.limits.part);
             const auto isStill = [](const std::vector<float>& drive)
             {
                 return std::all_of(drive.begin(), drive.end(), [](float x) { return x == 0.0f; });
@@ -355,9 +354,8 @@ private:
         }
         if (load.exposure > study.limits.daily)
             spoils("limits.daily",
-                   fmt::format(
-                       "would be passed: group {} is exposed to A(8) = {:.2f} m/s2, {:.2f} are allowed ({})",
-                       group.name, load.exposure, study.limits.daily, standardOf(study.limits.part)));
+                   fmt::format("would be passed: group {} is exposed to A(8) = {:.2f} m/s2, {:.2f} are allowed ({})",
+                               group.name, load.exposure, study.limits.daily, standardOf(study.limits.part)));
         if (load.minutes > study.limits.minutes)
             spoils("limits.minutes",
                    fmt::format("would be passed: group {} takes some {:.0f} minutes, {:.0f} are allowed", group.name,

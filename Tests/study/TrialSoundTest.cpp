@@ -216,8 +216,8 @@ TEST_CASE("The dose of a seat follows the vertical weighting of ISO 2631-1")
             {
                 std::vector<float> samples(static_cast<std::size_t>(seconds * sampleRate));
                 for (std::size_t n = 0; n < samples.size(); ++n)
-                    samples[n] = static_cast<float>(
-                        std::sin(2.0 * std::numbers::pi * hz * static_cast<double>(n) / sampleRate));
+                    samples[n] =
+                        static_cast<float>(std::sin(2.0 * std::numbers::pi * hz * static_cast<double>(n) / sampleRate));
                 return doseOf(samples, sampleRate, ExposedPart::wholeBody);
             };
             CAPTURE(sampleRate, frequency);
