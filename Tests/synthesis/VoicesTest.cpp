@@ -3,12 +3,14 @@
 #include "support/Pinned.h"
 
 #include <pacini/synthesis/LoopUnroll.h>
+#include <pacini/synthesis/VariationSeed.h>
 #include <pacini/synthesis/VoiceLimit.h>
 #include <pacini/synthesis/VoiceMerge.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -238,6 +240,26 @@ TEST_CASE("A pass of a loop begins and ends with the values of the curve there",
     CHECK(curve.size() == 3);
 }
 
+TEST_CASE("Plays of one clip vary in their own ways, not in the same way some points later", "[scene]")
+{
+    constexpr std::size_t draws = 2000;
+    for (std::uint64_t seed : {0u, 7u})
+    {
+        CHECK(seedOfPlay(seed, 0) == seed);
+        for (std::uint64_t play : {1u, 2u, 3u, 1000u})
+        {
+            Random first(seed);
+            Random other(seedOfPlay(seed, play));
+            std::set<std::uint64_t> numbers;
+            for (std::size_t i = 0; i < draws; ++i)
+                numbers.insert(first.next());
+            for (std::size_t i = 0; i < draws; ++i)
+                numbers.insert(other.next());
+            CHECK(numbers.size() == 2 * draws);
+        }
+    }
+}
+
 TEST_CASE("An unrolled loop has its passes one after the other, without markers, each varied by a seed of its own",
           "[scene]")
 {
@@ -274,7 +296,7 @@ TEST_CASE("An unrolled loop has its passes one after the other, without markers,
     const VariationParams variation{0.5, VariationScope::band, 3};
     const Clip varied = unrollLoop(clip, 0.3, 3, variation);
     const Clip first = vary(clip, variation);
-    const Clip third = vary(clip, {0.5, VariationScope::band, 3 + 2 * 0x9E3779B97F4A7C15u});
+    const Clip third = vary(clip, {0.5, VariationScope::band, seedOfPlay(3, 2)});
     CHECK(varied.bands[0].amplitude.front().value == first.bands[0].amplitude.front().value);
     CHECK(valueAt(varied.bands[0].amplitude, 0.75) == third.bands[0].amplitude.front().value);
     checkPinned("synthesis/a loop of three varied passes", numbersOf(varied));

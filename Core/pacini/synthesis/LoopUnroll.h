@@ -4,6 +4,7 @@
 
 #include <pacini/clip/Clip.h>
 #include <pacini/synthesis/Variation.h>
+#include <pacini/synthesis/VariationSeed.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -49,7 +50,7 @@ inline void appendPass(Curve& curve, const Curve& pass, double length, double at
     {
         const double at = length * static_cast<double>(pass);
         VariationParams own = variation;
-        own.seed += 0x9E3779B97F4A7C15u * pass; // far apart, so that neighbouring plays do not repeat each other
+        own.seed = seedOfPlay(variation.seed, pass);
         const Clip varied = vary(clip, own);
         detail::appendPass(result.envelope, varied.envelope, length, at);
         detail::appendPass(result.centroid, varied.centroid, length, at);

@@ -5,6 +5,7 @@
 #include <pacini/clip/Clip.h>
 #include <pacini/synthesis/Scene.h>
 #include <pacini/synthesis/Variation.h>
+#include <pacini/synthesis/VariationSeed.h>
 
 #include <cstddef>
 #include <utility>
@@ -42,7 +43,7 @@ struct SceneAdjustment
         if (play.variation.amount == 0.0 && adjustment.variation.amount > 0.0)
         {
             play.variation = adjustment.variation;
-            play.variation.seed += 0x9E3779B97F4A7C15u * i; // plays of one clip differ
+            play.variation.seed = seedOfPlay(play.variation.seed, i); // plays of one clip differ
         }
         else
             play.variation.seed += adjustment.variation.seed;
