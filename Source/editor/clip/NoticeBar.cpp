@@ -14,7 +14,7 @@ namespace pacini::editor
 namespace
 {
 constexpr int shownFor = 6000, shownWithButtonFor = 15000; // ms
-constexpr int buttonWidth = 18 * grid;
+constexpr int folderWidth = 18 * grid;
 } // namespace
 
 NoticeBar::NoticeBar()
@@ -66,13 +66,13 @@ void NoticeBar::timerCallback()
 juce::Rectangle<int> NoticeBar::box() const
 {
     const int wanted =
-        usualFont().getStringWidth(words) + 4 * grid + (folderButton.isVisible() ? buttonWidth + grid : 0);
+        usualFont().getStringWidth(words) + 4 * grid + (folderButton.isVisible() ? folderWidth + grid : 0);
     return getLocalBounds().withSizeKeepingCentre(std::min(getWidth(), wanted), getHeight());
 }
 
 void NoticeBar::resized()
 {
-    folderButton.setBounds(box().reduced(grid / 2).removeFromRight(buttonWidth));
+    folderButton.setBounds(box().reduced(grid / 2).removeFromRight(folderWidth));
 }
 
 void NoticeBar::paint(juce::Graphics& g)
@@ -84,7 +84,7 @@ void NoticeBar::paint(juce::Graphics& g)
     g.setColour(p.accent);
     g.drawRoundedRectangle(area.toFloat().reduced(0.5f), 6.0f, 1.0f);
     if (folderButton.isVisible())
-        area.removeFromRight(buttonWidth + grid);
+        area.removeFromRight(folderWidth + grid);
     g.setColour(p.text);
     g.setFont(usualFont());
     g.drawFittedText(words, area.reduced(grid, 0), juce::Justification::centred, 1);
