@@ -12,6 +12,8 @@
 #include "editor/clip/session/ClipSteps.h"
 
 #include <algorithm>
+#include <limits>
+#include <utility>
 
 namespace pacini::editor
 {
@@ -209,22 +211,20 @@ void CurveLane::paintBehind(juce::Graphics& g, juce::Rectangle<int> plot, int fi
         return plot.getY() + juce::roundToInt(std::clamp(values.yOf(frequency), 0.0, values.height));
     };
     ColumnFill line(g, p.dim.withAlpha(0.8f));
-    std::optional<std::pair<int, int>> before; // top and bottom of the column on the left
+    constexpr std::pair none{std::numeric_limits<int>::min(), std::numeric_limits<int>::max()}; // joins nothing
+    auto before = none; // top and bottom of the column on the left
     for (int column = firstColumn - 1; column < lastColumn; ++column)
     {
         const auto found = brightnessIn(*behind, axis.timeAt(column), axis.timeAt(column + 1.0));
         if (found.greatest <= 0.0)
         {
-            before.reset();
+            before = none;
             continue;
         }
-        int top = yOf(found.greatest), bottom = yOf(found.least);
-        const auto own = std::pair(top, bottom);
-        if (before) // joined, also where it is steep
-        {
-            top = std::min(top, before->second);
-            bottom = std::max(bottom, before->first);
-        }
+        const std::pair own(yOf(found.greatest), yOf(found.least));
+        // Joined, also where it is steep.
+        const int top = std::min(own.first, before.second);
+        const int bottom = std::max(own.second, before.first);
         before = own;
         if (column >= firstColumn)
             line.add(plot.getX() + column, top, std::max(1, bottom - top));
