@@ -78,6 +78,7 @@ std::optional<AudioChunk> walk(ByteWindow& file, const ChunkLayout& layout, std:
 {
     const auto headerBytes = layout.idBytes + layout.sizeBytes;
     std::optional<std::uint64_t> longSize;
+    bool isUnpadded = false;
     auto offset = begin + layout.firstChunk;
     for (int chunk = 0; chunk < maxChunks && offset + headerBytes <= end; ++chunk)
     {
@@ -89,6 +90,7 @@ std::optional<AudioChunk> walk(ByteWindow& file, const ChunkLayout& layout, std:
         {
             AudioChunk found;
             found.layout = &layout;
+            found.isUnpadded = isUnpadded;
             found.sizeField = offset + layout.idBytes;
             found.start = offset + headerBytes + layout.headerOfData;
             found.sizeExtra = layout.headerOfData + (layout.sizeCountsHeader ? headerBytes : 0);
@@ -106,6 +108,7 @@ std::optional<AudioChunk> walk(ByteWindow& file, const ChunkLayout& layout, std:
         if (!next)
             return {};
         offset = behindPadding(file, layout, *next, begin);
+        isUnpadded = isUnpadded || offset != aligned(layout, *next, begin);
     }
     return {};
 }

@@ -37,6 +37,7 @@ struct AudioChunk
     std::uint64_t start = 0;              ///< of the first sample
     std::uint64_t sizeExtra = 0;          ///< what the size counts besides the audio
     std::optional<std::uint64_t> promise; ///< bytes of audio; empty where the writer left them open
+    bool isUnpadded = false;              ///< a chunk before it lacks the byte of padding behind it
 
     [[nodiscard]] std::uint64_t present(std::uint64_t end) const noexcept { return end > start ? end - start : 0; }
 };

@@ -129,11 +129,8 @@ void visitContent(Play& play, Visitor& visitor)
 template <typename Play, typename Visitor>
 void visitMovement(Play& play, Visitor& visitor)
 {
-    if constexpr (!isReader<Visitor>)
-        if (!play.texture)
-            return;
-    visitor.number("speed", play.speed, Need::usual);
-    visitor.number("force", play.force, Need::usual);
+    if (play.texture)
+        visitNumbers(visitor, Need::usual, "speed", play.speed, "force", play.force);
 }
 
 template <typename Seed, typename Visitor>

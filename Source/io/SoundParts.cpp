@@ -190,11 +190,9 @@ private:
     void addPadding(SoundPart& part, const AudioChunk& chunk)
     {
         const auto* layout = chunk.layout;
-        if (!layout || (layout->fileId != "RIFF" && layout->fileId != "FORM"))
+        if (!chunk.isUnpadded || (layout->fileId != "RIFF" && layout->fileId != "FORM"))
             return;
         const auto audio = chunk.sizeField - layout->idBytes;
-        if ((audio - part.begin) % layout->alignment == 0)
-            return;
         constexpr std::string_view needed[] = {"fmt ", "fact", "FVER", "COMM"};
         constexpr std::uint64_t largest = 4096;
         auto header = bytesAt(part.begin, layout->firstChunk);

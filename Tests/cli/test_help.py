@@ -103,7 +103,7 @@ class Meant(CommandTest):
         self.fails(2, ["xyzzy"], "unknown command 'xyzzy'; there are encode, render, info,", "try 'pacini --help'")
         self.fails(2, ["encode", "--xyzzy"], "unknown option --xyzzy of 'encode'; try 'pacini encode --help'")
         self.clip()
-        self.fails(1, ["render", "clip.json", "--profile", "xyzzy"], "there are dualsense-voice-coil, eap, erm-coin")
+        self.fails(1, ["render", "clip.json", "--profile", "xyzzy"], "there are bass-shaker, dualsense-voice-coil, eap, erm-coin")
 
     def test_wrong_values_are_told_with_the_right_ones(self):
         self.clip()

@@ -206,7 +206,8 @@ TEST_CASE("Results of all kinds are found again")
         CHECK(results->warnings.empty());
         CHECK(results->sessions.size() == static_cast<std::size_t>(participantsOf(study)));
         const std::size_t found = results->ratings.size() + results->ranks.size() + results->descriptions.size() +
-                                  results->thresholds.size() + results->choices.size() + results->pairs.size();
+                                  results->thresholds.size() + results->choices.size() + results->pairs.size() +
+                                  results->items.size() + results->places.size() + results->events.size();
         CHECK(found >= results->sessions.size());
         std::vector<double> errors;
         for (const PersonalThreshold& threshold : results->thresholds)

@@ -106,7 +106,7 @@ TEST_CASE("Each parameter of a play has its range, ends included", "[scene]")
         CHECK_FALSE(inRange(range.parameter, std::nextafter(range.high, 2000.0)));
         CHECK_FALSE(inRange(range.parameter, notANumber));
     }
-    CHECK_FALSE(inRange(static_cast<SceneParameter>(8), 0.5));
+    CHECK_FALSE(inRange(static_cast<SceneParameter>(10), 0.5));
 }
 
 TEST_CASE("A scene keeps its rules to the last value that each of them allows", "[scene]")

@@ -60,7 +60,7 @@ def check_written(tool, validator, schema):
             check(not problems, f"{path.name} breaks the schema: {problems[:3]}")
             common.same_order(document, schema["properties"], path.name)
             used.update(document)
-            for kind, entries in (("stimulus", document["stimuli"]), ("block", document["blocks"])):
+            for kind, entries in (("stimulus", document.get("stimuli", [])), ("block", document["blocks"])):
                 for entry in entries:
                     common.same_order(entry, schema["$defs"][kind]["properties"], f"{path.name}: {kind}")
                     used.update(f"{kind}.{member}" for member in entry)

@@ -285,6 +285,11 @@ private:
     {
         if (waveform.empty() || report.error)
             return;
+#ifdef PACINI_READERS_ONLY
+        report.error = {
+            ErrorCode::invalidData, "",
+            "has waveforms, which this library does not translate; run 'pacini convert' on it and load the result"};
+#else
         Clip translated = waveform.translated(wantedDuration);
         duration = std::max(duration, translated.duration);
         if (clip.bands.empty() && clip.transients.empty())
@@ -296,6 +301,7 @@ private:
         Clip played = hjifVoicesOf(translated, losses).clip;
         std::move(played.bands.begin(), played.bands.end(), std::back_inserter(clip.bands));
         clip.transients.insert(clip.transients.end(), played.transients.begin(), played.transients.end());
+#endif
     }
 
     void finish()
