@@ -270,11 +270,10 @@ TEST_CASE("Wrong arguments are told by name")
     CHECK(pacini_clip_load(nullptr, 3, &clip) == PACINI_INVALID);
     // What only an encoder can translate is told, and what to do.
     const std::string wave = R"({"version": "2024", "profile": "Main", "level": 1, "date": "", "description": "",
-        "timescale": 1000, "avatars": [], "perceptions": [{"id": 0, "perception_modality": "Vibrotactile",
-        "channels": [{"id": 0, "gain": 1, "bands": [{"band_type": "Curve", "curve_type": "Linear",
-        "lower_frequency_limit": 0, "upper_frequency_limit": 100, "effects": [{"effect_type": "Basis", "position": 0,
-        "keyframes": [{"relative_position": 0, "amplitude_modulation": 0}, {"relative_position": 50,
-        "amplitude_modulation": 1}, {"relative_position": 100, "amplitude_modulation": -1}]}]}]}]}]})";
+        "timescale": 1000, "avatars": [], "syncs": [], "perceptions": [{"id": 0, "perception_modality": "Vibrotactile",
+        "channels": [{"id": 0, "gain": 1, "bands": [{"band_type": "WaveletWave", "lower_frequency_limit": 0,
+        "upper_frequency_limit": 8000, "block_length": 128, "effects": [{"effect_type": "Basis", "position": 0,
+        "wavelet_stream": "AAAA"}]}]}]}]})";
     CHECK(pacini_clip_load(wave.data(), wave.size(), &clip) == PACINI_BAD_DATA);
     CHECK(lastError().find("pacini convert") != std::string::npos);
     CHECK(clip == 1);

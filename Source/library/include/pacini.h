@@ -105,9 +105,8 @@ extern "C"
     } pacini_clip_info;
 
     /* Loads a clip of any format that Pacini reads (.pacb, .json, .haptic, .ahap, .hjif, ...) from memory; copies
-     * the data. Waveforms of .hjif and .hmpg (curves and wavelets) are PACINI_BAD_DATA: the encoder that translates
-     * them is not in this library, convert them before. A clip can play any number of times, on any engine. [any
-     * thread but audio] */
+     * the data. Wavelets of .hjif and .hmpg are PACINI_BAD_DATA: the encoder that translates them is not in this
+     * library, convert them before. A clip can play any number of times, on any engine. [any thread but audio] */
     PACINI_API pacini_result pacini_clip_load(const void* bytes, size_t size, pacini_clip* clip);
 
     /* Loads a clip from a file; the path is UTF-8. [any thread but audio] */

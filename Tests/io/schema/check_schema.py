@@ -165,7 +165,7 @@ def mutate(document, rng):
 
 
 # Objects whose members have any name: null is no value of theirs.
-FREE_NAMES = {"encoder", "sources", "lowLabel", "highLabel", "question", "welcome", "consent", "goodbye"}
+FREE_NAMES = {"encoder", "sources", "lowLabel", "highLabel", "question", "label", "text", "welcome", "consent", "goodbye"}
 
 
 def without_nulls(value, name=""):

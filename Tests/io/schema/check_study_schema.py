@@ -40,14 +40,15 @@ BEYOND_SCHEMA = (
     "needs two events at least",
     "different events; 12 are the most",
     "has a level that is felt and a mix",
-    "stimuli: has none",
 )
 # Ranges that hang on other members.
 PLACES_BEYOND_SCHEMA = (".adaptive.start", ".scale.step", "masking.highFrequency", ".tone.fade", ".adaptive.highest")
 
 
 def beyond_schema(where, message):
-    return any(text in message for text in BEYOND_SCHEMA) or where.endswith(PLACES_BEYOND_SCHEMA)
+    # Stimuli are needed where a block is no questionnaire.
+    return (any(text in message for text in BEYOND_SCHEMA) or where.endswith(PLACES_BEYOND_SCHEMA)
+            or (where, message) == ("stimuli", "has none"))
 
 
 def check_written(tool, validator, schema):
