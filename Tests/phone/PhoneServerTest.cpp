@@ -15,6 +15,7 @@
 #include <chrono>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 using namespace pacini;
@@ -55,9 +56,10 @@ public:
         return hear(end);
     }
 
+    /// What comes until `end`, or until the server closes. What came with it is for the next call.
     std::string hear(const std::string& end)
     {
-        std::string heard;
+        std::string heard = std::exchange(later, "");
         char buffer[4096];
         while (end.empty() || heard.find(end) == std::string::npos)
         {
@@ -65,6 +67,11 @@ public:
             if (count <= 0)
                 break;
             heard.append(buffer, static_cast<std::size_t>(count));
+        }
+        if (const auto at = heard.find(end); !end.empty() && at != std::string::npos)
+        {
+            later = heard.substr(at + end.size());
+            heard.resize(at + end.size());
         }
         return heard;
     }
@@ -74,6 +81,7 @@ public:
 
 private:
     int handle = -1;
+    std::string later;
 };
 
 std::unique_ptr<PhoneServer> server()
