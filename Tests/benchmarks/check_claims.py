@@ -125,7 +125,9 @@ def strength(folder):
         profile = json.loads((SOURCE / f"profiles/{name}.json").read_text())
         if decibels == 0 or "resonance" not in profile:
             continue
-        low, high = narrow if profile["resonance"]["q"] >= 8 else wide
+        span, q = profile["range"], profile["resonance"]["q"]
+        is_narrow = q >= 8 or (q >= 3 and span["highFrequency"] <= 4 * span["lowFrequency"])
+        low, high = narrow if is_narrow else wide
         check(f"flattening {name} costs {low:.0f} to {high:.0f} dB", low - 1 < decibels < high + 1, f"{decibels:.1f} dB")
     for name in cost:
         lost = level[name, "not flattened"] - level[name, "adapted"]
