@@ -219,7 +219,7 @@ TEST_CASE("pacini bench textures shows autoregressive models nearer than bands o
     writeSound(folder / "tone.wav");
     REQUIRE(bench(folder, "textures . -o . --repeat 1") == 0);
     const auto json = nlohmann::json::parse(bytesOf(folder / "textures.json"));
-    REQUIRE(json["rows"].size() == 3 * 2 * (9 + 6 + 1));
+    REQUIRE(json["rows"].size() == 4 * 2 * (9 + 4 + 6 + 1));
     const auto rowOf = [&](const auto& like, const char* form, const char* size)
     {
         for (const auto& row : json["rows"])
@@ -238,6 +238,9 @@ TEST_CASE("pacini bench textures shows autoregressive models nearer than bands o
         CHECK(model["error"].get<double>() < bands["error"].get<double>());
         CHECK(model["error"].get<double>() < (row["surface"] == "ridges" ? 4.0 : 1.2));
         CHECK(model["error"].get<double>() < rowOf(row, "autoregressive", "2")["error"].get<double>());
+        const auto tones = rowOf(row, "with tones", "32");
+        const bool hasTones = row["surface"] == "ridges" || row["surface"] == "engine";
+        CHECK(tones["error"].get<double>() < (hasTones ? 0.8 : 1.05) * model["error"].get<double>());
         CHECK(row["repetition"].get<double>() > 0.7);
         if (row["surface"] != "ridges")
             CHECK(model["repetition"].get<double>() < 0.25);
