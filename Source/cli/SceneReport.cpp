@@ -125,6 +125,8 @@ nlohmann::ordered_json sceneReport(const Scene& scene)
                          {"noise", play.noise},
                          {"priority", play.priority},
                          {"changes", timed.changes}});
+        if (play.texture)
+            plays.back().update({{"texture", *play.texture}, {"speed", play.speed}, {"force", play.force}});
     }
     return {{"kind", "scene"},
             {"format", "scene"},
@@ -148,6 +150,8 @@ std::string sceneText(const std::string& file, const Scene& scene)
                         scene.actuators > 1 ? fmt::format(", panned by {}", lawName(scene.panLaw)) : "");
     if (scene.gain != 0.0)
         text += fmt::format("  gain          {:+g} dB\n", scene.gain);
+    if (!scene.textures.empty())
+        text += fmt::format("  textures      {}\n", scene.textures.size());
     text += fmt::format("  clips         {}\n  plays         {}\n  changes       {}\n", scene.clips.size(),
                         scene.plays.size(), scene.changes.size());
     appendList(text, scene.clips.size(), "clip", [&](std::size_t i) { return clipText(i, scene.clips[i], counts[i]); });

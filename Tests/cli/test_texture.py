@@ -164,6 +164,18 @@ class Render(Texture):
         self.fails(1, ["texture", "render", "odd.json", "--speed", "0:0 1:1", "-o", "odd2.wav", "--strict"], "ptich")
 
 
+class Scenes(Texture):
+    def test_a_scene_plays_it_and_what_a_motor_cannot_do_is_told(self):
+        self.analysed()
+        self.put("rub.json", json.dumps({"format": "pacini.scene", "version": 1, "plays": [
+            {"texture": "wood.texture.json", "duration": 1, "speed": 0.5}]}))
+        self.succeeds("render", "rub.json", "-o", "rub.wav")
+        play = self.report("info", "rub.json")["plays"][0]
+        self.assertEqual((play["texture"], play["speed"], play["force"]), (0, 0.5, 1))
+        self.warns("render", "rub.json", "-o", "motor.wav", "--profile", "erm-coin",
+                   says="rub.json: warning: plays[0] is a texture, which a motor cannot follow, so it is left out")
+
+
 class Overwriting(Texture):
     def test_inputs_are_never_written_over_and_n_keeps_everything(self):
         self.analysed()

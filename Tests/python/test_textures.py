@@ -41,6 +41,11 @@ class Textures(FolderTest):
             self.assertAlmostEqual(tone["frequency"], wanted, delta=0.2)
         self.assertIn("2 tones", repr(self.texture))
 
+    def test_what_a_motor_cannot_do_is_told(self):
+        scene = pacini.Scene([], [{"texture": 0, "duration": 1}], textures=[self.texture])
+        with self.assertWarnsRegex(UserWarning, r"plays\[0\] is a texture, which a motor cannot follow"):
+            pacini.render(scene, profile="erm-coin")
+
     def test_it_plays_by_arrays_of_each_frame_and_by_points(self):
         per_frame = self.texture.render(np.full(2 * RATE, 0.5), sample_rate=RATE)
         points = self.texture.render([0.5, 0.5], times=[0, 2], sample_rate=RATE)

@@ -313,6 +313,9 @@ def _rendered(
         else:
             raise Error("must be a Clip or a Scene", "content")
     samples, reduction, error, adaptations, left_out = made
+    for where, reason, lost in left_out:
+        if lost >= 0:  # not as nobody feels it, but as the actuator cannot do it
+            warnings.warn(f"{where} {reason}, so it is left out", stacklevel=3)
     signal = samples[0] if isinstance(content, Clip) or samples.shape[0] == 1 else samples
     return signal.astype(wanted, copy=False), RenderReport(reduction, error, adaptations, left_out)
 
