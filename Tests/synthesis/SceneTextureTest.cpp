@@ -69,6 +69,8 @@ TEST_CASE("A texture of a scene sounds as long as its clip, by its speed over ti
     CHECK(20.0 * std::log10(rmsBetween(x, 4.05, 4.95) / 0.05) == Approx(0.0).margin(2.0));
     // A step of the speed is felt where it is written, not later by the delay of the player.
     CHECK(rmsBetween(x, 2.0, 2.01) > 0.02);
+    const auto first = std::find_if(x.begin(), x.end(), [](float sample) { return std::abs(sample) > 1e-3f; });
+    CHECK(static_cast<double>(first - x.begin()) / 8000.0 == Approx(2.0).margin(0.003));
 }
 
 TEST_CASE("What a scene with a texture plays does not depend on blocks, and has gains, pans and levels of roles",

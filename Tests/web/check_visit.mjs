@@ -178,6 +178,7 @@ try {
   const key = await visit()
   await click(key, '#more')
   check('More examples shows all', await key.tab.evaluate(() => document.activeElement.id === 'gallery'))
+  await until(() => key.tab.$eval('#gallery', ({ options }) => options.length > 3))
   for (let i = 0; i < 3; ++i) await key.tab.keyboard.press('ArrowDown')
   await wait(800)
   check('arrows in a list open nothing', await key.tab.$eval('#clip', ({ hidden }) => hidden) && await key.tab.$eval('#gallery', ({ value }) => value !== ''))

@@ -704,7 +704,7 @@ void writeChoices(ReportWriter& writer, Json& json, const StudyResults& results)
             people.push_back(own);
         const Proportion found = proportionOf(people);
         const auto block = std::find_if(results.study.blocks.begin(), results.study.blocks.end(),
-                                        [&](const Block& one) { return one.name == key.first; });
+                                        [&name = key.first](const Block& one) { return one.name == name; });
         const double guess = guessOf(results.study, *block);
         table.rows.push_back({key.first, key.second, fmt::to_string(people.size()), fmt::to_string(found.right),
                               fmt::to_string(found.all), decimalText(100.0 * found.share, 1),
