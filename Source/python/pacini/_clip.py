@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 import warnings
 from collections.abc import Iterable, Sequence
@@ -14,6 +13,7 @@ import numpy.typing as npt
 
 from . import _native
 from ._arrays import AMPLITUDE, FREQUENCY, TRANSIENT, PathLike, Points, as_points, points_of, rows_of
+from ._document import Document, json_of, warn_of
 from ._errors import Error
 from ._formats import Loss, export_options, format_for, losses_of
 
@@ -149,7 +149,7 @@ class SimplifiedLane:
 EncoderValue = Union[bool, float, str]
 
 
-class Clip:
+class Clip(Document):
     """What a sound feels like, as a few curves and events.
 
     Curves are structured arrays of the fields time and amplitude or frequency, transients of time, amplitude and
@@ -189,7 +189,9 @@ class Clip:
         A value is out of its range; the error names it.
     """
 
-    __slots__ = ("_handle",)
+    __slots__ = ()
+
+    _handle: _native.ClipHandle
 
     def __init__(
         self,
@@ -215,12 +217,6 @@ class Clip:
             transients=rows_of(transients, TRANSIENT, "transients"),
             markers=_marker_tuples(markers),
         )
-
-    @classmethod
-    def _of(cls, handle: _native.ClipHandle) -> Clip:
-        clip = cls.__new__(cls)
-        clip._handle = handle
-        return clip
 
     def _edit(self, **changes: Any) -> None:
         self._handle = self._handle.edited(**changes)
@@ -448,8 +444,7 @@ class Clip:
             The file cannot be read or is not a clip; :class:`FileMissing` where there is none.
         """
         handle, _, passed = _native.read_clip(os.fsdecode(path), strict)
-        for message in passed:
-            warnings.warn(f"{os.fsdecode(path)}: {message}", stacklevel=2)
+        warn_of(path, passed)
         return cls._of(handle)
 
     def save(
@@ -526,19 +521,10 @@ class Clip:
             warnings.warn(message, stacklevel=2)
         return cls._of(handle)
 
-    def to_dict(self) -> dict[str, Any]:
-        """All that is in the clip, as in its JSON file."""
-        content: dict[str, Any] = json.loads(self._handle.to_json())
-        return content
-
     @classmethod
     def from_dict(cls, content: dict[str, Any]) -> Clip:
         """Returns the clip of a dictionary, as :meth:`to_dict` returns it."""
-        try:
-            text = json.dumps(content, allow_nan=False)
-        except (TypeError, ValueError) as error:
-            raise Error(str(error), "clip", "invalidData") from None
-        return cls._of(_native.ClipHandle.from_json(text.encode()))
+        return cls._of(_native.ClipHandle.from_json(json_of(content, "clip").encode()))
 
     def lint(self, format: str, **options: Any) -> list[Loss]:
         """States what the clip would lose in a format; see :func:`pacini.lint`."""
@@ -546,14 +532,6 @@ class Clip:
         return losses_of(losses)
 
     # As an object of Python.
-
-    def __eq__(self, other: object) -> bool:
-        return self._handle == other._handle if isinstance(other, Clip) else NotImplemented
-
-    __hash__ = None  # type: ignore[assignment]
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        return _clip_of_json, (self._handle.to_json(),)
 
     def __repr__(self) -> str:
         name = f" {self.name!r}" if self.name else ""
@@ -580,10 +558,6 @@ class Clip:
         from ._display import clip_html
 
         return clip_html(self)
-
-
-def _clip_of_json(text: bytes) -> Clip:
-    return Clip._of(_native.ClipHandle.from_json(text))
 
 
 def _number(value: object, where: str) -> float:

@@ -2,21 +2,20 @@
 
 from __future__ import annotations
 
-import json
 import os
-import warnings
 from collections.abc import Sequence
-from typing import Any, Optional, Union
+from typing import Any, Union
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _native
 from ._arrays import PathLike, is_path
+from ._document import JsonDocument, json_of, warn_of
 from ._errors import Error
 
 
-class Profile:
+class Profile(JsonDocument):
     """An actuator: what it can do, what it bears, and the equaliser that flattens it. A profile never changes.
 
     Parameters
@@ -36,22 +35,17 @@ class Profile:
     >>> pacini.render(clip, profile=pacini.Profile("l5-wristband"))
     """
 
-    __slots__ = ("_handle",)
+    __slots__ = ()
+
+    _handle: _native.ProfileHandle
 
     def __init__(self, name_or_path: PathLike, *, strict: bool = False) -> None:
         text = os.fsdecode(name_or_path)
         if os.path.exists(text):
             self._handle, passed = _native.ProfileHandle.read(text, strict)
-            for message in passed:
-                warnings.warn(f"{text}: {message}", stacklevel=2)
+            warn_of(text, passed)
         else:
             self._handle = _native.ProfileHandle.shipped(text)
-
-    @classmethod
-    def _of(cls, handle: _native.ProfileHandle) -> Profile:
-        profile = cls.__new__(cls)
-        profile._handle = handle
-        return profile
 
     @staticmethod
     def names() -> list[str]:
@@ -61,33 +55,7 @@ class Profile:
     @classmethod
     def from_dict(cls, content: dict[str, Any]) -> Profile:
         """Returns the profile of a dictionary, as :meth:`to_dict` returns it and profile files contain it."""
-        try:
-            text = json.dumps(content, allow_nan=False)
-        except (TypeError, ValueError) as error:
-            raise Error(str(error), "profile", "invalidData") from None
-        return cls._of(_native.ProfileHandle.from_json(text))
-
-    def to_dict(self) -> dict[str, Any]:
-        """All that is in the profile, as in its file."""
-        content: dict[str, Any] = json.loads(self._handle.to_json())
-        return content
-
-    def save(self, path: PathLike, *, overwrite: Optional[bool] = None) -> None:
-        """Writes a profile file; it is complete or not there.
-
-        Parameters
-        ----------
-        path : path
-            Where.
-        overwrite : bool, optional
-            None replaces a profile that is there and no other file. True replaces every file, False none.
-
-        Raises
-        ------
-        Error
-            The file is not replaced, or cannot be written.
-        """
-        self._handle.save(os.fsdecode(path), overwrite)
+        return cls._of(_native.ProfileHandle.from_json(json_of(content, "profile")))
 
     @property
     def name(self) -> str:
@@ -122,14 +90,8 @@ class Profile:
             self._handle.equalizer_response([float(f) for f in np.asarray(frequencies).ravel()], float(sample_rate))
         )
 
-    def __eq__(self, other: object) -> bool:
-        return self._handle == other._handle if isinstance(other, Profile) else NotImplemented
-
     def __hash__(self) -> int:
         return hash(self._handle.to_json())
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        return _profile_of_json, (self._handle.to_json(),)
 
     def __repr__(self) -> str:
         content = self.to_dict()
@@ -138,10 +100,6 @@ class Profile:
 
 def _native_array(array: Any) -> npt.NDArray[np.float64]:
     return np.asarray(array, np.float64)
-
-
-def _profile_of_json(text: str) -> Profile:
-    return Profile._of(_native.ProfileHandle.from_json(text))
 
 
 AnyProfile = Union[Profile, PathLike]

@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
-import json
 import os
-import warnings
 from collections.abc import Iterable, Mapping
 from typing import Any, Optional
 
 from . import _native
 from ._arrays import PathLike
 from ._clip import Clip
+from ._document import JsonDocument, json_of, warn_of
 from ._errors import Error
 from ._texture import Texture
 
 
-class Scene:
+class Scene(JsonDocument):
     """Clips that play together on one actuator or several. A scene never changes.
 
     Parameters
@@ -47,7 +46,9 @@ class Scene:
         The scene is not valid; the error names the entry.
     """
 
-    __slots__ = ("_handle",)
+    __slots__ = ()
+
+    _handle: _native.SceneHandle
 
     def __init__(
         self,
@@ -83,17 +84,7 @@ class Scene:
             "plays": [{"clip": i} for i in range(len(listed))] if plays is None else [dict(play) for play in plays],
             "changes": [dict(change) for change in changes],
         }
-        try:
-            text = json.dumps(content, allow_nan=False)
-        except (TypeError, ValueError) as error:
-            raise Error(str(error), "scene", "invalidData") from None
-        self._handle = _native.SceneHandle.from_json(text, [clip._handle for clip in listed])
-
-    @classmethod
-    def _of(cls, handle: _native.SceneHandle) -> Scene:
-        scene = cls.__new__(cls)
-        scene._handle = handle
-        return scene
+        self._handle = _native.SceneHandle.from_json(json_of(content, "scene"), [clip._handle for clip in listed])
 
     @classmethod
     def load(cls, path: PathLike, *, clips: PathLike = "", strict: bool = False) -> Scene:
@@ -114,31 +105,8 @@ class Scene:
             The scene or one of its clips cannot be read.
         """
         handle, passed = _native.SceneHandle.read(os.fsdecode(path), os.fsdecode(clips), strict)
-        for message in passed:
-            warnings.warn(f"{os.fsdecode(path)}: {message}", stacklevel=2)
+        warn_of(path, passed)
         return cls._of(handle)
-
-    def save(self, path: PathLike, *, overwrite: Optional[bool] = None) -> None:
-        """Writes a scene with its clips in it; the file is complete or not there.
-
-        Parameters
-        ----------
-        path : path
-            Where.
-        overwrite : bool, optional
-            None replaces a scene that is there and no other file. True replaces every file, False none.
-
-        Raises
-        ------
-        Error
-            The file is not replaced, or cannot be written.
-        """
-        self._handle.save(os.fsdecode(path), overwrite)
-
-    def to_dict(self) -> dict[str, Any]:
-        """All that is in the scene, as in its file, with the clips."""
-        content: dict[str, Any] = json.loads(self._handle.to_json())
-        return content
 
     @property
     def name(self) -> str:
@@ -180,11 +148,6 @@ class Scene:
             Place and what is wrong there.
         """
         return self._handle.lint()
-
-    def __eq__(self, other: object) -> bool:
-        return self._handle == other._handle if isinstance(other, Scene) else NotImplemented
-
-    __hash__ = None  # type: ignore[assignment]
 
     def __reduce__(self) -> tuple[Any, ...]:
         return _scene_of_json, (self._handle.to_json(),)

@@ -16,6 +16,7 @@ import numpy.typing as npt
 from . import _native
 from ._arrays import FloatArray, PathLike, as_rate, as_sound, is_path
 from ._clip import Clip
+from ._document import warn_of
 from ._errors import Error
 from ._files import text_of
 from ._formats import formats
@@ -157,8 +158,7 @@ def _translated(
             raise Error("is for sounds in arrays; a file has its own", "sample_rate")
         with shown(progress, os.path.basename(os.fsdecode(sound))) as tell:
             result = handle.encode_file(os.fsdecode(sound), tell)
-        for doubt in handle.sound_doubts:
-            warnings.warn(f"{os.fsdecode(sound)}: {doubt}", stacklevel=4)
+        warn_of(sound, handle.sound_doubts, stacklevel=4)
     else:
         samples = as_sound(sound, axis)
         rate = as_rate(sample_rate)
@@ -645,8 +645,7 @@ class Comparison:
 def _read_samples(path: PathLike, *allowed: bool) -> tuple[Any, int]:
     """Returns the samples of a file, (frames, channels), and its rate. Tolerated problems are warnings."""
     samples, rate, doubts = _native.read_audio(os.fsdecode(path), *allowed)
-    for doubt in doubts:
-        warnings.warn(f"{os.fsdecode(path)}: {doubt}", stacklevel=4)
+    warn_of(path, doubts, stacklevel=4)
     return samples, rate
 
 

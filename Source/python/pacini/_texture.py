@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import json
 import os
-import warnings
 from typing import TYPE_CHECKING, Any, Optional, Union
 
 import numpy as np
@@ -12,6 +10,7 @@ import numpy.typing as npt
 
 from . import _native
 from ._arrays import PathLike, as_rate, as_sound, is_path
+from ._document import JsonDocument, json_of, warn_of
 from ._errors import Error
 from ._profile import AnyProfile, as_profile
 from ._progress import Progress, shown
@@ -22,7 +21,7 @@ if TYPE_CHECKING:
 Course = Union[float, npt.ArrayLike]
 
 
-class Texture:
+class Texture(JsonDocument):
     """What a hand feels of a surface, or a seat of an engine, by speed and force.
 
     A texture never changes, and never repeats when it is played. :meth:`of_recording` makes one, :meth:`load` reads
@@ -32,15 +31,9 @@ class Texture:
     >>> drive = engine.render([0.2, 0.9, 0.4], times=[0, 2, 3], profile="l5-wristband")
     """
 
-    __slots__ = ("_handle",)
+    __slots__ = ()
 
     _handle: _native.TextureHandle
-
-    @classmethod
-    def _of(cls, handle: _native.TextureHandle) -> Texture:
-        texture = cls.__new__(cls)
-        texture._handle = handle
-        return texture
 
     @classmethod
     def of_recording(
@@ -121,40 +114,13 @@ class Texture:
             It cannot be read.
         """
         handle, passed = _native.TextureHandle.read(os.fsdecode(path), strict)
-        for message in passed:
-            warnings.warn(f"{os.fsdecode(path)}: {message}", stacklevel=2)
+        warn_of(path, passed)
         return cls._of(handle)
-
-    def save(self, path: PathLike, *, overwrite: Optional[bool] = None) -> None:
-        """Writes a texture file; it is complete or not there.
-
-        Parameters
-        ----------
-        path : path
-            Where.
-        overwrite : bool, optional
-            None replaces a texture that is there and no other file. True replaces every file, False none.
-
-        Raises
-        ------
-        Error
-            The file is not replaced, or cannot be written.
-        """
-        self._handle.save(os.fsdecode(path), overwrite)
 
     @classmethod
     def from_dict(cls, content: dict[str, Any]) -> Texture:
         """Returns the texture of a dictionary, as :meth:`to_dict` returns it and texture files contain it."""
-        try:
-            text = json.dumps(content, allow_nan=False)
-        except (TypeError, ValueError) as error:
-            raise Error(str(error), "texture", "invalidData") from None
-        return cls._of(_native.TextureHandle.from_json(text))
-
-    def to_dict(self) -> dict[str, Any]:
-        """All that is in the texture, as in its file."""
-        content: dict[str, Any] = json.loads(self._handle.to_json())
-        return content
+        return cls._of(_native.TextureHandle.from_json(json_of(content, "texture")))
 
     @property
     def name(self) -> str:
@@ -239,14 +205,6 @@ class Texture:
         handle = None if profile is None else as_profile(profile)._handle
         with shown(progress, "rendering") as tell:
             return np.asarray(self._handle.render(curves[0], curves[1], handle, seed, options, tell), np.float32)
-
-    def __eq__(self, other: object) -> bool:
-        return self._handle == other._handle if isinstance(other, Texture) else NotImplemented
-
-    __hash__ = None  # type: ignore[assignment]
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        return Texture.from_dict, (self.to_dict(),)
 
     def __repr__(self) -> str:
         content = self.to_dict()
