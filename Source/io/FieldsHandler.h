@@ -336,8 +336,8 @@ private:
         void* object;
         Visit visit;
         bool isList = false;
-        std::uint32_t seen = 0;     ///< bit i: field i was given
-        std::uint32_t required = 0; ///< bit i: it must be; 0: no key came yet, or none must
+        std::uint64_t seen = 0;     ///< bit i: field i was given
+        std::uint64_t required = 0; ///< bit i: it must be; 0: no key came yet, or none must
     };
 
     enum class Purpose
@@ -347,7 +347,7 @@ private:
         list      ///< all names
     };
 
-    static constexpr std::uint32_t checks = std::uint32_t(1) << 31; ///< is required, and no field
+    static constexpr std::uint64_t checks = std::uint64_t(1) << 63; ///< is required, and no field: at most 63 fields
     static constexpr std::string_view anObject = "an object in braces";
 
     template <typename T, typename Fields>
@@ -482,7 +482,7 @@ private:
     /// Whether the field that the list of fields is at is the one that was looked for.
     bool asks(std::string_view name, Need need)
     {
-        const std::uint32_t bit = std::uint32_t(1) << field++;
+        const std::uint64_t bit = std::uint64_t(1) << field++;
         if (purpose == Purpose::find)
         {
             requiredBits |= need == Need::required ? bit : 0;
@@ -568,7 +568,7 @@ private:
     Purpose purpose = Purpose::find;
     std::uint32_t field = 0; ///< at which the list of fields is
     std::string_view wanted;
-    std::uint32_t foundBit = 0, requiredBits = 0; ///< what Level::seen and ::required become
+    std::uint64_t foundBit = 0, requiredBits = 0; ///< what Level::seen and ::required become
     bool mayBeNull = false;                       ///< the entry of the last key, which may be missing
     std::string_view missing;
     std::optional<Error> broken;

@@ -141,6 +141,24 @@ struct FieldsOfStream
     }
 };
 
+/// More fields than a word of 32 bits has, of which the first is required.
+struct FieldsOfMany
+{
+    template <typename Visitor>
+    void operator()(std::array<double, 63>& values, Visitor& visitor) const
+    {
+        static const auto names = []
+        {
+            std::array<std::string, 63> made;
+            for (std::size_t i = 0; i < made.size(); ++i)
+                made[i] = fmt::format("f{}", i);
+            return made;
+        }();
+        for (std::size_t i = 0; i < values.size(); ++i)
+            visitor.number(names[i], values[i], i == 0 ? Need::required : Need::usual);
+    }
+};
+
 std::string streamError(const std::string& members, bool whole = false)
 {
     FieldsStream stream;
@@ -370,6 +388,20 @@ TEST_CASE("A streamed document says what is wrong with a field and what is neede
     CHECK(FieldsHandler::keysOf<FieldsStream>(FieldsOfStream<fieldsFormat>{}) ==
           std::vector<std::string_view>{"format", "version", "name", "size", "count", "shape", "point", "other",
                                         "points", "rows", "times", "parameters"});
+}
+
+TEST_CASE("Each of 63 fields of a document counts for itself", "[io][json]")
+{
+    std::array<double, 63> values{};
+    for (std::size_t i = 0; i < values.size(); ++i)
+    {
+        INFO(i);
+        FieldsHandler handler(values, FieldsOfMany{});
+        const auto parsed = parseJson(fmt::format(R"({{"f{}": {}}})", i, i + 1), handler, 10000);
+        REQUIRE(parsed.ok() == (i == 0));
+        CHECK((i == 0 || parsed.error().text() == "f0: is missing"));
+        CHECK(values[i] == static_cast<double>(i + 1));
+    }
 }
 
 TEST_CASE("Null stands for what may be missing", "[io][json]")
