@@ -4,6 +4,7 @@
 // threshold.
 
 #include <pacini/foundation/Clamp.h>
+#include <pacini/foundation/Portable.h>
 #include <pacini/foundation/Units.h>
 
 #include <algorithm>
@@ -41,9 +42,9 @@ public:
         const double thresholdLevel = -clampTo(params.actuatorRange.value, 1.0, 200.0);
         const double range = clampTo(params.clipRange.value, 1.0, 200.0);
         unchanged = peakLevel - range >= thresholdLevel;
-        peak = Decibels(peakLevel).gain();
-        floor = Decibels(peakLevel - range).gain();
-        threshold = Decibels(thresholdLevel).gain();
+        peak = portable::exp10(peakLevel / 20.0);
+        floor = portable::exp10((peakLevel - range) / 20.0);
+        threshold = portable::exp10(thresholdLevel / 20.0);
         slope = std::max(0.0, peakLevel - thresholdLevel) / range;
     }
 
@@ -59,7 +60,7 @@ public:
         if (amplitude >= peak)
             return std::max(amplitude, threshold);
         if (amplitude >= floor)
-            return threshold * std::pow(amplitude / floor, slope);
+            return threshold * portable::pow(amplitude / floor, slope);
         const double part = std::max(0.0, 2.0 * amplitude / floor - 1.0);
         return threshold * part * part * (3.0 - 2.0 * part);
     }

@@ -4,6 +4,7 @@
 
 #include <pacini/actuator/Profile.h>
 #include <pacini/foundation/Clamp.h>
+#include <pacini/foundation/Portable.h>
 
 #include <cmath>
 
@@ -36,14 +37,15 @@ public:
           low(profile.range.lowFrequency),
           high(profile.range.highFrequency),
           resonance(profile.resonance.frequency),
-          exponent(std::log(high / low) / std::log(sourceHigh / sourceLow))
+          exponent(portable::log(high / low) / portable::log(sourceHigh / sourceLow))
     {
     }
 
     [[nodiscard]] double operator()(double frequency) const noexcept
     {
         if (mapping == FrequencyMapping::rescale)
-            return clampTo(low * std::pow(clampTo(frequency, sourceLow, sourceHigh) / sourceLow, exponent), low, high);
+            return clampTo(low * portable::pow(clampTo(frequency, sourceLow, sourceHigh) / sourceLow, exponent), low,
+                           high);
         const double nearestEnd = clampTo(frequency, low, high);
         if (mapping == FrequencyMapping::clamp || frequency == nearestEnd || !(frequency > 0.0))
             return nearestEnd;

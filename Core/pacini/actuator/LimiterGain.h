@@ -3,6 +3,7 @@
 // Gain computer of a limiter: knee, hold, release, look-ahead.
 
 #include <pacini/foundation/Clamp.h>
+#include <pacini/foundation/Portable.h>
 #include <pacini/foundation/Units.h>
 
 #include <algorithm>
@@ -152,7 +153,7 @@ public:
     void design(std::size_t lookAheadFrames, std::size_t holdFrames, double fs) noexcept
     {
         newest.setLength(std::max(holdFrames, lookAheadFrames + 1) + 1);
-        decay = std::pow(10.0, -releaseRate / (10.0 * fs));
+        decay = portable::exp10(-releaseRate / (10.0 * fs));
         fall = -0.05 * std::numbers::ln10 * releaseRate / fs;
         if (lookAheadFrames + 1 != length)
         {

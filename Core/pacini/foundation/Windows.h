@@ -2,6 +2,8 @@
 
 // Window functions, and the windowed sinc for sample-rate converters.
 
+#include <pacini/foundation/Portable.h>
+
 #include <cmath>
 #include <cstddef>
 #include <numbers>
@@ -93,7 +95,8 @@ private:
     {
         const double t = offset + static_cast<double>(i) - centre;
         const double x = 2.0 * std::numbers::pi * cutoff * t;
-        row[i] = (std::abs(x) < 1e-12 ? 1.0 : std::sin(x) / x) * window.at(t / half);
+        // Its zeros are zeros exactly, so that a row that keeps its input does.
+        row[i] = (std::abs(x) < 1e-12 ? 1.0 : portable::turnBy(cutoff * t).imag() / x) * window.at(t / half);
         sum += row[i];
     }
     for (double& tap : row)

@@ -3,6 +3,7 @@
 // Additive synthesis: the sum of a clip's sinusoids as an analytic signal, at the decoder's inner rate.
 
 #include <pacini/clip/Curve.h>
+#include <pacini/foundation/Portable.h>
 #include <pacini/synthesis/PlayClock.h>
 
 #include <algorithm>
@@ -12,7 +13,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <numbers>
 #include <span>
 #include <utility>
 #include <vector>
@@ -162,24 +162,6 @@ private:
         state.phase = advanced - std::floor(advanced);
     }
 
-    /// exp(2 pi i cycles). Whole quarters are split off, exactly, so that sine and cosine see at most an eighth of a
-    /// turn: both are good to their last bit there with every library, and whole quarters give 0, 1 and -1.
-    static std::complex<double> turnBy(double cycles) noexcept
-    {
-        const double quarters = std::round(4.0 * cycles);
-        const double angle = 2.0 * std::numbers::pi * (cycles - 0.25 * quarters);
-        const double c = std::cos(angle);
-        const double s = std::sin(angle);
-        const double quarter = quarters - 4.0 * std::floor(0.25 * quarters);
-        if (quarter == 1.0)
-            return {-s, c};
-        if (quarter == 2.0)
-            return {-c, -s};
-        if (quarter == 3.0)
-            return {s, -c};
-        return {c, s};
-    }
-
     /// Without the checks for infinities of operator*, which cost more than the product.
     static std::complex<double> product(std::complex<double> a, std::complex<double> b) noexcept
     {
@@ -196,15 +178,15 @@ private:
         // phi(m) = start + f m + d m (m - 1) / 2. Four samples side by side: lane m starts at phi(m), its next sample
         // is four frames on, 4 f + d (4 m + 6) further, and each step of four turns by 16 d more than the one before.
         using Complex = std::complex<double>;
-        const Complex w = turnBy(s.frequency);
+        const Complex w = portable::turnBy(s.frequency);
         Complex d = 1.0;
         if (s.frequencyStep != 0.0)
-            d = turnBy(s.frequencyStep);
+            d = portable::turnBy(s.frequencyStep);
         const Complex d2 = product(d, d);
         const Complex d4 = product(d2, d2);
         const Complex d16 = product(product(d4, d4), product(d4, d4));
         const Complex w2 = product(w, w);
-        Complex z = turnBy(start);
+        Complex z = portable::turnBy(start);
         Complex step = product(product(w2, w2), product(d4, d2));
         Complex toNext = w;
         std::array<double, lanes> zr, zi, rr, ri, a;

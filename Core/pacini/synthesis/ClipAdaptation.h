@@ -7,6 +7,7 @@
 #include <pacini/actuator/FrequencyMap.h>
 #include <pacini/actuator/Profile.h>
 #include <pacini/clip/Clip.h>
+#include <pacini/foundation/Portable.h>
 #include <pacini/foundation/Units.h>
 #include <pacini/synthesis/AdaptationParams.h>
 #include <pacini/synthesis/VoiceMerge.h>
@@ -43,10 +44,10 @@ inline double meanFrequency(const Band& band)
                             (i > 0 ? band.amplitude[i - 1].time : point.time);
         const double energy = point.value * point.value * std::max(span, 1e-3);
         const double f = band.pitch.empty() ? band.centreFrequency : pitch.at(point.time);
-        weighted += energy * std::log(std::max(f, 1.0));
+        weighted += energy * portable::log(std::max(f, 1.0));
         sum += energy;
     }
-    return sum > 0.0 ? std::exp(weighted / sum) : std::max(band.centreFrequency, 1.0);
+    return sum > 0.0 ? portable::exp(weighted / sum) : std::max(band.centreFrequency, 1.0);
 }
 
 /// Shifts one band by the ratio of its new mean to its old mean, so that its pitch keeps its shape, and clamps it to

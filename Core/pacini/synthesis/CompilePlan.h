@@ -4,6 +4,7 @@
 
 #include <pacini/actuator/ActuatorFit.h>
 #include <pacini/foundation/DspBlock.h>
+#include <pacini/foundation/Portable.h>
 #include <pacini/foundation/Units.h>
 #include <pacini/synthesis/ClipAdaptation.h>
 #include <pacini/synthesis/CompileParams.h>
@@ -269,7 +270,7 @@ inline Clip standIn(Clip clip, const ScenePlay& play, const PlayTimeline& timeli
         {
             return [&, of](double t)
             {
-                const double force = std::pow(valueAt(timeline.force, t), table.levelByForce());
+                const double force = portable::pow(valueAt(timeline.force, t), table.levelByForce());
                 return force * (table.*of)(TextureTable::placeOf(valueAt(timeline.speed, t)));
             };
         };

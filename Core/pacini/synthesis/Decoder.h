@@ -8,6 +8,7 @@
 #include <pacini/filters/PolyphaseInterpolator.h>
 #include <pacini/foundation/Clamp.h>
 #include <pacini/foundation/DspBlock.h>
+#include <pacini/foundation/Portable.h>
 #include <pacini/foundation/SizeInMemory.h>
 #include <pacini/foundation/Units.h>
 #include <pacini/synthesis/CarrierBank.h>
@@ -62,7 +63,7 @@ public:
     {
         const Clip varied = vary(clip, params.variation);
         const double fs = params.sampleRate;
-        transpositionRatio = std::pow(2.0, params.transposition / 12.0);
+        transpositionRatio = portable::exp2(params.transposition / 12.0);
         delayFrames = static_cast<std::int64_t>(std::floor(params.delay * fs + 0.5));
         clipFrames = clip.duration * params.stretch * fs;
 
@@ -70,7 +71,7 @@ public:
         for (const DecoderChange& change : scheduled)
             most = std::max(most, clampTo(change.transposition, lowestTransposition, highestTransposition));
         const double highest =
-            std::max(params.reach, highestFrequency(varied, params.carriers)) * std::pow(2.0, most / 12.0);
+            std::max(params.reach, highestFrequency(varied, params.carriers)) * portable::exp2(most / 12.0);
         ratio = params.fullRate
                     ? 1
                     : static_cast<std::size_t>(std::max(1.0, std::floor(fs / std::max(4000.0, 3.3 * highest))));
@@ -340,7 +341,7 @@ private:
     {
         const double semitones = clampTo(transposition, lowestTransposition, highestTransposition);
         clock.change(std::max(from, 0.0), params.stretch / clampTo(stretch, shortest, longest),
-                     std::pow(2.0, (semitones - params.transposition) / 12.0));
+                     portable::exp2((semitones - params.transposition) / 12.0));
         setEnd();
     }
 

@@ -3,6 +3,7 @@
 // Parameters of the clip decoder.
 
 #include <pacini/clip/Clip.h>
+#include <pacini/foundation/Portable.h>
 #include <pacini/synthesis/EventGaps.h>
 #include <pacini/synthesis/Roles.h>
 #include <pacini/synthesis/TransientPulse.h>
@@ -60,8 +61,8 @@ struct DecoderChange
 {
     double sum = 0.0;
     for (const Band& band : clip.bands)
-        sum += std::log(std::max(band.centreFrequency, 1e-3));
-    return clip.bands.empty() ? 1.0 : std::exp(sum / static_cast<double>(clip.bands.size()));
+        sum += portable::log(std::max(band.centreFrequency, 1e-3));
+    return clip.bands.empty() ? 1.0 : portable::exp(sum / static_cast<double>(clip.bands.size()));
 }
 
 /// The highest frequency that a clip's sinusoids and noise reach, Hz, at least 50.

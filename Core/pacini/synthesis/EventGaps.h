@@ -3,6 +3,7 @@
 // Gaps before events, which make an event stand out of its surroundings.
 
 #include <pacini/clip/Clip.h>
+#include <pacini/foundation/Portable.h>
 #include <pacini/foundation/Units.h>
 
 #include <algorithm>
@@ -81,7 +82,7 @@ inline double ringingOut(const Curve& envelope, const Transient& event, double f
     if (!(params.ring > 0.0))
         return 0.0;
     const double before = peakOfMean * largestWithin(envelope, event.time - 4.0 * params.ring, event.time);
-    const double nepers = std::log(before / full) + params.ringRise * std::numbers::ln10 / 20.0;
+    const double nepers = portable::log(before / full) + params.ringRise * std::numbers::ln10 / 20.0;
     return std::clamp(params.ring * nepers, 0.0, params.ringShare * since);
 }
 
@@ -101,8 +102,8 @@ inline double ringingOut(const Curve& envelope, const Transient& event, double f
         top = std::max(top, point.value);
     for (const Transient& event : events)
         top = std::max(top, event.amplitude);
-    const double unfelt = top * Decibels(-params.range).gain();
-    const double ratio = Decibels(params.rise).gain();
+    const double unfelt = top * portable::exp10(-params.range / 20.0);
+    const double ratio = portable::exp10(params.rise / 20.0);
 
     Curve result;
     result.reserve(envelope.size() + 5 * events.size());

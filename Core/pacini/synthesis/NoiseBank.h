@@ -3,6 +3,7 @@
 // Noise synthesis: the residual noise of a clip as an analytic signal, at the decoder's inner rate.
 
 #include <pacini/clip/Curve.h>
+#include <pacini/foundation/Portable.h>
 #include <pacini/foundation/Random.h>
 #include <pacini/synthesis/PlayClock.h>
 
@@ -52,8 +53,8 @@ public:
             const NoiseCarrier& band = bands[i];
             // Each of two poles has fallen by 1.5 dB where both have fallen by 3.
             const double reach = band.halfWidth / std::sqrt(std::numbers::sqrt2 - 1.0);
-            const double pole = std::exp(-2.0 * std::numbers::pi * std::max(reach, 1e-6));
-            const double gain = std::sqrt(std::pow(1.0 - pole * pole, 3.0) / (1.0 + pole * pole));
+            const double pole = portable::exp(-2.0 * std::numbers::pi * std::max(reach, 1e-6));
+            const double gain = std::sqrt(portable::pow(1.0 - pole * pole, 3.0) / (1.0 + pole * pole));
             states.push_back({Random(seed + i), CurveReader(band.amplitude), pole, gain, 0.0, 0.0, 0.0});
         }
         frame = 0;
@@ -76,7 +77,7 @@ public:
                 s.second = s.pole * s.second + s.first;
                 const double level =
                     s.gain * s.amplitude.at(clock.clipAt(static_cast<double>(frame) + static_cast<double>(n)));
-                const std::complex<double> z = level * s.second * std::polar(1.0, 2.0 * std::numbers::pi * s.phase);
+                const std::complex<double> z = level * s.second * portable::turnBy(s.phase);
                 re[n] += z.real();
                 im[n] += z.imag();
                 s.phase += centre;

@@ -3,6 +3,7 @@
 // Automation of one play of a scene: levels and delays towards every actuator, changes of pitch and speed.
 
 #include <pacini/clip/Curve.h>
+#include <pacini/foundation/Portable.h>
 #include <pacini/synthesis/DecoderParams.h>
 #include <pacini/synthesis/PlayClock.h>
 #include <pacini/synthesis/Scene.h>
@@ -10,7 +11,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 #include <optional>
 #include <span>
 #include <utility>
@@ -63,7 +63,7 @@ struct PlayTimeline
     if (law == PanLaw::delay || actuators == 1)
         return 1.0 / std::sqrt(static_cast<double>(actuators));
     const double distance = std::abs(pan * static_cast<double>(actuators - 1) - static_cast<double>(actuator));
-    return distance < 1.0 ? std::cos(0.5 * std::numbers::pi * distance) : 0.0;
+    return distance < 1.0 ? portable::turnBy(0.25 * distance).real() : 0.0;
 }
 
 /// Delay of an actuator: its distance from the pan, at most `longest` s for the whole row.

@@ -3,6 +3,7 @@
 // A scene: clips that play together, with changes over time. A plain value; validate() states the rules.
 
 #include <pacini/clip/Clip.h>
+#include <pacini/foundation/Portable.h>
 #include <pacini/foundation/Result.h>
 #include <pacini/foundation/Units.h>
 #include <pacini/synthesis/Roles.h>
@@ -147,7 +148,7 @@ inline constexpr double playDelay = 1.0;     ///< s
 /// The linear gain of a scene's gain in dB.
 [[nodiscard]] inline double sceneGain(double dB) noexcept
 {
-    return dB <= limits::silentGain ? 0.0 : Decibels(dB).gain();
+    return dB <= limits::silentGain ? 0.0 : portable::exp10(dB / 20.0);
 }
 
 /// Range of a parameter, and its text.

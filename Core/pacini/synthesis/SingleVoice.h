@@ -3,6 +3,7 @@
 // Reduction to one voice: a clip of many bands as one amplitude, one frequency, events.
 
 #include <pacini/clip/Clip.h>
+#include <pacini/foundation/Portable.h>
 #include <pacini/synthesis/PulseLevel.h>
 
 #include <algorithm>
@@ -110,7 +111,7 @@ public:
     explicit BandReader(const Band& band) noexcept
         : amplitude(band.amplitude),
           pitch(band.pitch),
-          centre(std::log2(std::max(band.centreFrequency, 1.0))),
+          centre(portable::log2(std::max(band.centreFrequency, 1.0))),
           hasPitch(!band.pitch.empty())
     {
     }
@@ -119,7 +120,7 @@ public:
         const double a = amplitude.at(time);
         power = a * a;
         if (hasPitch)
-            octave = std::log2(std::max(pitch.at(time), 1.0));
+            octave = portable::log2(std::max(pitch.at(time), 1.0));
         else
             octave = centre;
     }
@@ -140,7 +141,7 @@ public:
 
     /// `lowest` and `highest` in Hz: a band outside counts 20 dB less per octave, as it cannot be played where it is.
     FollowedBand(double lowest, double highest) noexcept
-        : low(std::log2(std::max(lowest, 1.0))), high(std::log2(std::max(highest, 1.0)))
+        : low(portable::log2(std::max(lowest, 1.0))), high(portable::log2(std::max(highest, 1.0)))
     {
     }
 
@@ -167,7 +168,8 @@ private:
         double power = 0.0;
         for (const BandReader& other : bands)
             power += std::abs(other.octave - one.octave) < together ? other.power : 0.0;
-        return power > 0.0 ? power * std::pow(10.0, -2.0 * std::max({0.0, low - one.octave, one.octave - high})) : 0.0;
+        const double outside = std::max({0.0, low - one.octave, one.octave - high});
+        return outside > 0.0 ? power * portable::exp10(-2.0 * outside) : power;
     }
 
     double low, high; // octaves
@@ -231,7 +233,7 @@ private:
             followed = choice.of(bands);
             if (before != followed && !voice.frequency.empty() &&
                 voice.frequency.back().time < std::nextafter(time, 0.0))
-                voice.frequency.push_back({time, std::exp2(bands[before].octave)});
+                voice.frequency.push_back({time, portable::exp2(bands[before].octave)});
             octave = bands[followed].octave;
         }
         double away = 0.0;
@@ -248,7 +250,7 @@ private:
         if (bands.size() > 1)
             voice.displaced.push_back({time, power > 0.0 ? level * std::sqrt(away / (power + residual)) : 0.0});
         if (octave >= 0.0)
-            voice.frequency.push_back({time, std::exp2(octave)});
+            voice.frequency.push_back({time, portable::exp2(octave)});
         else if (bands.empty() && !clip.centroid.empty())
             voice.frequency.push_back({time, std::max(centroid.at(time), 1.0)});
     }

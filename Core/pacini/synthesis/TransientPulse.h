@@ -3,13 +3,13 @@
 // Transient pulse: the short waveform of an event.
 
 #include <pacini/actuator/TransientShape.h>
+#include <pacini/foundation/Portable.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <concepts>
 #include <cstddef>
-#include <numbers>
 #include <span>
 
 namespace pacini
@@ -52,12 +52,12 @@ struct Pulse
         {
             const double length = std::clamp(0.5 * gap, 0.006, 0.015);
             const double lowest = std::max(200.0, 3.0 / length);
-            frequency = std::clamp(150.0 * std::pow(2500.0 / 150.0, crispness), lowest, std::max(lowest, 400.0));
+            frequency = std::clamp(150.0 * portable::pow(2500.0 / 150.0, crispness), lowest, std::max(lowest, 400.0));
             cycles = frequency * length;
         }
         else
         {
-            frequency = 100.0 * std::pow(2.8, crispness);
+            frequency = 100.0 * portable::pow(2.8, crispness);
             cycles = 2.0;
         }
         frequency = std::clamp(frequency, params.lowest, params.highest);
@@ -121,14 +121,15 @@ private:
         Phasors() = default;
         explicit Phasors(double cyclesPerFrame) noexcept
         {
-            const double angle = 2.0 * std::numbers::pi * cyclesPerFrame;
             for (std::size_t i = 0; i < lanes; ++i)
             {
-                re[i] = std::cos(angle * (static_cast<double>(i) + 0.5));
-                im[i] = std::sin(angle * (static_cast<double>(i) + 0.5));
+                const auto at = portable::turnBy(cyclesPerFrame * (static_cast<double>(i) + 0.5));
+                re[i] = at.real();
+                im[i] = at.imag();
             }
-            stepRe = std::cos(angle * static_cast<double>(lanes));
-            stepIm = std::sin(angle * static_cast<double>(lanes));
+            const auto step = portable::turnBy(cyclesPerFrame * static_cast<double>(lanes));
+            stepRe = step.real();
+            stepIm = step.imag();
         }
         void advance() noexcept
         {
@@ -153,7 +154,7 @@ private:
             else if (pulse.shape == TransientShape::square)
                 group[i] = cycle - std::floor(cycle) < 0.5 ? 1.0 : -1.0;
             else
-                group[i] = std::sin(2.0 * std::numbers::pi * cycle);
+                group[i] = portable::turnBy(cycle).imag();
         }
         carrier.advance();
         window.advance();

@@ -9,6 +9,7 @@
 #include <pacini/clip/Clip.h>
 #include <pacini/clip/edits/Lane.h>
 #include <pacini/foundation/NumberText.h>
+#include <pacini/foundation/Portable.h>
 #include <pacini/foundation/Result.h>
 #include <pacini/synthesis/AdaptationParams.h>
 #include <pacini/synthesis/ClipAdaptation.h>
@@ -93,7 +94,7 @@ Curve weightedAmplitude(const Band& band, const Ratio& ratio)
     {
         const Breakpoint& a = band.pitch[i - 1];
         const Breakpoint& b = band.pitch[i];
-        const double steps = std::min(120.0, std::ceil(12.0 * std::abs(std::log2(b.value / a.value))));
+        const double steps = std::min(120.0, std::ceil(12.0 * std::abs(portable::log2(b.value / a.value))));
         for (double k = 1.0; k < steps; ++k)
             times.push_back(a.time + (b.time - a.time) * k / steps);
     }

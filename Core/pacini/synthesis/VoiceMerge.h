@@ -4,6 +4,7 @@
 
 #include <pacini/clip/BandPriority.h>
 #include <pacini/clip/Clip.h>
+#include <pacini/foundation/Portable.h>
 
 #include <algorithm>
 #include <cmath>
@@ -48,11 +49,11 @@ inline Band mergedBand(const Band& a, const Band& b)
     for (const double t : times)
     {
         const double x = levelA.at(t), y = levelB.at(t);
-        const double fa = std::log(a.pitch.empty() ? a.centreFrequency : pitchA.at(t));
-        const double fb = std::log(b.pitch.empty() ? b.centreFrequency : pitchB.at(t));
+        const double fa = portable::log(a.pitch.empty() ? a.centreFrequency : pitchA.at(t));
+        const double fb = portable::log(b.pitch.empty() ? b.centreFrequency : pitchB.at(t));
         const double power = x * x + y * y;
         merged.amplitude.push_back({t, std::sqrt(power)});
-        merged.pitch.push_back({t, std::exp(power > 0.0 ? (x * x * fa + y * y * fb) / power : 0.5 * (fa + fb))});
+        merged.pitch.push_back({t, portable::exp(power > 0.0 ? (x * x * fa + y * y * fb) / power : 0.5 * (fa + fb))});
     }
     return merged;
 }
@@ -78,7 +79,7 @@ inline void mergeVoices(Clip& clip, std::size_t voices)
                 least = i;
         const auto distance = [&](std::size_t i)
         {
-            return std::abs(std::log(bands[i].centreFrequency / bands[least].centreFrequency));
+            return std::abs(portable::log(bands[i].centreFrequency / bands[least].centreFrequency));
         };
         const bool joinsLower = least > 0 && (least + 1 == bands.size() || distance(least - 1) <= distance(least + 1));
         const std::size_t first = joinsLower ? least - 1 : least;

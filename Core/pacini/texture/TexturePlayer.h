@@ -4,6 +4,7 @@
 
 #include <pacini/filters/PolyphaseInterpolator.h>
 #include <pacini/foundation/Clamp.h>
+#include <pacini/foundation/Portable.h>
 #include <pacini/foundation/Powers.h>
 #include <pacini/texture/AutoRegression.h>
 #include <pacini/texture/TextureTable.h>
@@ -138,7 +139,6 @@ private:
         const auto tones = table->allTones();
         if (tones.empty())
             return;
-        constexpr double turn = 2.0 * std::numbers::pi;
         const double step = speed / table->innerRate();
         for (std::size_t k = 0; k < tones.size(); ++k)
         {
@@ -147,8 +147,8 @@ private:
             if (!(before > 0.0 || wanted > 0.0))
                 continue;
             const double cycles = tones[k].frequency * way + tones[k].phase;
-            auto now = std::polar(1.0, turn * (cycles - std::floor(cycles)));
-            const auto next = std::polar(1.0, turn * tones[k].frequency * step);
+            auto now = portable::turnBy(cycles);
+            const auto next = portable::turnBy(tones[k].frequency * step);
             for (std::size_t n = 0; n < inner.size(); ++n)
             {
                 const double share = static_cast<double>(n + 1) / static_cast<double>(inner.size());

@@ -4,6 +4,7 @@
 
 #include <pacini/foundation/Clamp.h>
 #include <pacini/foundation/DspBlock.h>
+#include <pacini/foundation/Portable.h>
 #include <pacini/texture/AutoRegression.h>
 #include <pacini/texture/Texture.h>
 
@@ -21,7 +22,7 @@ namespace pacini
 /// octaves at most.
 [[nodiscard]] inline double textureShift(double ratio, double pitch) noexcept
 {
-    return std::clamp(std::pow(ratio, pitch), 1.0 / 16.0, 16.0);
+    return std::clamp(portable::pow(ratio, pitch), 1.0 / 16.0, 16.0);
 }
 
 /// Level and spectrum of a texture at any speed above 0. Between two nodes both are interpolated over the logarithm of
@@ -41,11 +42,11 @@ public:
     [[nodiscard]] double level(double speed) const noexcept
     {
         const Neighbours at = neighbours(speed);
-        const double between =
-            std::pow(texture.nodes[at.lower].level, 1.0 - at.share) * std::pow(texture.nodes[at.upper].level, at.share);
+        const double between = portable::pow(texture.nodes[at.lower].level, 1.0 - at.share) *
+                               portable::pow(texture.nodes[at.upper].level, at.share);
         if (at.lower != at.upper)
             return between;
-        return between * std::pow(speed / texture.nodes[at.lower].speed, texture.levelBySpeed);
+        return between * portable::pow(speed / texture.nodes[at.lower].speed, texture.levelBySpeed);
     }
 
     /// RMS of a tone at force 1, wherever its frequency is. Between two nodes on a straight line over the logarithm of
@@ -57,7 +58,7 @@ public:
         const double between = levels[at.lower] + (levels[at.upper] - levels[at.lower]) * at.share;
         if (at.lower != at.upper)
             return between;
-        return between * std::pow(speed / texture.nodes[at.lower].speed, texture.levelBySpeed);
+        return between * portable::pow(speed / texture.nodes[at.lower].speed, texture.levelBySpeed);
     }
 
     /// Relative, up to 1200 Hz.
@@ -90,7 +91,7 @@ private:
         if (upper == nodes.size())
             return {upper - 1, upper - 1, 0.0};
         const double low = nodes[upper - 1].speed;
-        return {upper - 1, upper, std::log(speed / low) / std::log(nodes[upper].speed / low)};
+        return {upper - 1, upper, portable::log(speed / low) / portable::log(nodes[upper].speed / low)};
     }
 
     /// Adds `share` of the spectrum of a node, moved to `speed`.
