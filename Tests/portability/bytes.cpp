@@ -5,13 +5,18 @@
 //   bytes again CLIP SAME UNSEALED: a packed clip, unpacked and packed as it is and without its seal
 //
 //   bytes grids VALUES: every value that a packed clip can hold; of the finest pitches every seventh
+//
+//   bytes functions VALUES: the portable functions of many arguments
 
 #include <pacini/analysis/Encoder.h>
 #include <pacini/clip/PackedClip.h>
 #include <pacini/clip/Quantiser.h>
+#include <pacini/foundation/Portable.h>
+#include <pacini/foundation/Random.h>
 #include <pacini/synthesis/CompilePlan.h>
 #include <pacini/synthesis/ScenePlayer.h>
 
+#include <complex>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
@@ -108,6 +113,22 @@ int writeGrids(char** arguments)
     return write(arguments[0], values);
 }
 
+int writeFunctions(char** arguments)
+{
+    std::vector<double> values;
+    Random random(46);
+    for (int i = 0; i < 20000; ++i)
+    {
+        const double x = random.uniform(-40.0, 40.0);
+        const double y = random.uniform(0.0, 1000.0);
+        const std::complex<double> turn = portable::turnBy(x);
+        values.insert(values.end(), {turn.real(), turn.imag(), portable::sin(x), portable::cos(x), portable::tan(x),
+                                     portable::pow(y, 0.1 * x), portable::exp(x), portable::exp2(x), portable::exp10(x),
+                                     portable::log(y), portable::log2(y)});
+    }
+    return write(arguments[0], values);
+}
+
 } // namespace
 
 int main(int count, char** arguments)
@@ -118,6 +139,8 @@ int main(int count, char** arguments)
     const std::string first = count > 1 ? arguments[1] : "";
     if (first == "grids" && count == 3)
         return writeGrids(arguments + 2);
+    if (first == "functions" && count == 3)
+        return writeFunctions(arguments + 2);
     if (first == "again" && count == 5)
         return packAgain(arguments + 2);
     return count == 6 ? encode(arguments + 1) : 2;
