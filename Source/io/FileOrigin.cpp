@@ -78,6 +78,30 @@ std::string startOf(const fs::path& path)
     start.resize(file ? std::fread(start.data(), 1, start.size(), file->get()) : 0);
     return start;
 }
+
+/// The seal by `fingerprint`, which is empty.
+template <typename Print>
+std::optional<OriginSeal> sealBy(Print fingerprint, const std::function<std::size_t(std::span<std::byte>)>& read)
+{
+    static_assert(searched % StripedFingerprint::stripe == 0);
+    std::vector<std::byte> block(searched);
+    const auto next = [&]
+    {
+        std::size_t got = 0;
+        for (std::size_t more = 1; more > 0 && got < block.size(); got += more)
+            more = read(std::span(block).subspan(got));
+        return got;
+    };
+    auto got = next();
+    const auto found = findOrigin({reinterpret_cast<const char*>(block.data()), got});
+    if (!found)
+        return std::nullopt;
+    // The seal cannot depend on itself.
+    std::fill_n(block.begin() + static_cast<std::ptrdiff_t>(found->sealOffset), digitCount, std::byte{'0'});
+    for (; got > 0; got = next())
+        fingerprint.add(std::span(block).first(got));
+    return OriginSeal{static_cast<std::int64_t>(found->sealOffset), fingerprint.text()};
+}
 } // namespace
 
 FileOrigin originOf(const fs::path& input, const fs::path& output, std::string substanceDigits)
@@ -117,27 +141,24 @@ bool isAsMade(const fs::path& path)
     const auto found = findOrigin(startOf(path));
     if (!found)
         return false;
-    const auto file = openForReading(path);
-    if (!file)
-        return false;
-    const auto wanted =
-        sealOf([&](std::span<std::byte> bytes) { return std::fread(bytes.data(), 1, bytes.size(), file->get()); });
-    return wanted && wanted->digits == found->sealDigits && std::ferror(file->get()) == 0;
+    const auto hasSealBy = [&](const auto& fingerprint)
+    {
+        const auto file = openForReading(path);
+        if (!file)
+            return false;
+        const auto read = [&](std::span<std::byte> bytes)
+        {
+            return std::fread(bytes.data(), 1, bytes.size(), file->get());
+        };
+        const auto wanted = sealBy(fingerprint, read);
+        return wanted && wanted->digits == found->sealDigits && std::ferror(file->get()) == 0;
+    };
+    return hasSealBy(StripedFingerprint()) || hasSealBy(Fingerprint()); // which versions up to 1.0 wrote
 }
 
 std::optional<OriginSeal> sealOf(const std::function<std::size_t(std::span<std::byte>)>& read)
 {
-    std::vector<std::byte> block(searched);
-    auto got = read(block);
-    const auto found = findOrigin({reinterpret_cast<const char*>(block.data()), got});
-    if (!found)
-        return std::nullopt;
-    // The seal cannot depend on itself.
-    std::fill_n(block.begin() + static_cast<std::ptrdiff_t>(found->sealOffset), digitCount, std::byte{'0'});
-    Fingerprint all;
-    for (; got > 0; got = read(block))
-        all.add(std::span(block).first(got));
-    return OriginSeal{static_cast<std::int64_t>(found->sealOffset), all.text()};
+    return sealBy(StripedFingerprint(), read);
 }
 
 } // namespace pacini

@@ -2,14 +2,20 @@
 
 #include "io/AudioFile.h"
 #include "io/ClipSeal.h"
+#include "io/Fingerprint.h"
 #include "io/formats/json/ClipJson.h"
 #include "support/Catch.h"
 #include "support/RandomClip.h"
 #include "support/TempFolder.h"
 
 #include <pacini/clip/PackedClip.h>
+#include <pacini/foundation/Random.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <set>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -64,6 +70,59 @@ TEST_CASE("A sound file says what it was made from, and whether it is still as i
         put(path, whole);
         CHECK(isAsMade(path));
     }
+}
+
+TEST_CASE("A seal as versions up to 1.0 wrote it is still a seal", "[io]")
+{
+    const TempFolder folder;
+    for (const std::size_t more : {0u, 1u, 63u, 64u, 65536u, 200001u})
+    {
+        const FileOrigin origin{"door.json", std::string(16, '1'), std::string(16, '2')};
+        std::string whole = originText(origin) + std::string(more, 'x');
+        Fingerprint print;
+        print.add(whole);
+        whole.replace(whole.find("seal ") + 5, 16, print.text());
+        put(folder / "old", whole);
+        CHECK(isAsMade(folder / "old"));
+        whole.back() = whole.back() == 'x' ? 'y' : '(';
+        put(folder / "old", whole);
+        CHECK_FALSE(isAsMade(folder / "old"));
+    }
+}
+
+TEST_CASE("The fingerprint of large files changes with each bit, with the order and with the length", "[io]")
+{
+    Random random(42);
+    std::vector<std::byte> bytes(300);
+    for (auto& byte : bytes)
+        byte = static_cast<std::byte>(random.next() & 0xFFu);
+    const auto print = [](std::span<const std::byte> of)
+    {
+        StripedFingerprint fingerprint;
+        fingerprint.add(of);
+        return fingerprint.text();
+    };
+    std::set<std::string> prints{print(bytes)};
+    for (std::size_t bit = 0; bit < 8 * bytes.size(); ++bit)
+    {
+        auto changed = bytes;
+        changed[bit / 8] ^= static_cast<std::byte>(1u << (bit % 8));
+        prints.insert(print(changed));
+    }
+    CHECK(prints.size() == 8 * bytes.size() + 1);
+    for (std::size_t length = 0; length < bytes.size(); ++length)
+        prints.insert(print(std::span(bytes).first(length)));
+    CHECK(prints.size() == 9 * bytes.size() + 1);
+    auto swapped = bytes;
+    std::swap_ranges(swapped.begin(), swapped.begin() + 64, swapped.begin() + 64);
+    CHECK(prints.insert(print(swapped)).second);
+    // In pieces it is the same, and so it is on every machine.
+    StripedFingerprint pieces;
+    pieces.add(std::span(bytes).first(128));
+    pieces.add(std::span(bytes).subspan(128));
+    CHECK(pieces.text() == print(bytes));
+    CHECK(print({}) == "7784e14bff05a7cd");
+    CHECK(print(std::vector<std::byte>(1000, std::byte{0x80})) == "1d8ec27ef35fb440");
 }
 
 TEST_CASE("A long sound in an RF64 carries its origin as well", "[io]")
