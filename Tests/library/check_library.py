@@ -15,7 +15,7 @@ from pathlib import Path
 
 LIBRARY, HEADER, EXAMPLE, PACINI, CLIP = (Path(path) for path in sys.argv[1:6])
 CONFIGURATION, COMPILER = sys.argv[6:8]
-LARGEST = 1_000_000  # bytes, stripped; the aim is 900 000
+LARGEST = 975_000  # bytes, stripped; the aim is 900 000
 
 
 def run(*command, **options):
