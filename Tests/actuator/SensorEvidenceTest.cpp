@@ -7,6 +7,7 @@
 #include <pacini/foundation/Gaussian.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <functional>
@@ -166,6 +167,68 @@ TEST_CASE("A sensor that is dead, saturated, unplugged or no number holds the la
         CHECK(loop.compensation.sensor() == SensorState::good);
         CHECK(loop.mean() == Approx(0.0).margin(0.7));
     }
+}
+
+TEST_CASE("A band that is held glides back: neither its gain nor the drive steps", "[actuator][sensor]")
+{
+    constexpr double fs = 8000.0;
+    DynamicCompensationParams params;
+    params.bands = 6;
+    params.time = Seconds(2.0);
+    params.target = Decibels(0.0);
+    params.needsEvidence = true;
+    DynamicCompensation compensation;
+    compensation.setParams(params);
+    compensation.prepare({fs, 80});
+    Gaussian hiss(9);
+    std::vector<float> x(80), y(80), back(80);
+    std::array<double, 4> differences{}; // of the drive: of a slow tone next to nothing is left, of a step all
+    double usualStep = 0.0, laterStep = 0.0, usualClick = 0.0, laterClick = 0.0, returned = 0.0;
+    std::vector<double> gains(compensation.frequencies().size()), good, misled;
+    std::size_t frame = 0;
+    constexpr int unplugged = 3000, fading = 3050; // hops; until then evidence is left, and gains follow a lie
+    for (int hop = 0; hop < 5000; ++hop)
+    {
+        for (float& v : x)
+        {
+            const double t = static_cast<double>(frame++) / fs;
+            v = static_cast<float>(0.3 * std::sin(2.0 * std::numbers::pi * 150.0 * t) *
+                                   (0.55 + 0.45 * std::sin(2.0 * std::numbers::pi * 0.7 * t)));
+        }
+        compensation.process(x, y);
+        double click = 0.0;
+        for (std::size_t i = 0; i < y.size(); ++i)
+        {
+            back[i] = hop < unplugged ? 0.5f * y[i] : static_cast<float>(0.2 * hiss.next());
+            double newest = static_cast<double>(y[i]);
+            for (double& before : differences)
+                newest -= std::exchange(before, newest);
+            click = std::max(click, std::abs(newest));
+        }
+        if (hop < 10)
+            continue; // the differences begin
+        compensation.learn(y, back);
+        double step = 0.0;
+        for (std::size_t k = 0; k < gains.size(); ++k)
+            step = std::max(step, std::abs(compensation.gain(k) - std::exchange(gains[k], compensation.gain(k))));
+        if (hop == unplugged)
+            good = gains;
+        if (hop == fading + 50)
+            misled = gains;
+        double& largest = hop < fading ? usualStep : laterStep;
+        largest = std::max(largest, step);
+        double& loudest = hop < fading ? usualClick : laterClick;
+        loudest = std::max(loudest, click);
+    }
+    for (std::size_t k = 0; k < gains.size(); ++k)
+    {
+        returned = std::max(returned, std::abs(gains[k] - misled[k]));
+        CHECK(gains[k] == Approx(good[k]).margin(1.0));
+    }
+    CAPTURE(usualStep, laterStep, usualClick, laterClick);
+    CHECK(returned > 1.0); // there was something to glide back
+    CHECK(laterStep <= 2.0 * usualStep);
+    CHECK(laterClick <= 2.0 * usualClick);
 }
 
 TEST_CASE("Feedback that was never there raises nothing, from the first second on", "[actuator][sensor]")

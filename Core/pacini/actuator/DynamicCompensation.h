@@ -71,7 +71,8 @@ enum class SensorState
 /// 0.15) and a slope of 0.2. A band without that, which a steady tone is too, holds the gain that it had before, and so
 /// do all bands for half a second after feedback that is no number, saturated or without any motion. So no feedback
 /// raises a gain but one that follows the drive. Holding a gain opens the loop, which is as stable as its filter; what
-/// was proven holds while it is closed.
+/// was proven holds while it is closed. A held band glides back within 3 s by what it moved in the 6 s before, so in
+/// steps of at most twice the largest that following takes.
 ///
 /// Errors. Within a band the response keeps its shape; noise n dB below the feedback counts as 10 log10(1 + 10^(-n/10))
 /// dB of response; a band whose drive is below -60 dB or 20 dB below the strongest band is held.
@@ -81,6 +82,7 @@ public:
     static constexpr std::size_t maxBands = 24;
     static constexpr double hopTime = 0.01;     ///< s between two updates
     static constexpr std::size_t gainHops = 20; ///< between two gains that are remembered
+    static constexpr double returnTime = 3.0;   ///< s, of a held band to its gain of before
     static constexpr double lost = 12.0;        ///< dB beyond the limit from which on the feedback counts as lost
 
     /// Keeps what was learned unless the bands change.
@@ -113,6 +115,7 @@ public:
         quick = 1.0 - std::exp(-hop / 0.03);
         memory = 1.0 - std::exp(-hop / 3.0);
         holdHops = static_cast<std::size_t>(0.5 / hop);
+        returnHops = static_cast<std::size_t>(std::ceil(returnTime / hop));
         settling = static_cast<std::size_t>(2.0 / hop); // the longest delay, and what the smoothing of 0.5 s takes
         delayHops = static_cast<std::size_t>(std::round(clampTo(params.delay.value, 0.0, 1.0) / hop));
         delayHops = std::min(delayHops, history.size() - 1);
@@ -224,6 +227,8 @@ private:
         double smoothDrive = 0.0;                                    // power of the delayed drive
         double smoothBack = 0.0;                                     // and of the feedback
         double gain = 0.0;                                           // dB
+        double heldGain = 0.0;                                       // dB, where it glides while it is held
+        std::size_t returning = 0;                                   // hops until it is there
         double sum = 0.0;                                            // dB, of the hops learned from
         std::size_t waited = 0;                                      // hops
         std::size_t learned = 0;                                     // hops
@@ -351,9 +356,11 @@ private:
         // Two band-passes of peak gain q each: a unit is that of full drive.
         const double scale = 1.0 / (q * q * q * q * static_cast<double>(hopFrames));
         double strongest = 0.0;
+        bool moved = false, driven = false, followed = false;
         for (std::size_t k = 0; k < count; ++k)
         {
             Meter& meter = meters[k];
+            moved = glideBack(meter) || moved;
             history[now][k] = scale * std::exchange(passes.drive[k], 0.0);
             const double back = scale * std::exchange(passes.back[k], 0.0);
             if (!trusted)
@@ -369,10 +376,11 @@ private:
         if (!trusted)
         {
             sensorNow = state != SensorState::good ? state : sensorNow;
+            if (moved)
+                design();
             return;
         }
         const double least = std::max(1e-6, 0.01 * strongest);
-        bool moved = false, driven = false, followed = false;
         for (std::size_t k = 0; k < count; ++k)
         {
             Meter& meter = meters[k];
@@ -382,16 +390,15 @@ private:
             if (current.needsEvidence && !hasEvidence(meter))
             {
                 hold(meter);
-                moved = true;
                 continue;
             }
-            meter.held = false;
             followed = true;
             constexpr double silence = 1e-30;
             meter.measured = 10.0 * std::log10((meter.smoothBack + silence) / meter.smoothDrive);
             const auto wanted = reference(k);
             if (!wanted)
             {
+                release(meter);
                 if (meter.waited < settling) // until the feedback is there, even if its delay was told wrong
                 {
                     ++meter.waited;
@@ -402,12 +409,13 @@ private:
                 continue;
             }
             const double lack = *wanted - *meter.measured;
-            moved = true;
             if (current.needsEvidence && lack > limit + lost)
             {
                 hold(meter);
                 continue;
             }
+            release(meter);
+            moved = true;
             const double goal = lack > limit + lost ? 0.0 : std::clamp(lack, -limit, limit);
             meter.gain += follow * (goal - meter.gain);
             if (hopsDone % gainHops == 0)
@@ -424,8 +432,26 @@ private:
     {
         if (std::exchange(meter.held, true))
             return;
-        meter.gain = static_cast<double>(meter.before[(hopsDone / gainHops + 1) % meter.before.size()]);
-        meter.before.fill(static_cast<float>(meter.gain));
+        const float before = meter.before[(hopsDone / gainHops + 1) % meter.before.size()];
+        meter.before.fill(before);
+        meter.heldGain = static_cast<double>(before);
+        meter.returning = returnHops;
+    }
+
+    static void release(Meter& meter) noexcept
+    {
+        meter.held = false;
+        meter.returning = 0;
+    }
+
+    /// Takes a held band one step towards its gain of before; whether it was still on its way there.
+    [[nodiscard]] static bool glideBack(Meter& meter) noexcept
+    {
+        if (meter.returning == 0)
+            return false;
+        meter.gain += (meter.heldGain - meter.gain) / static_cast<double>(meter.returning);
+        --meter.returning;
+        return true;
     }
 
     /// Adds the powers of a hop to what is known of how the feedback varies with the drive.
@@ -515,6 +541,7 @@ private:
     double follow = 0.0; // share of a change in one hop
     double smooth = 0.0, quick = 0.0, memory = 0.0;
     std::size_t holdHops = 50, holding = 0;
+    std::size_t returnHops = 300;
     SensorCheck check;
     SensorState sensorNow = SensorState::waiting;
     std::size_t hopFrames = 480;
