@@ -4,6 +4,9 @@ extends SceneTree
 const HUM = """{"format": "pacini.clip", "version": 1, "name": "hüm", "duration": 1, "bands": [{"lowFrequency": 90,
  "centreFrequency": 100, "highFrequency": 110, "amplitude": [{"time": 0, "amplitude": 0.5}, {"time": 1, "amplitude": 0.5}]}]}"""
 
+const WOOD = """{"format": "pacini.texture", "version": 1, "pitch": 1, "levelBySpeed": 1, "levelByForce": 0.5,
+ "nodes": [{"speed": 0.5, "level": 0.1, "reflection": [-0.6, 0.8]}]}"""
+
 var pacini = load("res://addons/pacini/pacini.gd").new()
 var failures = 0
 
@@ -108,6 +111,35 @@ func every_function():
 	fails("engine is not in use", engine.stop_group(0))
 	fails("engine of the play", play.stop())
 
+func textures():
+	var texture = pacini.texture_from_bytes(WOOD.to_utf8())
+	var engine = pacini.engine({"sample_rate": 8000, "actuators": [{}, {}], "protect": false})
+	var play = engine.play_texture(texture, 0.0, 1.0, {"pan": 0})
+	check(largest(engine.render(2000), 0) == 0.0, "a hand that rests feels nothing")
+	check(play.set_control("texture_speed", 0.5), "speed")
+	engine.render(1000)
+	var samples = engine.render(4000)
+	check(largest(samples, 0) > 0.1 and largest(samples, 0) < 1.0 and largest(samples, 1) == 0.0, "a hand that moves")
+	check(play.set_control("texture_force", 0.0), "force")
+	engine.render(1000)
+	check(largest(engine.render(1000), 0) == 0.0, "a hand that is lifted")
+	check(texture.release() and play.set_control("texture_force", 1.0), "what plays of it goes on")
+	engine.render(1000)
+	check(largest(engine.render(4000), 0) > 0.1, "goes on")
+	check(play.stop(0.01), "stop")
+	engine.render(1000)
+	check(play.get_state() == "ended", "ended")
+
+	fails("there is no 'lop'", engine.play_texture(texture, 0.0, 1.0, {"lop": 1}))
+	fails("texture is not in use", engine.play_texture(texture))
+	fails("texture is not in use", texture.release())
+	fails("textureSpeed: must be 0 to 1", engine.play_texture(pacini.texture_from_bytes(WOOD.to_utf8()), 2.0))
+	fails("none.json: cannot be read", pacini.texture("res://none.json"))
+	fails("format: must be", pacini.texture_from_bytes(HUM.to_utf8()))
+	fails("is not valid JSON", pacini.texture_from_bytes("nonsense".to_utf8()))
+	var motor = pacini.engine({"actuators": [{"profile": "erm-coin"}]})
+	fails("motor", motor.play_texture(pacini.texture_from_bytes(WOOD.to_utf8())))
+
 func what_nothing_refers_to_is_destroyed():
 	for _i in 200: # 64 at a time
 		check(pacini.engine({"sample_rate": 8000, "max_plays": 4}) != null, "an engine")
@@ -115,6 +147,7 @@ func what_nothing_refers_to_is_destroyed():
 func _init():
 	played_like_c()
 	every_function()
+	textures()
 	what_nothing_refers_to_is_destroyed()
 	var example = load("res://first_vibration.gd").new()
 	get_root().add_child(example)

@@ -221,6 +221,29 @@ EXPORT godot_variant pacini_godot_clip_release(const void* arguments)
     return of_result(pacini_clip_release((pacini_clip)to_int(arguments, 0)));
 }
 
+/* ---- Textures */
+
+/* bytes */
+EXPORT godot_variant pacini_godot_texture_load(const void* arguments)
+{
+    pacini_texture texture = 0;
+    pacini_result result;
+    godot_variant given = argument(arguments, 0);
+    godot_pointer array = CALL(GODOT_VARIANT_AS_POOL_BYTE_ARRAY, pointer_of)(&given);
+    const int size = CALL(GODOT_POOL_BYTE_ARRAY_SIZE, int (*)(const void*))(&array);
+    void* access = CALL(GODOT_POOL_BYTE_ARRAY_READ, address_of)(&array);
+    result = pacini_texture_load(CALL(GODOT_POOL_BYTE_ARRAY_READ_PTR, address_of)(access), (size_t)size, &texture);
+    CALL(GODOT_POOL_BYTE_ARRAY_READ_DESTROY, by_pointer)(access);
+    CALL(GODOT_POOL_BYTE_ARRAY_DESTROY, by_pointer)(&array);
+    destroy(&given);
+    return of_handle(result, texture);
+}
+
+EXPORT godot_variant pacini_godot_texture_release(const void* arguments)
+{
+    return of_result(pacini_texture_release((pacini_texture)to_int(arguments, 0)));
+}
+
 /* ---- Engines */
 
 /* scene, sample rate, pan law, protect, pan delay, longest delay, strength, plays, commands, budget, frames, voices,
@@ -389,32 +412,49 @@ EXPORT godot_variant pacini_godot_group_stop(const void* arguments)
 
 /* ---- Plays */
 
-/* engine, clip; then group, frame, gain, intensity, pan, delay, transposition, speed, from, loop, passes, priority,
- * headroom, fade in, variation, seed, each or null */
-EXPORT godot_variant pacini_godot_play_start(const void* arguments)
+/* Group, frame, gain, intensity, pan, delay, transposition, speed, from, loop, passes, priority, headroom, fade in,
+ * variation, seed from argument `at` on, each or null. */
+static pacini_play_settings settings_of(const void* arguments, int at)
 {
     pacini_play_settings settings;
-    pacini_play play = 0;
-    pacini_result result;
     pacini_play_settings_init(&settings);
-    GIVEN_COUNT(arguments, 2, settings.group);
-    GIVEN_LONG(arguments, 3, settings.frame, int64_t);
-    GIVEN(arguments, 4, settings.gain);
-    GIVEN(arguments, 5, settings.intensity);
-    GIVEN(arguments, 6, settings.pan);
-    GIVEN(arguments, 7, settings.delay);
-    GIVEN(arguments, 8, settings.transposition);
-    GIVEN(arguments, 9, settings.speed);
-    GIVEN(arguments, 10, settings.from);
-    GIVEN(arguments, 11, settings.loop);
-    GIVEN_COUNT(arguments, 12, settings.passes);
-    GIVEN_INT(arguments, 13, settings.priority);
-    GIVEN(arguments, 14, settings.headroom);
-    GIVEN(arguments, 15, settings.fade_in);
-    GIVEN(arguments, 16, settings.variation);
-    GIVEN_LONG(arguments, 17, settings.seed, uint64_t);
-    result =
+    GIVEN_COUNT(arguments, at, settings.group);
+    GIVEN_LONG(arguments, at + 1, settings.frame, int64_t);
+    GIVEN(arguments, at + 2, settings.gain);
+    GIVEN(arguments, at + 3, settings.intensity);
+    GIVEN(arguments, at + 4, settings.pan);
+    GIVEN(arguments, at + 5, settings.delay);
+    GIVEN(arguments, at + 6, settings.transposition);
+    GIVEN(arguments, at + 7, settings.speed);
+    GIVEN(arguments, at + 8, settings.from);
+    GIVEN(arguments, at + 9, settings.loop);
+    GIVEN_COUNT(arguments, at + 10, settings.passes);
+    GIVEN_INT(arguments, at + 11, settings.priority);
+    GIVEN(arguments, at + 12, settings.headroom);
+    GIVEN(arguments, at + 13, settings.fade_in);
+    GIVEN(arguments, at + 14, settings.variation);
+    GIVEN_LONG(arguments, at + 15, settings.seed, uint64_t);
+    return settings;
+}
+
+/* engine, clip; then settings */
+EXPORT godot_variant pacini_godot_play_start(const void* arguments)
+{
+    const pacini_play_settings settings = settings_of(arguments, 2);
+    pacini_play play = 0;
+    const pacini_result result =
         pacini_play_start((pacini_engine)to_int(arguments, 0), (pacini_clip)to_int(arguments, 1), &settings, &play);
+    return of_handle(result, play);
+}
+
+/* engine, texture, speed, force; then settings */
+EXPORT godot_variant pacini_godot_texture_start(const void* arguments)
+{
+    const pacini_play_settings settings = settings_of(arguments, 4);
+    pacini_play play = 0;
+    const pacini_result result =
+        pacini_texture_start((pacini_engine)to_int(arguments, 0), (pacini_texture)to_int(arguments, 1),
+                             to_real(arguments, 2), to_real(arguments, 3), &settings, &play);
     return of_handle(result, play);
 }
 

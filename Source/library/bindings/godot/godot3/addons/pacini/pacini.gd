@@ -13,7 +13,7 @@
 extends Reference
 
 const CONTROLS = ["gain", "intensity", "pan", "delay", "transposition", "speed", "priority", "tones", "events",
-	"noise"]
+	"noise", "texture_speed", "texture_force"]
 const PAN_LAWS = ["power", "delay", "both"]
 const STATES = ["ended", "waiting", "playing", "paused", "left out"]
 const HAPTICS = ["HD rumble", "DualShock 4", "DualSense", "Xbox", "waveforms", "Steam Controller", "Steam Deck"]
@@ -29,8 +29,8 @@ var _native
 func _init():
 	_native = Native.new()
 	var version = _native.run("version", [])
-	if version != null and (version < 1002 or version >= 2000):
-		_native.fail("libpacini has the interface %s, this script is for 1.2 or a newer 1.x" % (version / 1000.0))
+	if version != null and (version < 1003 or version >= 2000):
+		_native.fail("libpacini has the interface %s, this script is for 1.3 or a newer 1.x" % (version / 1000.0))
 
 var last_error setget , _get_last_error
 
@@ -47,6 +47,17 @@ func clip(path):
 func clip_from_bytes(bytes):
 	var handle = _native.run("clip_load", [bytes])
 	return HapticClip.new(_native, handle) if handle != null else null
+
+# What a hand feels of a surface, as `pacini texture analyse` makes it, of the game or of the system.
+func texture(path):
+	var file = File.new()
+	if file.open(path, File.READ) != OK:
+		return _native.fail("%s: cannot be read" % path)
+	return texture_from_bytes(file.get_buffer(file.get_len()))
+
+func texture_from_bytes(bytes):
+	var handle = _native.run("texture_load", [bytes])
+	return HapticTexture.new(_native, handle) if handle != null else null
 
 # `config` may have the keys of CONFIG, and actuators: each with profile, gain, delay. A scene is the path of a file of the
 # system: ProjectSettings.globalize_path() has it.
@@ -111,6 +122,25 @@ class HapticClip:
 		return done != null
 
 
+class HapticTexture:
+	var _native
+	var _handle
+
+	func _init(native, handle):
+		_native = native
+		_handle = handle
+
+	func _notification(what):
+		if what == NOTIFICATION_PREDELETE and _handle != 0:
+			_native.run("texture_release", [_handle])
+
+	# What plays of it goes on.
+	func release():
+		var done = _native.run("texture_release", [_handle])
+		_handle = 0
+		return done != null
+
+
 class HapticEngine:
 	var _native
 	var _handle
@@ -131,6 +161,15 @@ class HapticEngine:
 		if arguments == null:
 			return null
 		var handle = _native.run("play_start", [_handle, clip._handle] + arguments)
+		return HapticPlay.new(_native, handle) if handle != null else null
+
+	# Starts a texture, which plays until it is stopped. Set "texture_speed" and "texture_force" (0 to 1) whenever the hand
+	# moves. Of SETTINGS, transposition, speed, from, loop, passes, headroom and variation are without effect.
+	func play_texture(texture, speed = 0.0, force = 1.0, settings = {}):
+		var arguments = _native.values(SETTINGS, settings)
+		if arguments == null:
+			return null
+		var handle = _native.run("texture_start", [_handle, texture._handle, speed, force] + arguments)
 		return HapticPlay.new(_native, handle) if handle != null else null
 
 	# The next frames, frame by frame, all actuators in each.
