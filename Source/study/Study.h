@@ -4,7 +4,7 @@
 
 #include "study/Exposure.h"
 
-#include <pacini/synthesis/Scene.h>
+#include <pacini/synthesis/PanLaw.h>
 
 #include <cstddef>
 #include <cstdint>

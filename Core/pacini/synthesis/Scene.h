@@ -6,6 +6,7 @@
 #include <pacini/foundation/Portable.h>
 #include <pacini/foundation/Result.h>
 #include <pacini/foundation/Units.h>
+#include <pacini/synthesis/PanLaw.h>
 #include <pacini/synthesis/Roles.h>
 #include <pacini/synthesis/Variation.h>
 #include <pacini/texture/Texture.h>
@@ -22,14 +23,6 @@
 
 namespace pacini
 {
-
-/// Pan law: placement of a play between actuators, which form a row from pan 0 to pan 1.
-enum class PanLaw
-{
-    constantPower, ///< by level between the two nearest actuators; the power stays
-    delay,         ///< by time: equal levels, and the farther an actuator the later
-    both
-};
 
 /// One clip that plays, or a texture.
 struct ScenePlay
