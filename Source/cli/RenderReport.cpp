@@ -112,6 +112,7 @@ nlohmann::ordered_json planJson(const RenderResult& result, const CompileParams&
     plan["mostSounding"] = result.maxSounding;
     plan["tolerance"] = params.leaveOut ? Json(params.tolerance) : Json(nullptr);
     plan["predictedError"] = decibels(result.predictedError);
+    plan["culledError"] = decibels(result.culledError);
     if (result.measuredError)
         plan["measuredError"] = decibels(*result.measuredError);
     plan["leftOutCount"] = result.leftOut.size();
@@ -134,7 +135,11 @@ nlohmann::ordered_json planLists(const RenderResult& result)
     for (const Adaptation& item : result.adaptations)
         adaptations.push_back({{"where", item.where}, {"what", item.what}});
     for (const LeftOut& item : result.leftOut)
+    {
         leftOut.push_back({{"where", item.where}, {"reason", item.reason}, {"error", decibels(item.error)}});
+        if (item.unplayable)
+            leftOut.back()["unplayable"] = true;
+    }
     return {{"plays", plays}, {"adaptations", adaptations}, {"leftOut", leftOut}};
 }
 
@@ -165,6 +170,8 @@ std::string planText(const RenderResult& result, const CompileParams& params)
             text += fmt::format("\n    and {} more of the same kind", items.size() - maxShown);
     }
     text += "\n  predicted error: " + decibelText(result.predictedError);
+    if (result.predictedError > result.culledError) // and not both that nothing is lost
+        text += ", as the actuator cannot play everything; of the rest: " + decibelText(result.culledError);
     if (params.leaveOut)
         text += fmt::format(" (tolerance {:.1f} dB)", params.tolerance);
     if (result.measuredError)

@@ -174,6 +174,10 @@ class Scenes(Texture):
         self.assertEqual((play["texture"], play["speed"], play["force"]), (0, 0.5, 1))
         self.warns("render", "rub.json", "-o", "motor.wav", "--profile", "erm-coin",
                    says="rub.json: warning: plays[0] is a texture, which a motor cannot follow, so it is left out")
+        said = self.warns("render", "rub.json", "-o", "motor.wav", "-y", "--profile", "erm-coin", "--measured",
+                          says="plays[0] is a texture, which a motor cannot follow, so it is left out")
+        self.assertIn("predicted error: 0.0 dB, as the actuator cannot play everything; of the rest: nothing lost", said)
+        self.assertIn("plays[0] is a texture, which a motor cannot follow: 0.0 dB", said)
 
 
 class Overwriting(Texture):

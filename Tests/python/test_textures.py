@@ -44,7 +44,8 @@ class Textures(FolderTest):
     def test_what_a_motor_cannot_do_is_told(self):
         scene = pacini.Scene([], [{"texture": 0, "duration": 1}], textures=[self.texture])
         with self.assertWarnsRegex(UserWarning, r"plays\[0\] is a texture, which a motor cannot follow"):
-            pacini.render(scene, profile="erm-coin")
+            report = pacini.explain(scene, profile="erm-coin")
+        self.assertEqual(report.predicted_error, 0)
 
     def test_it_plays_by_arrays_of_each_frame_and_by_points(self):
         per_frame = self.texture.render(np.full(2 * RATE, 0.5), sample_rate=RATE)

@@ -226,6 +226,21 @@ TEST_CASE("A motor's strength is the envelope or the power of the bands, topped 
         CHECK(strength[n] == Approx(wanted));
     }
     CHECK(detail::wantedStrength(Clip{}, 0.001, 0.02) == std::vector<double>{0.0});
+
+    // Noise counts by its power without an envelope: an RMS value is 3 dB above that of a sine of this amplitude.
+    Clip rushing;
+    rushing.duration = 0.01;
+    rushing.bands = {fittedBand(100.0, 0.3)};
+    rushing.noise = {{500.0, 900.0, {{0.0, 0.1}}}, {20.0, 30.0, {{0.0, 0.2}}}};
+    for (const double s : detail::wantedStrength(rushing, 0.001, 0.02))
+        CHECK(s == Approx(std::sqrt(0.09 + 2.0 * (0.01 + 0.04))));
+    // Whatever frequencies it has: a motor has none.
+    Profile motor = fittedProfile();
+    motor.technology = Technology::erm;
+    const AdaptedClip turned = adaptClip(rushing, motor, onlyAdapting(true, true, false));
+    CHECK(turned.lost.empty());
+    REQUIRE(turned.clip.bands.size() == 1);
+    CHECK(valueAt(turned.clip.bands[0].amplitude, 0.005) == Approx(std::sqrt(0.19)));
 }
 
 TEST_CASE("A curve leaves out samples on a straight line, but none that is far from the one before", "[adaptation]")
@@ -261,7 +276,13 @@ TEST_CASE("Each part of the adaptation says what it did, and does only that", "[
         // Noise at the ends of the range stays.
         Clip edges = clip;
         edges.noise = {{20.0, 100.0, {}}, {300.0, 500.0, {}}, {20.0, 99.9, {}}, {300.1, 500.0, {}}};
-        CHECK(adaptClip(edges, profile, onlyAdapting(true, false, false)).clip.noise.size() == 2);
+        const AdaptedClip kept = adaptClip(edges, profile, onlyAdapting(true, false, false));
+        CHECK(kept.clip.noise.size() == 2);
+        // What is outside is handed out.
+        REQUIRE(kept.lost.size() == 2);
+        CHECK(kept.lost[0].index == 2);
+        CHECK(kept.lost[1].index == 3);
+        CHECK(kept.lost[1].band == edges.noise[3]);
         Clip within = clip;
         within.bands = {fittedBand(200.0, 0.5)};
         CHECK(adaptClip(within, profile, onlyAdapting(true, false, false)).changes.empty());

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
@@ -61,7 +62,7 @@ void pinPlan(const std::string& name, const RenderPlan& plan)
     {
         return std::isfinite(error) ? error : 0.0;
     };
-    std::vector<double> errors = {plan.duration, decibels(plan.predictedError)};
+    std::vector<double> errors = {plan.duration, decibels(plan.culledError)};
     for (const LeftOut& item : plan.leftOut)
         errors.push_back(decibels(item.error));
     checkPinned("synthesis/errors of a plan of " + name, errors, 1e-6);
@@ -293,6 +294,45 @@ TEST_CASE("A play is decoded with its pitch, speed and seed, at a rate for all i
     CHECK(compilePlan(scene, &profile, asItIs)->adaptations.empty());
 }
 
+TEST_CASE("The predicted error counts what an actuator cannot play beside what nobody feels", "[scene]")
+{
+    Profile profile = plannedProfile();
+    profile.polyphony = 1;
+    CompileParams params;
+    params.adaptation.maxBoost = Decibels(0.0);
+    params.adaptation.strength = 0.0;
+    params.adaptation.dynamicRange = false;
+    // Two equal plays on one voice: half of the energy has none, by the second half of one of them a quarter.
+    Scene scene = plannedScene(2);
+    scene.plays[1].priority = 1;
+    for (const double start : {0.0, 0.5})
+    {
+        scene.plays[1].start = start * scene.clips[0].duration;
+        const auto plan = compilePlan(scene, &profile, params);
+        REQUIRE(plan.ok());
+        CHECK(plan->predictedError == Approx(10.0 * std::log10(start > 0.0 ? 0.25 : 0.5)).margin(0.1));
+        CHECK(plan->culledError < -1000.0);
+    }
+    scene.plays[1].start = scene.clips[0].duration;
+    CHECK(compilePlan(scene, &profile, params)->predictedError < -1000.0);
+
+    // Noise outside the range, of as much power as the tone; bands within it stay.
+    Scene noisy = plannedScene(1);
+    Clip& clip = noisy.clips[0];
+    clip = plannedClip(150.0, 1.0, 0.2 * std::numbers::sqrt2);
+    clip.noise = {{profile.range.highFrequency + 10.0, profile.range.highFrequency + 50.0, {{0.0, 0.2}}}};
+    const auto plan = compilePlan(noisy, &profile, params);
+    REQUIRE(plan.ok());
+    REQUIRE(plan->leftOut.size() == 1);
+    CHECK(plan->leftOut[0].where == "plays[0].noise[0]");
+    CHECK(plan->leftOut[0].reason == "is noise outside the actuator's range");
+    CHECK(plan->leftOut[0].unplayable);
+    CHECK(plan->leftOut[0].error == Approx(10.0 * std::log10(0.5)).margin(0.1));
+    CHECK(plan->predictedError == plan->leftOut[0].error);
+    params.adapt = false;
+    CHECK(compilePlan(noisy, &profile, params)->predictedError < -1000.0);
+}
+
 TEST_CASE("A plan says what was adapted: clips, resonance and voices", "[scene]")
 {
     Profile profile = plannedProfile();
@@ -438,7 +478,7 @@ TEST_CASE("Plans are in order of start, and those behind limiters are what they 
                 REQUIRE(plan.ok());
                 for (std::size_t i = 1; i < plan->plays.size(); ++i)
                     CHECK(plan->plays[i - 1].start <= plan->plays[i].start);
-                CHECK(plan->predictedError <= tolerance);
+                CHECK(plan->culledError <= tolerance);
                 pinPlan("five plays, " + std::to_string(std::lround(gain)) + " dB to " +
                             std::to_string(std::lround(tolerance)) + " dB, " + std::to_string(which),
                         *plan);

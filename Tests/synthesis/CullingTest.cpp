@@ -186,6 +186,8 @@ TEST_CASE("Plays and bands are left out as long as their errors together stay be
     CHECK(plan.duration == 0.0);
     CHECK(plan.actuators == 1);
     CHECK_FALSE(plan.motor);
+    CHECK_FALSE(usual.unplayable);
+    CHECK(plan.culledError == 0.0);
     CHECK(plan.predictedError == 0.0);
     CHECK(PlannedPlay{}.play == 0);
     CHECK(PlannedPlay{}.start == 0.0);

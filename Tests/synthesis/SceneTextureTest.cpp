@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numbers>
 #include <span>
 #include <string>
 #include <vector>
@@ -142,6 +143,38 @@ TEST_CASE("What a texture adds is predicted: weak ones are left out, motors refu
     REQUIRE(refused.ok());
     REQUIRE(refused->leftOut.size() == 1);
     CHECK(refused->leftOut[0].reason.find("motor") != std::string::npos);
+    CHECK(refused->leftOut[0].unplayable);
+    CHECK(refused->leftOut[0].error == 0.0);
+    CHECK(refused->predictedError == 0.0);
+    CHECK(refused->culledError < -1000.0);
+    // Beside a clip it is as much of the whole as its power is, also when everything is to be played.
+    Scene both = rubbing(2.0);
+    Clip tone;
+    tone.duration = 2.0;
+    tone.bands = {{150.0, 150.0, 150.0, 0, {{0.0, 0.1 * std::numbers::sqrt2}, {2.0, 0.1 * std::numbers::sqrt2}}, {}}};
+    both.clips.push_back(tone);
+    both.plays.emplace_back();
+    both.plays[1].clip = 1;
+    motor.range.dynamicRange = 60.0;
+    for (const bool leaveOut : {true, false})
+    {
+        CompileParams params;
+        params.leaveOut = leaveOut;
+        params.adaptation.dynamicRange = false;
+        const auto mixed = compilePlan(both, &motor, params);
+        REQUIRE(mixed.ok());
+        REQUIRE(mixed->leftOut.size() == 1);
+        CHECK(mixed->leftOut[0].error == Approx(10.0 * std::log10(0.5)).margin(0.3));
+        CHECK(mixed->predictedError == Approx(mixed->leftOut[0].error));
+        CHECK(mixed->culledError < -1000.0);
+    }
+    // What is muted is not lost.
+    Scene muted = rubbing(2.0);
+    muted.plays[0].gain = -120.0;
+    const auto silent = compilePlan(muted, &motor);
+    REQUIRE(silent->leftOut.size() == 1);
+    CHECK(silent->leftOut[0].reason == "is muted");
+    CHECK(silent->predictedError < -1000.0);
     // With an actuator it goes through the output filter of all that plays.
     Profile lra;
     lra.technology = Technology::lra;

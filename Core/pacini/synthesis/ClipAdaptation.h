@@ -23,11 +23,19 @@
 namespace pacini
 {
 
+/// A band of noise that an actuator cannot play.
+struct LostNoise
+{
+    std::size_t index = 0; ///< in the clip as it was given
+    NoiseBand band;        ///< with its adapted level
+};
+
 /// A clip made for an actuator.
 struct AdaptedClip
 {
     Clip clip;
-    std::vector<std::string> changes; ///< the changes, in plain words
+    std::vector<std::string> changes = {}; ///< the changes, in plain words
+    std::vector<LostNoise> lost = {};      ///< outside the actuator's range, no longer in the clip
 };
 
 namespace detail
@@ -107,15 +115,17 @@ inline double peakOf(const Clip& clip)
     return peak;
 }
 
-/// Returns the strength over time for a motor: the envelope, plus a burst of `burst` seconds for every event. Sampled
-/// every `step` seconds, because the resulting drive has no straight lines.
+/// Returns the strength over time for a motor: the envelope (without one, that of bands and noise), plus a burst of
+/// `burst` seconds for every event. Sampled every `step` seconds, because the resulting drive has no straight lines.
 inline std::vector<double> wantedStrength(const Clip& clip, double step, double burst)
 {
     std::vector<double> strength(static_cast<std::size_t>(std::ceil(clip.duration / step)) + 1, 0.0);
     CurveReader envelope(clip.envelope);
-    std::vector<CurveReader> bands;
+    std::vector<CurveReader> bands, noise;
     for (const Band& band : clip.bands)
         bands.emplace_back(band.amplitude);
+    for (const NoiseBand& band : clip.noise)
+        noise.emplace_back(band.amplitude);
     for (std::size_t n = 0; n < strength.size(); ++n)
     {
         const double t = step * static_cast<double>(n);
@@ -126,6 +136,8 @@ inline std::vector<double> wantedStrength(const Clip& clip, double step, double 
             double power = 0.0;
             for (CurveReader& band : bands)
                 power += std::pow(band.at(t), 2.0);
+            for (CurveReader& band : noise)
+                power += 2.0 * std::pow(band.at(t), 2.0); // of an RMS value, not of a peak
             strength[n] = std::sqrt(power);
         }
     }
@@ -141,6 +153,23 @@ inline std::vector<double> wantedStrength(const Clip& clip, double step, double 
             strength[n] = std::max(strength[n], event.amplitude);
     }
     return strength;
+}
+
+/// Takes the bands of noise out of a clip that lie outside a range.
+inline std::vector<LostNoise> takeNoiseOutside(Clip& clip, const ActuatorRange& range)
+{
+    std::vector<LostNoise> lost;
+    std::vector<NoiseBand> kept;
+    for (std::size_t k = 0; k < clip.noise.size(); ++k)
+    {
+        NoiseBand& band = clip.noise[k];
+        if (band.highFrequency < range.lowFrequency || band.lowFrequency > range.highFrequency)
+            lost.push_back({k, std::move(band)});
+        else
+            kept.push_back(std::move(band));
+    }
+    clip.noise = std::move(kept);
+    return lost;
 }
 
 /// A curve through equally spaced samples without those that lie on a straight line (within `tolerance`).
@@ -169,11 +198,12 @@ inline Curve curveThrough(const std::vector<double>& samples, double step, doubl
 ///   turns it into voltage.
 [[nodiscard]] inline AdaptedClip adaptClip(Clip clip, const Profile& profile, const AdaptationParams& params = {})
 {
-    AdaptedClip result{std::move(clip), {}};
+    AdaptedClip result{std::move(clip)};
     Clip& adapted = result.clip;
     if (profile.technology == Technology::pcm)
         return result;
 
+    const bool becomesStrength = params.voices && profile.technology == Technology::erm;
     if (params.dynamicRange)
     {
         const Decibels felt(35.0); // that a sound's loudest part stands above what is just felt beside it
@@ -201,11 +231,8 @@ inline Curve curveThrough(const std::vector<double>& samples, double step, doubl
         for (Band& band : adapted.bands)
             if (detail::moveBand(band, map, reached.range))
                 ++moved;
-        std::erase_if(adapted.noise,
-                      [&](const NoiseBand& band) {
-                          return band.highFrequency < reached.range.lowFrequency ||
-                                 band.lowFrequency > reached.range.highFrequency;
-                      });
+        if (!becomesStrength)
+            result.lost = detail::takeNoiseOutside(adapted, reached.range);
         if (moved > 0)
             result.changes.push_back(std::to_string(moved) + " of " + std::to_string(adapted.bands.size()) +
                                      " bands are moved " +
@@ -221,7 +248,7 @@ inline Curve curveThrough(const std::vector<double>& samples, double step, doubl
                                  (adapted.bands.size() == 1 ? " voice" : " voices"));
     }
 
-    if (params.voices && profile.technology == Technology::erm)
+    if (becomesStrength)
     {
         constexpr double step = 0.001; // s
         const double burst = std::max(0.012, profile.response.riseTime);

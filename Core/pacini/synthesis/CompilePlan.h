@@ -48,8 +48,9 @@ inline double longestDelay(const PlayTimeline& timeline)
     return longest;
 }
 
-/// Takes the voices that an actuator does not have from the plays that need them least, and says so.
-inline void limitVoices(RenderPlan& plan, const Scene& scene, const Profile& profile, std::vector<PlayEnergy>& energies,
+/// Takes the voices that an actuator does not have from the plays that need them least, and says so. Returns the energy
+/// that is lost by it.
+inline double limitVoices(RenderPlan& plan, const Scene& scene, const Profile& profile, std::vector<PlayEnergy>& energies,
                         const BiquadCascadeCoefficients& outputFilter)
 {
     std::vector<VoiceClaim> claims;
@@ -64,6 +65,7 @@ inline void limitVoices(RenderPlan& plan, const Scene& scene, const Profile& pro
                           energies[i].most / std::max(end - planned.start, 1e-3)});
     }
     const auto losses = voiceLosses(claims, static_cast<std::size_t>(profile.polyphony));
+    double lostEnergy = 0.0;
     for (std::size_t i = 0; i < losses.size(); ++i)
     {
         if (losses[i].empty())
@@ -72,8 +74,10 @@ inline void limitVoices(RenderPlan& plan, const Scene& scene, const Profile& pro
         for (Curve& gain : planned.timeline.gains)
             gain = withoutVoice(gain, losses[i]);
         planned.timeline.level = withoutVoice(planned.timeline.level, losses[i]);
+        const double before = energies[i].most;
         energies[i] =
             playEnergy(planned.clip, planned.decoder, planned.timeline, planned.start, plan.duration, outputFilter);
+        lostEnergy += std::max(before - energies[i].most, 0.0);
         double lost = 0.0;
         for (const VoiceLoss& loss : losses[i])
             lost += loss.to - loss.from;
@@ -81,6 +85,7 @@ inline void limitVoices(RenderPlan& plan, const Scene& scene, const Profile& pro
             {indexed("plays", planned.play), "has no voice for " + std::to_string(std::lround(1000.0 * lost)) +
                                                  " ms: plays with higher priority or level use them"});
     }
+    return lostEnergy;
 }
 
 inline constexpr std::size_t maxUnrolledPoints = 20'000'000;
@@ -114,18 +119,50 @@ inline void fitPulses(DecoderParams& params, const Profile& profile, const Actua
 }
 
 /// Adapts the clips of a scene to the plan's actuator and records the changes.
-inline std::vector<Clip> adaptClips(RenderPlan& plan, const std::vector<Clip>& clips, const AdaptationParams& params)
+inline std::vector<AdaptedClip> adaptClips(RenderPlan& plan, const std::vector<Clip>& clips,
+                                           const AdaptationParams& params)
 {
-    std::vector<Clip> adapted;
+    std::vector<AdaptedClip> adapted;
     for (std::size_t i = 0; i < clips.size(); ++i)
     {
-        AdaptedClip fitted = adaptClip(clips[i], *plan.profile, params);
-        adapted.push_back(std::move(fitted.clip));
-        for (std::string& what : fitted.changes)
+        adapted.push_back(adaptClip(clips[i], *plan.profile, params));
+        for (std::string& what : adapted.back().changes)
             plan.adaptations.push_back({indexed("clips", i), std::move(what)});
     }
     return adapted;
 }
+
+/// Content of a scene that its actuator cannot play.
+class Unplayable
+{
+public:
+    /// What a play loses; `reason` in plain words.
+    void add(const std::string& where, std::string reason, double energy)
+    {
+        items.push_back({where, std::move(reason), energy, true});
+        lost += energy;
+    }
+
+    /// What is lost without an item of its own.
+    void add(double energy) { lost += energy; }
+
+    /// Lists the items in a plan, by the energy of all that was to be played.
+    void list(RenderPlan& plan, double whole) &&
+    {
+        for (LeftOut& item : items)
+        {
+            item.error = errorInDecibels(item.error, whole);
+            plan.leftOut.push_back(std::move(item));
+        }
+    }
+
+    /// Of all, (drive^2) s.
+    [[nodiscard]] double energy() const noexcept { return lost; }
+
+private:
+    std::vector<LeftOut> items; // with their energies
+    double lost = 0.0;
+};
 
 /// Flattens the actuator's resonance where that helps, as far as its strength allows, and notes it.
 inline void flatten(RenderPlan& plan, const ActuatorFit& fit)
@@ -299,11 +336,33 @@ inline Clip standIn(Clip clip, const ScenePlay& play, const PlayTimeline& timeli
     return clip;
 }
 
+/// The bands of noise of a play that its actuator cannot play. Errors: those of bakedClip().
+inline Result<void> findLostNoise(const RenderPlan& plan, const std::vector<LostNoise>& lost, const Clip& clip,
+                                  const ScenePlay& play, const PlayTimeline& timeline, const DecoderParams& decoder,
+                                  const std::string& where, const BiquadCascadeCoefficients& outputFilter,
+                                  std::size_t& points, Unplayable& unplayable)
+{
+    for (const LostNoise& noise : lost)
+    {
+        Clip alone;
+        alone.duration = clip.duration;
+        alone.noise = {noise.band};
+        const auto played = bakedClip(alone, play, timeline, plan.duration, where, points);
+        if (!played)
+            return played.error();
+        const double energy = playEnergy(*played, decoder, timeline, play.start, plan.duration, outputFilter).most;
+        if (energy > 0.0)
+            unplayable.add(where + indexed(".noise", noise.index), "is noise outside the actuator's range", energy);
+    }
+    return {};
+}
+
 /// Plans all plays that can be heard, from the clips as they are fitted to the actuator. Errors: those of
 /// bakedClip().
-inline Result<void> planPlays(RenderPlan& plan, const Scene& scene, const std::vector<Clip>& clips,
+inline Result<void> planPlays(RenderPlan& plan, const Scene& scene, const std::vector<AdaptedClip>& clips,
                               std::vector<PlayTimeline> timelines, const CompileParams& params,
-                              const std::optional<ActuatorFit>& fit)
+                              const std::optional<ActuatorFit>& fit, const BiquadCascadeCoefficients& outputFilter,
+                              Unplayable& unplayable)
 {
     std::size_t points = 0;
     std::vector<std::shared_ptr<const TextureTable>> textures(scene.textures.size());
@@ -311,18 +370,14 @@ inline Result<void> planPlays(RenderPlan& plan, const Scene& scene, const std::v
     {
         const ScenePlay& play = scene.plays[i];
         const std::string where = indexed("plays", i);
-        if (play.texture && plan.motor)
-        {
-            plan.leftOut.push_back({where, "is a texture, which a motor cannot follow", 0.0});
-            continue;
-        }
+        const Clip& clip = clips.empty() ? scene.clips[play.clip] : clips[play.clip].clip;
         if (params.leaveOut && !play.texture)
-            if (std::string why = whyUnheard(clips[play.clip], play, timelines[i], plan.duration); !why.empty())
+            if (std::string why = whyUnheard(clip, play, timelines[i], plan.duration); !why.empty())
             {
                 plan.leftOut.push_back({where, std::move(why), -std::numeric_limits<double>::infinity()});
                 continue;
             }
-        auto played = bakedClip(clips[play.clip], play, timelines[i], plan.duration, where, points);
+        auto played = bakedClip(clip, play, timelines[i], plan.duration, where, points);
         if (!played)
             return played.error();
         if (play.texture)
@@ -339,6 +394,18 @@ inline Result<void> planPlays(RenderPlan& plan, const Scene& scene, const std::v
                 }
         }
         DecoderParams decoder = planDecoder(plan, *played, play, params, fit);
+        if (play.texture && plan.motor)
+        {
+            const double energy =
+                playEnergy(*played, decoder, timelines[i], play.start, plan.duration, outputFilter).most;
+            unplayable.add(where, "is a texture, which a motor cannot follow", energy);
+            continue;
+        }
+        if (!clips.empty())
+            if (auto found = findLostNoise(plan, clips[play.clip].lost, clip, play, timelines[i], decoder, where,
+                                           outputFilter, points, unplayable);
+                !found)
+                return found.error();
         planRoles(plan, *played, timelines[i], where, params.leaveOut, decoder);
         plan.plays.push_back({i, std::move(*played), play.start, decoder, std::move(timelines[i]),
                               play.texture ? textures[*play.texture] : nullptr,
@@ -371,7 +438,7 @@ inline Result<void> planPlays(RenderPlan& plan, const Scene& scene, const std::v
         plan.profile = *profile;
     const bool adapts = profile != nullptr && params.adapt && profile->technology != Technology::pcm;
     plan.motor = adapts && params.adaptation.voices && profile->technology == Technology::erm;
-    std::vector<Clip> adapted;
+    std::vector<AdaptedClip> adapted;
     std::optional<ActuatorFit> fit;
     if (adapts)
     {
@@ -385,37 +452,41 @@ inline Result<void> planPlays(RenderPlan& plan, const Scene& scene, const std::v
     auto timelines = detail::planTimelines(plan, scene);
     if (!(plan.duration <= limits::duration))
         return Error{ErrorCode::tooLarge, "duration", "would be longer than 24 hours"};
+    const auto outputFilter = designOutputFilter(
+        {plan.profile ? plan.profile->equalizer : EqualizerSections{}, plan.flattening}, params.sampleRate);
+    detail::Unplayable unplayable;
     if (auto planned =
-            detail::planPlays(plan, scene, adapts ? adapted : scene.clips, std::move(timelines), params, fit);
+            detail::planPlays(plan, scene, adapted, std::move(timelines), params, fit, outputFilter, unplayable);
         !planned)
         return planned.error();
 
-    const auto outputFilter = designOutputFilter(
-        {plan.profile ? plan.profile->equalizer : EqualizerSections{}, plan.flattening}, params.sampleRate);
     std::vector<PlayEnergy> energies;
     for (const PlannedPlay& planned : plan.plays)
         energies.push_back(
             playEnergy(planned.clip, planned.decoder, planned.timeline, planned.start, plan.duration, outputFilter));
     if (adapts && params.adaptation.voices && profile->polyphony > 0 &&
         profile->polyphony < Profile::unlimitedPolyphony)
-        detail::limitVoices(plan, scene, *profile, energies, outputFilter);
-    plan.predictedError = -std::numeric_limits<double>::infinity();
+        unplayable.add(detail::limitVoices(plan, scene, *profile, energies, outputFilter));
+    double wholeError = 1.0, whole = 0.0, lost = 0.0;
+    if (params.leaveOut)
+        wholeError = detail::limitEnergies(plan, energies, profile);
+    for (const PlayEnergy& energy : energies)
+        whole += energy.least;
     if (params.leaveOut)
     {
-        const double wholeError = detail::limitEnergies(plan, energies, profile);
-        double whole = 0.0;
-        for (const PlayEnergy& energy : energies)
-            whole += energy.least;
-        double lost = detail::leaveOutWeak(plan, scene, energies, whole, params.tolerance);
+        lost = detail::leaveOutWeak(plan, scene, energies, whole, params.tolerance);
         if (plan.profile)
             lost += whole * wholeError *
                     detail::leaveOutFlatSections(plan, params.tolerance - Decibels::fromPower(wholeError).value,
                                                  params.sampleRate);
-        plan.predictedError = detail::errorInDecibels(lost, whole);
         for (PlannedPlay& planned : plan.plays)
             if (planned.texture && planned.clip.bands.empty())
                 planned.decoder.leftOut[Role::tones] = true;
     }
+    const double wanted = whole + unplayable.energy();
+    plan.culledError = detail::errorInDecibels(lost, whole);
+    plan.predictedError = detail::errorInDecibels(lost + unplayable.energy(), wanted);
+    std::move(unplayable).list(plan, wanted);
     std::stable_sort(plan.plays.begin(), plan.plays.end(),
                      [](const PlannedPlay& a, const PlannedPlay& b) { return a.start < b.start; });
     return plan;

@@ -160,8 +160,9 @@ struct RenderReport
     std::size_t keptPlays = 0;   ///< of the plan
     std::size_t maxSounding = 0; ///< decoders at a time
     double reduction = 0.0;      ///< dB, the most that was taken to keep within full drive and the profile's limits
-    double predictedError = 0.0; ///< dB, of all that is left out; -infinity: nothing is lost
-    std::optional<double> measuredError; ///< measured error of leaving out, dB, if requested
+    double culledError = 0.0;    ///< dB below all that the actuator can play, of what nobody feels; -infinity: none
+    double predictedError = 0.0; ///< dB below the whole, of that and of what the actuator cannot play
+    std::optional<double> measuredError; ///< what culledError predicts as measured, dB, if requested
     std::vector<Adaptation> adaptations;
     std::vector<LeftOut> leftOut;       ///< in order of error
     std::vector<DecodedPlay> decoded;   ///< in order of start; where they were to be described

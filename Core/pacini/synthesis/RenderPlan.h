@@ -40,6 +40,7 @@ struct LeftOut
     std::string where;  ///< such as `plays[3]` or `plays[3].bands[2]`
     std::string reason; ///< in plain words
     double error = 0.0; ///< largest error of leaving it out, dB below the whole scene's energy; -infinity = none
+    bool unplayable = false; ///< left out as the actuator cannot do it, not as nobody would feel it
     bool operator==(const LeftOut&) const = default;
 };
 
@@ -72,7 +73,9 @@ struct RenderPlan
     std::vector<PlannedPlay> plays; ///< in order of start
     std::vector<Adaptation> adaptations;
     std::vector<LeftOut> leftOut;
-    double predictedError = 0.0; ///< dB below the scene, of all left out, behind limiters; -infinity = nothing lost
+    double culledError = 0.0; ///< dB below all that the actuator can play, of what nobody feels and is left out, behind
+                              ///< limiters; at most the tolerance; -infinity = nothing lost
+    double predictedError = 0.0; ///< dB below the whole scene, of that and of what the actuator cannot play
 };
 
 /// The frames of a plan at `sampleRate` Hz; none at a rate that nothing plays at.

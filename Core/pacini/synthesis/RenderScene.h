@@ -155,6 +155,7 @@ inline Result<RenderPart> renderPart(const RenderParams& params, std::uint64_t t
     report.actuators = plan.actuators;
     report.frames = part->last - part->first;
     report.keptPlays = plan.plays.size();
+    report.culledError = plan.culledError;
     report.predictedError = plan.predictedError;
     if (auto begun = sink.begin(plan, report.frames); !begun)
         return begun.error();

@@ -87,13 +87,17 @@ Result<RenderedScene> rendered(Scene scene, const RenderOptions& options, Watch&
 nb::object handedOut(RenderedScene&& made)
 {
     const RenderReport& report = made.report;
-    nb::list adaptations, leftOut;
+    nb::list adaptations, leftOut, unplayable;
     for (const Adaptation& adaptation : report.adaptations)
         adaptations.append(nb::make_tuple(adaptation.where, adaptation.what));
     for (const LeftOut& item : report.leftOut)
+    {
         leftOut.append(nb::make_tuple(item.where, item.reason, item.error));
+        if (item.unplayable && item.where.find('.') == std::string::npos) // a whole play
+            unplayable.append(item.where + " " + item.reason);
+    }
     return nb::make_tuple(toArray(std::move(made.samples), {report.actuators, static_cast<std::size_t>(report.frames)}),
-                          report.reduction, report.predictedError, adaptations, leftOut);
+                          report.reduction, report.predictedError, adaptations, leftOut, unplayable);
 }
 
 /// "0" to the first of `clips`, and so on: a text of a scene names them so.

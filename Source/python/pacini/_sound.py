@@ -283,7 +283,7 @@ class RenderReport:
     reduction : float
         Largest gain reduction of the protection, dB.
     predicted_error : float
-        Error of what was left out, dB re the whole.
+        Error of what is not played, dB re the whole: of what nobody feels, and of what the actuator cannot play.
     adaptations : list of (str, str)
         What was fitted to the actuator, and why.
     left_out : list of (str, str, float)
@@ -312,10 +312,9 @@ def _rendered(
             made = _native.render_scene(content._handle, options, tell)
         else:
             raise Error("must be a Clip or a Scene", "content")
-    samples, reduction, error, adaptations, left_out = made
-    for where, reason, lost in left_out:
-        if lost >= 0:  # not as nobody feels it, but as the actuator cannot do it
-            warnings.warn(f"{where} {reason}, so it is left out", stacklevel=3)
+    samples, reduction, error, adaptations, left_out, unplayable = made
+    for what in unplayable:
+        warnings.warn(f"{what}, so it is left out", stacklevel=3)
     signal = samples[0] if isinstance(content, Clip) or samples.shape[0] == 1 else samples
     return signal.astype(wanted, copy=False), RenderReport(reduction, error, adaptations, left_out)
 

@@ -298,8 +298,9 @@ export interface Rendered {
   frames: number
   /** dB, the most that was taken to keep the actuator whole. */
   reduction: number
+  /** dB below the whole, of all that is not played: what nobody feels, and what the actuator cannot play. */
   predictedError: number
-  leftOut: { where: string, reason: string, error: number }[]
+  leftOut: { where: string, reason: string, error: number, unplayable: boolean }[]
   adaptations: { where: string, what: string }[]
 }
 export function render(clip: ClipInput, options?: RenderOptions): Promise<Rendered>

@@ -9,6 +9,8 @@
 #include "editor/clip/sheets/OverwriteQuestion.h"
 #include "io/SceneFile.h"
 
+#include <pacini/synthesis/CompileParams.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -235,7 +237,7 @@ void SceneSheet::plan()
                      text = tr("No clips yet");
                  else if (!found)
                      text = translateMessage(toText(found.error().text()));
-                 else if (scene.leftOut.empty() && scene.bands == 0)
+                 else if (scene.leftOut.empty() && scene.bands == 0 && !(scene.error > CompileParams().tolerance))
                      text << ", " << tr("all of them are felt");
                  else
                      text << ", "
