@@ -3,6 +3,7 @@
 #include "support/Catch.h"
 #include "support/Measure.h"
 
+#include <pacini/synthesis/RenderScene.h>
 #include <pacini/synthesis/RenderTexture.h>
 #include <pacini/synthesis/TextureVoice.h>
 #include <pacini/synthesis/VariationSeed.h>
@@ -59,8 +60,8 @@ std::vector<float> voicePlays(TextureVoice& voice, std::int64_t first, std::size
     for (std::size_t n = 0; n < frames; n += block)
     {
         const std::size_t count = std::min(block, frames - n);
-        voice.add(std::span(out).subspan(n, count), first + static_cast<std::int64_t>(n),
-                  static_cast<std::int64_t>(n), static_cast<std::int64_t>(frames), gains);
+        voice.add(std::span(out).subspan(n, count), first + static_cast<std::int64_t>(n), static_cast<std::int64_t>(n),
+                  static_cast<std::int64_t>(frames), gains);
     }
     return out;
 }
@@ -206,7 +207,8 @@ TEST_CASE("Live glides of a texture move on with the frames that are heard", "[s
     CHECK(test::rms(std::span(fading).subspan(1000)) == 0.0);
 }
 
-TEST_CASE("A rendered texture is its player with its gain, without delay, as long as it is told", "[synthesis][texture]")
+TEST_CASE("A rendered texture is its player with its gain, without delay, as long as it is told",
+          "[synthesis][texture]")
 {
     Texture texture;
     texture.nodes.push_back({0.5, 0.1, {-0.6, 0.8}});
@@ -243,9 +245,9 @@ TEST_CASE("A rendered texture is its player with its gain, without delay, as lon
     }
     double difference = 0.0;
     for (std::size_t n = 0; n < 4000; ++n)
-        difference = std::max(difference, std::abs(static_cast<double>(samples[n]) -
-                                                   Decibels(-6.0).gain() *
-                                                       static_cast<double>(wanted[n + player.latencyFrames()])));
+        difference = std::max(
+            difference, std::abs(static_cast<double>(samples[n]) -
+                                 Decibels(-6.0).gain() * static_cast<double>(wanted[n + player.latencyFrames()])));
     CHECK(difference < 1e-6);
 
     // Longer than the course it holds its last speed; a force of a quarter is half as strong.
@@ -284,6 +286,65 @@ TEST_CASE("A rendered texture is its player with its gain, without delay, as lon
     const auto failed = renderTexture(texture, {{{0.0, 0.5}}, {}}, params, 7, nullptr, full);
     REQUIRE_FALSE(failed.ok());
     CHECK(failed.error().where == "disk");
+}
+
+TEST_CASE("A texture that is rendered alone is the scene of it, at every level", "[synthesis][texture]")
+{
+    Profile lra;
+    lra.technology = Technology::lra;
+    lra.resonance = {150.0, 10.0};
+    Profile equalized = lra;
+    EqualizerSection section;
+    section.type = EqualizerType::peak;
+    section.frequency = 140.0;
+    section.gain = -12.0;
+    equalized.equalizer.pushBack(section);
+    const std::array<const Profile*, 3> profiles{nullptr, &lra, &equalized};
+    for (const double level : {0.05, 5.0})
+    {
+        std::vector<float> plain;
+        for (const Profile* profile : profiles)
+        {
+            CAPTURE(profile == &lra, profile == &equalized, level);
+            Scene scene;
+            scene.textures.emplace_back();
+            scene.textures[0].nodes.push_back({0.5, level, {-0.6, 0.8}});
+            scene.clips.emplace_back();
+            scene.clips[0].duration = 2.0;
+            scene.plays.emplace_back();
+            scene.plays[0].texture = 0;
+            scene.plays[0].variation.seed = 7;
+            RenderParams params;
+            params.compile.sampleRate = fs;
+            const auto whole = renderScene(scene, profile, params);
+            REQUIRE(whole.ok());
+            TextureRenderParams alone;
+            alone.sampleRate = fs;
+            alone.duration = 2.0;
+            std::vector<float> samples;
+            const auto report = renderTexture(scene.textures[0], {{{0.0, 0.5}}, {}}, alone, 7, profile,
+                                              [&](std::span<const float> block, double) -> Result<void>
+                                              {
+                                                  samples.insert(samples.end(), block.begin(), block.end());
+                                                  return {};
+                                              });
+            REQUIRE(report.ok());
+            REQUIRE(samples.size() == whole->samples.size());
+            const auto middle = [](const std::vector<float>& x)
+            {
+                return std::span(x).subspan(8000, 7900); // what the fades leave in filters and limiters is over
+            };
+            // A scene flattens a resonance by its strength.
+            if (profile != &lra)
+                CHECK(largestDifference(middle(samples), middle(whole->samples)) < 1e-4f);
+            else
+                CHECK(largestDifference(middle(samples), middle(plain)) > 0.01f);
+            if (profile == nullptr)
+                plain = samples;
+            CHECK(test::rms(middle(samples)) > 0.01);
+            CHECK(report->peak <= 1.0 + 1e-6);
+        }
+    }
 }
 
 TEST_CASE("Seeds of plays are those of the hash, the first play keeps its own", "[synthesis]")

@@ -50,8 +50,8 @@ inline double longestDelay(const PlayTimeline& timeline)
 
 /// Takes the voices that an actuator does not have from the plays that need them least, and says so. Returns the energy
 /// that is lost by it.
-inline double limitVoices(RenderPlan& plan, const Scene& scene, const Profile& profile, std::vector<PlayEnergy>& energies,
-                        const BiquadCascadeCoefficients& outputFilter)
+inline double limitVoices(RenderPlan& plan, const Scene& scene, const Profile& profile,
+                          std::vector<PlayEnergy>& energies, const BiquadCascadeCoefficients& outputFilter)
 {
     std::vector<VoiceClaim> claims;
     for (std::size_t i = 0; i < plan.plays.size(); ++i)

@@ -37,9 +37,9 @@ struct PlannedPlay
 /// Report of culling: something that is not played.
 struct LeftOut
 {
-    std::string where;  ///< such as `plays[3]` or `plays[3].bands[2]`
-    std::string reason; ///< in plain words
-    double error = 0.0; ///< largest error of leaving it out, dB below the whole scene's energy; -infinity = none
+    std::string where;       ///< such as `plays[3]` or `plays[3].bands[2]`
+    std::string reason;      ///< in plain words
+    double error = 0.0;      ///< largest error of leaving it out, dB below the whole scene's energy; -infinity = none
     bool unplayable = false; ///< left out as the actuator cannot do it, not as nobody would feel it
     bool operator==(const LeftOut&) const = default;
 };

@@ -77,10 +77,8 @@ Result<void> renderClipOrScene(Call& call)
     const RenderReport& report = rendered->report;
     Json leftOut = Json::array(), adaptations = Json::array();
     for (const LeftOut& item : report.leftOut)
-        leftOut.push_back({{"where", item.where},
-                           {"reason", item.reason},
-                           {"error", item.error},
-                           {"unplayable", item.unplayable}});
+        leftOut.push_back(
+            {{"where", item.where}, {"reason", item.reason}, {"error", item.error}, {"unplayable", item.unplayable}});
     for (const Adaptation& item : report.adaptations)
         adaptations.push_back({{"where", item.where}, {"what", item.what}});
     call.value = {{"actuators", report.actuators}, {"predictedError", report.predictedError},
