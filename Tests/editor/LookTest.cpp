@@ -2,6 +2,8 @@
 
 #include "editor/Bench.h"
 #include "editor/Icons.h"
+#include "editor/LineBreaks.h"
+#include "editor/Text.h"
 #include "editor/Translation.h"
 
 #include <set>
@@ -209,4 +211,29 @@ TEST_CASE("The text of a menu is one line, cut at its end, however tall the box 
             REQUIRE(picture.getPixelAt(x, y) == picture.getPixelAt(12, y));
         }
     box.setLookAndFeel(nullptr);
+}
+
+TEST_CASE("A text without spaces is broken where it would be cut, and no line begins with a mark that closes")
+{
+    const juce::ScopedJuceInitialiser_GUI gui;
+    const juce::String text =
+        editor::toText("私は自分の意思で参加し、理由を述べずにいつでも中止できることを理解しています。"
+                       "回答は仮名（Weber 2020）で保存されます。\n終わり");
+    const auto font = editor::usualFont();
+    for (const float width : {80.0f, 200.0f, 333.0f})
+    {
+        const auto broken = editor::withLineBreaks(text, font, width);
+        CHECK(broken.removeCharacters("\n") == text.removeCharacters("\n"));
+        const auto lines = juce::StringArray::fromLines(broken);
+        CHECK(lines.size() > 2);
+        for (const auto& line : lines)
+        {
+            CAPTURE(line);
+            CHECK(font.getStringWidthFloat(line) <= width + (line.containsChar('W') ? 80.0f : 0.0f));
+            CHECK_FALSE(line.startsWith(editor::toText("、")));
+            CHECK_FALSE(line.startsWith(editor::toText("。")));
+        }
+    }
+    CHECK(editor::withLineBreaks("In English, spaces are enough to break a line", font, 60.0f) ==
+          "In English, spaces are enough to break a line");
 }

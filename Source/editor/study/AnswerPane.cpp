@@ -2,6 +2,7 @@
 #include "editor/study/AnswerPane.h"
 
 #include "editor/Controls.h"
+#include "editor/LineBreaks.h"
 #include "editor/Text.h"
 #include "editor/Theme.h"
 #include "editor/Translation.h"
@@ -28,23 +29,15 @@ juce::Font participantTitleFont()
 
 void LargeButton::setLit(bool isLit)
 {
-    if (std::exchange(lit, isLit) != isLit)
-        repaint();
+    setToggleState(isLit, juce::dontSendNotification);
 }
 
 void LargeButton::paintButton(juce::Graphics& g, bool over, bool down)
 {
-    const Palette& palette = paletteFor(*this);
-    const auto area = getLocalBounds().toFloat().reduced(1.5f);
-    g.setColour(lit ? palette.accent : down ? palette.well : over ? palette.line : palette.card);
-    g.fillRoundedRectangle(area, 6.0f);
-    g.setColour(isEnabled() ? palette.accent : palette.line);
-    g.drawRoundedRectangle(area, 6.0f, 1.5f);
-    g.setColour(lit ? palette.background : isEnabled() ? palette.text : palette.dim);
+    getLookAndFeel().drawButtonBackground(g, *this, {}, over, down);
+    g.setColour(buttonTextColour(*this));
     g.setFont(participantFont());
-    g.drawFittedText(getButtonText(), getLocalBounds().reduced(8, 2), juce::Justification::centred, 2, 0.8f);
-    if (hasKeyboardFocus(true))
-        drawFocusRing(g, *this, area);
+    g.drawFittedText(getButtonText(), getLocalBounds().reduced(grid, 2), juce::Justification::centred, 2, 1.0f);
 }
 
 void Paragraph::setText(const juce::String& wanted)
@@ -58,7 +51,7 @@ void Paragraph::setText(const juce::String& wanted)
 juce::TextLayout Paragraph::layoutFor(int width, juce::Colour colour) const
 {
     juce::AttributedString styled;
-    styled.append(content, font, colour);
+    styled.append(withLineBreaks(content, font, static_cast<float>(width)), font, colour);
     styled.setLineSpacing(4.0f);
     juce::TextLayout layout;
     layout.createLayout(styled, static_cast<float>(width));

@@ -65,9 +65,6 @@ public:
     using juce::TextButton::TextButton;
     void paintButton(juce::Graphics& g, bool over, bool down) override;
     void setLit(bool isLit);
-
-private:
-    bool lit = false;
 };
 
 /// A text of several lines, which screen readers read as one.

@@ -170,7 +170,7 @@ void StudyPage::show(State wanted)
     case State::stopped:
         buildText(tr("Stopped"), tr("Nothing plays. Your answers so far are kept."));
         nextButton = &addButton(tr("Continue"), [this] { show(before); });
-        addButton(tr("End"),
+        addButton(tr("End the session"),
                   [this]
                   {
                       (void)running->session().note("stopped by the participant");
@@ -188,6 +188,8 @@ void StudyPage::show(State wanted)
                                 });
         break;
     }
+    if (nextButton != nullptr && now != State::consent) // both answers of which look alike
+        makePrimary(*nextButton);
     wasReady = false;
     resized();
     repaint();
