@@ -104,6 +104,15 @@ inline void prepareLabel(juce::Label& label, const juce::String& text, const juc
     return std::max(least, font.getStringWidth(button.getButtonText()) + 24);
 }
 
+/// The width of a column of labels that shows all of their texts, `least` to `most`.
+[[nodiscard]] inline int labelsWidth(std::initializer_list<const juce::Label*> labels, int least, int most)
+{
+    int widest = 0;
+    for (const juce::Label* label : labels)
+        widest = std::max(widest, label->getFont().getStringWidth(label->getText()));
+    return std::clamp(widest + 8, least, most);
+}
+
 /// Adds children in this order, visible.
 inline void addAll(juce::Component& parent, std::initializer_list<juce::Component*> children)
 {

@@ -18,7 +18,7 @@ namespace pacini::editor
 namespace
 {
 constexpr int rowHeight = 3 * grid;
-constexpr int preferredHeight = 88 * grid;
+constexpr int preferredHeight = 90 * grid;
 constexpr int labelWidth = 9 * grid;
 constexpr int pause = 350; // ms without a change
 constexpr int logarithmic = 1, linear = 2;
@@ -363,7 +363,7 @@ void AnalysisPanel::resized()
         area.removeFromTop(grid);
         return insideOfCard(place);
     };
-    auto inside = card(soundCard, 20 * grid);
+    auto inside = card(soundCard, 18 * grid);
     auto line = inside.removeFromBottom(rowHeight + 4);
     if (findButton.isVisible())
     {
@@ -373,7 +373,12 @@ void AnalysisPanel::resized()
     replaceButton.setBounds(line);
     state.setBounds(inside.withTrimmedBottom(grid));
 
-    inside = card(settingsCard, 45 * grid);
+    // In words that are too long for one line the two buttons stand above each other.
+    const int resetWidth = buttonWidth(resetButton, 7 * grid);
+    const bool stacked =
+        usualFont().getStringWidth(normalise.getButtonText()) + 2 * grid + resetWidth > insideOfCard(area).getWidth();
+    const int labels = labelsWidth({&presetLabel, &spacingLabel}, labelWidth, 12 * grid);
+    inside = card(settingsCard, (stacked ? 49 : 45) * grid);
     const auto row = [&]
     {
         auto next = inside.removeFromTop(rowHeight + 4);
@@ -381,27 +386,33 @@ void AnalysisPanel::resized()
         return next;
     };
     line = row();
-    presetLabel.setBounds(line.removeFromLeft(labelWidth));
+    presetLabel.setBounds(line.removeFromLeft(labels));
     preset.setBounds(line);
     for (const Which which : {bands, low, high})
     {
         line = row();
-        knobs[which].name.setBounds(line.removeFromLeft(labelWidth - grid));
+        knobs[which].name.setBounds(line.removeFromLeft(labels - grid));
         knob(which).setBounds(line);
     }
     line = row();
-    spacingLabel.setBounds(line.removeFromLeft(labelWidth));
+    spacingLabel.setBounds(line.removeFromLeft(labels));
     spacing.setBounds(line);
     for (const Which which : {detail, sensitivity, audible, bits})
     {
         line = row();
-        knobs[which].name.setBounds(line.removeFromLeft(labelWidth - grid));
+        knobs[which].name.setBounds(line.removeFromLeft(labels - grid));
         knob(which).setBounds(line);
     }
     line = row();
-    resetButton.setBounds(line.removeFromRight(7 * grid));
+    if (stacked)
+    {
+        normalise.setBounds(line);
+        line = row();
+    }
+    resetButton.setBounds(stacked ? line : line.removeFromRight(resetWidth));
     line.removeFromRight(grid / 2);
-    normalise.setBounds(line);
+    if (!stacked)
+        normalise.setBounds(line);
     edits.setBounds(card(editsCard, area.getHeight()));
 }
 

@@ -32,7 +32,7 @@ int nearest(const Values& values, double wanted)
 }
 } // namespace
 
-PreferencesSheet::PreferencesSheet(EditorView& shown) : Sheet("Preferences", 560, 640), view(shown)
+PreferencesSheet::PreferencesSheet(EditorView& shown) : Sheet("Preferences", 520, 640), view(shown)
 {
     ViewState& viewState = view.session().viewState;
     if (view.hostServices().chooseLanguage)

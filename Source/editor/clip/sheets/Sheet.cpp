@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/clip/sheets/Sheet.h"
 
+#include "editor/LineBreaks.h"
 #include "editor/Theme.h"
 #include "editor/Translation.h"
 
@@ -131,8 +132,26 @@ bool Sheet::keyPressed(const juce::KeyPress& key)
     return key.getKeyCode() != juce::KeyPress::tabKey;
 }
 
+namespace
+{
+constexpr int messageWidth = 560;
+
+/// The height of a message, so that a short one does not scroll.
+int messageHeight(const juce::String& text)
+{
+    constexpr int least = 26 * grid, most = 60 * grid;
+    constexpr int around = 16 * grid; // title, answers and margins
+    constexpr float beside = 8.0f * grid;
+    juce::AttributedString words;
+    words.append(withLineBreaks(text, usualFont(), messageWidth - beside), usualFont());
+    juce::TextLayout layout;
+    layout.createLayout(words, messageWidth - beside);
+    return juce::jlimit(least, most, around + static_cast<int>(layout.getHeight()) + grid);
+}
+} // namespace
+
 MessageSheet::MessageSheet(const juce::String& title, const juce::String& text, std::vector<Answer> answers)
-    : Sheet(translateMessage(title), 560, 208)
+    : Sheet(translateMessage(title), messageWidth, messageHeight(translateMessage(text)))
 {
     words.setMultiLine(true);
     words.setReadOnly(true);

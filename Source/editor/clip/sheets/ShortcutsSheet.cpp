@@ -19,7 +19,7 @@ namespace pacini::editor
 namespace
 {
 constexpr int shortcutRowHeight = 3 * grid;
-constexpr int keyWidth = 25 * grid;
+constexpr int keyWidth = 24 * grid;
 constexpr std::array<std::pair<const char*, const char*>, 13> gestures{{
     {"Double-click", "Adds a point or a transient"},
     {"Drag a point", "Moves the selection; Shift: one direction only, Alt: no snapping"},
@@ -63,7 +63,7 @@ public:
             {
                 g.setColour(p.accent);
                 g.setFont(usualFont().boldened());
-                g.drawText(one.key, row, juce::Justification::bottomLeft);
+                g.drawText(one.key, row.withTrimmedLeft(grid / 2), juce::Justification::bottomLeft);
                 continue;
             }
             const bool isChosen = chosen == i;
@@ -237,7 +237,7 @@ private:
     bool waits = false; ///< for a key of the chosen row
 };
 
-ShortcutsSheet::ShortcutsSheet(Menus& menus) : Sheet("Keyboard and mouse", 760, 600)
+ShortcutsSheet::ShortcutsSheet(Menus& menus) : Sheet("Keyboard and mouse", 864, 600)
 {
     auto* table = new Table(menus);
     table->say = [this](const juce::String& text)
