@@ -89,6 +89,38 @@ constexpr auto panChoices = []
     return choices;
 }();
 
+template <typename Visitor>
+void checkRange(Visitor& visitor, const char* name, double value, double lowest, double highest)
+{
+    if (!(value >= lowest && value <= highest))
+        visitor.fail(name, fmt::format("must be {:g} to {:g}", lowest, highest), ErrorCode::invalidArgument);
+}
+
+template <typename Character, typename Visitor>
+void visitCharacter(Character& character, Visitor& visitor)
+{
+    visitor.number("gain", character.gain, Need::usual);
+    visitor.number("intensity", character.intensity, Need::usual);
+    visitor.number("transposition", character.transposition, Need::usual);
+    visitor.number("speed", character.speed, Need::usual);
+    if constexpr (!std::is_const_v<Character>)
+    {
+        using C = CharacterSettings;
+        checkRange(visitor, "gain", character.gain, C::leastGain, C::mostGain);
+        checkRange(visitor, "intensity", character.intensity, 0.0, 1.0);
+        checkRange(visitor, "transposition", character.transposition, -C::mostTransposition, C::mostTransposition);
+        checkRange(visitor, "speed", character.speed, C::leastSpeed, C::mostSpeed);
+    }
+}
+
+/// The object of a settings file.
+Result<nlohmann::json> readSettingsObject(const std::filesystem::path& path)
+{
+    const auto text = readWholeFile(path, largestSettingsText);
+    return text ? readJsonObject(*text, largestSettingsText, "must be an object in braces")
+                : Result<nlohmann::json>(text.error());
+}
+
 template <typename Output, typename Visitor>
 void visitOutput(Output& output, Visitor& visitor)
 {
@@ -101,15 +133,10 @@ void visitOutput(Output& output, Visitor& visitor)
     if constexpr (!std::is_const_v<Output>)
     {
         output.channel = channel - 1;
-        const auto check = [&](const char* name, double value, double lowest, double highest)
-        {
-            if (!(value >= lowest && value <= highest))
-                visitor.fail(name, fmt::format("must be {:g} to {:g}", lowest, highest), ErrorCode::invalidArgument);
-        };
-        check("channel", channel, 0.0, 256.0);
-        check("gain", output.gain, -60.0, 0.0);
-        check("delay", output.delay, 0.0, 0.5);
-        check("position", output.place, 0.0, 1.0);
+        checkRange(visitor, "channel", channel, 0.0, 256.0);
+        checkRange(visitor, "gain", output.gain, -60.0, 0.0);
+        checkRange(visitor, "delay", output.delay, 0.0, 0.5);
+        checkRange(visitor, "position", output.place, 0.0, 1.0);
     }
 }
 } // namespace
@@ -126,9 +153,7 @@ std::string outputSettings(const OutputSettings& settings)
 
 Result<OutputSettings> readOutputSettings(const std::filesystem::path& path)
 {
-    const auto text = readWholeFile(path, largestSettingsText);
-    const auto document = text ? readJsonObject(*text, largestSettingsText, "must be an object in braces")
-                               : Result<nlohmann::json>(text.error());
+    const auto document = readSettingsObject(path);
     if (!document)
         return document.error();
     FieldsReader reader(*document);
@@ -144,6 +169,32 @@ Result<OutputSettings> readOutputSettings(const std::filesystem::path& path)
         return *reader.error;
     if (pan != noLaw)
         settings.pan = static_cast<PanLaw>(pan);
+    return settings;
+}
+
+std::string characterSettings(const CharacterSettings& settings)
+{
+    FieldsWriter writer(FieldsWriter::Layout::spaced);
+    writer.format({settingsFormat.name, settingsFormat.version});
+    writer.object("character", settings, Need::usual,
+                  [&](const CharacterSettings& character) { visitCharacter(character, writer); });
+    return std::move(writer).document();
+}
+
+Result<CharacterSettings> readCharacterSettings(const std::filesystem::path& path)
+{
+    const auto document = readSettingsObject(path);
+    if (!document)
+        return document.error();
+    FieldsReader reader(*document);
+    reader.format(settingsFormat.name, settingsFormat.version);
+    CharacterSettings settings;
+    if (!reader.error && !document->contains("character"))
+        reader.fail("character", "is missing: these are no settings of the character");
+    reader.object("character", settings, Need::optional,
+                  [&](CharacterSettings& character) { visitCharacter(character, reader); });
+    if (reader.error)
+        return *reader.error;
     return settings;
 }
 

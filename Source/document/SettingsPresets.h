@@ -1,6 +1,7 @@
 #pragma once
 
-// Presets that the user has saved, of the analysis and of the outputs: settings files (pacini.settings) in a folder.
+// Presets that the user has saved, of the analysis, of the outputs and of the live character: settings files
+// (pacini.settings) in a folder.
 
 #include "document/HapticOutput.h"
 
@@ -65,5 +66,27 @@ struct OutputSettings
 /// The part `outputs` of a settings file: 1 to 8 of them, with values that are allowed. Errors: io as in readWholeFile,
 /// those of FieldsReader, and invalidData at `outputs` where there is none.
 [[nodiscard]] Result<OutputSettings> readOutputSettings(const std::filesystem::path& path);
+
+/// How clips are played: what changes at once, while the clip stays as it is.
+struct CharacterSettings
+{
+    static constexpr double leastGain = -40.0, mostGain = 12.0; ///< dB; the least is silence
+    static constexpr double mostTransposition = 24.0;           ///< semitones, up and down
+    static constexpr double leastSpeed = 0.25, mostSpeed = 4.0;
+
+    double gain = 0.0;          ///< dB
+    double intensity = 1.0;     ///< 0 to 1
+    double transposition = 0.0; ///< semitones
+    double speed = 1.0;         ///< 1: as the clip is
+    bool operator==(const CharacterSettings&) const = default;
+};
+
+/// The text of a settings file whose part `character` has these.
+[[nodiscard]] std::string characterSettings(const CharacterSettings& settings);
+
+/// The part `character` of a settings file; what it does not state is as a new clip has it. Errors: io as in
+/// readWholeFile, those of FieldsReader, invalidArgument for values out of their ranges, and invalidData at `character`
+/// where there is none.
+[[nodiscard]] Result<CharacterSettings> readCharacterSettings(const std::filesystem::path& path);
 
 } // namespace pacini

@@ -3,6 +3,7 @@
 #include "editor/Bench.h"
 #include "editor/Pump.h"
 #include "editor/clip/panels/AnalysisPanel.h"
+#include "editor/clip/panels/PlayPanel.h"
 #include "editor/clip/panels/ProjectPanel.h"
 #include "editor/clip/session/ClipSteps.h"
 #include "io/AudioWriter.h"
@@ -460,6 +461,72 @@ TEST_CASE("No control of the pages is cut off or lies on another, at any size")
                         CHECK_FALSE(children[i]->getBounds().intersects(children[k]->getBounds()));
             }
         }
+}
+
+TEST_CASE(
+    "Live controls are kept as presets: settings files that the Play page offers and refuses where they are broken")
+{
+    const TempFolder folder;
+    EditorBench bench;
+    editor::HostServices around;
+    around.characterPresetFolder = folder / "presets";
+    editor::EditorView view(bench.session, around);
+    view.setBounds(0, 0, 1280, 800);
+    editor::PlayPanel panel(view);
+    panel.setSize(240, 480);
+    auto& preset = get<juce::ComboBox>(panel, "Preset");
+    CHECK(preset.getText() == "Neutral");
+    const auto slide = [&](const char* name, double value)
+    {
+        get<juce::Slider>(panel, name).setValue(value, juce::sendNotificationSync);
+    };
+    slide("Gain", -6.5);
+    slide("Intensity", 70.0);
+    slide("Pitch", 7.0);
+    slide("Speed", 0.5);
+    CHECK(preset.getText() == "Custom");
+    panel.saveAs("slow and deep");
+    CHECK(preset.getText() == "slow and deep");
+    const auto read = readCharacterSettings(folder / "presets" / "slow and deep.json");
+    REQUIRE(read);
+    CHECK(*read == CharacterSettings{-6.5, 0.7, 7.0, 0.5});
+    preset.setSelectedId(1, juce::sendNotificationSync);
+    CHECK(bench.session.transport.controls().speed == 1.0);
+    CHECK(preset.getText() == "Neutral");
+    int own = 0;
+    for (int i = 0; i < preset.getNumItems(); ++i)
+        if (preset.getItemText(i) == "slow and deep")
+            own = preset.getItemId(i);
+    REQUIRE(own != 0);
+    preset.setSelectedId(own, juce::sendNotificationSync);
+    CHECK(bench.session.transport.controls().speed == 0.5);
+    CHECK(bench.session.transport.controls().transposition == 7.0);
+    CHECK(get<juce::Slider>(panel, "Gain").getValue() == -6.5);
+    CHECK(preset.getText() == "slow and deep");
+
+    const auto refused = [&](const std::string& text, const std::string& where)
+    {
+        put(folder / "broken.json", text);
+        const auto broken = readCharacterSettings(folder / "broken.json");
+        REQUIRE_FALSE(broken);
+        CHECK(broken.error().where == where);
+    };
+    const std::string head = R"({"format": "pacini.settings", "version": 1)";
+    refused("no settings", "line 1, column 2");
+    refused(head + "}", "character");
+    refused(head + R"(, "character": {"speed": 9}})", "character.speed");
+    refused(head + R"(, "character": {"gain": "loud"}})", "character.gain");
+    CHECK_FALSE(readCharacterSettings(folder / "not there.json"));
+    put(folder / "part.json", head + R"(, "character": {"speed": 2}})");
+    const auto part = readCharacterSettings(folder / "part.json");
+    REQUIRE(part);
+    CHECK(*part == CharacterSettings{0.0, 1.0, 0.0, 2.0});
+    // What an old preset of this name has become is told, and nothing changes.
+    put(folder / "presets" / "slow and deep.json", "{}");
+    preset.setSelectedId(1, juce::sendNotificationSync);
+    preset.setSelectedId(own, juce::sendNotificationSync);
+    REQUIRE(view.sheet() != nullptr);
+    CHECK(bench.session.transport.controls().speed == 1.0);
 }
 
 TEST_CASE("Own presets are settings files, which the menu offers, asks before it replaces, and the command reads")

@@ -248,6 +248,7 @@ private:
             around.profileFolder = pathOf(profileFolder(home));
             around.presetFolder = pathOf(home.getChildFile("analysis presets"));
             around.outputPresetFolder = pathOf(home.getChildFile("output presets"));
+            around.characterPresetFolder = pathOf(home.getChildFile("character presets"));
             around.language =
                 options.language.empty() ? settings->language() : editor::toText(options.language); // as it is shown
             around.chooseLanguage = [this](const juce::String& code)

@@ -46,9 +46,10 @@ struct HostServices
     std::function<std::vector<FoundDevice>()> foundDevices = {}; ///< for the start page; null: nobody looks
     std::shared_ptr<MeasureRig> measureRig = {};                 ///< null: only simulated actuators can be measured
     std::filesystem::path profileFolder = {};                    ///< where measured profiles are written at first
-    std::filesystem::path presetFolder = {};       ///< of the user's analysis presets; empty: none are kept
-    std::filesystem::path outputPresetFolder = {}; ///< of those of haptic outputs
-    juce::String language = {};                    ///< code of the chosen one; empty: that of the system
+    std::filesystem::path presetFolder = {};          ///< of the user's analysis presets; empty: none are kept
+    std::filesystem::path outputPresetFolder = {};    ///< of those of haptic outputs
+    std::filesystem::path characterPresetFolder = {}; ///< of those of the live controls
+    juce::String language = {};                       ///< code of the chosen one; empty: that of the system
     std::function<void(const juce::String&)> chooseLanguage = {};    ///< from the next start on; null: not here
     std::function<void(const std::filesystem::path&)> runStudy = {}; ///< of that file; null: not here
     std::function<void()> feelOnPhone = {};                          ///< lets a phone in; null: not here

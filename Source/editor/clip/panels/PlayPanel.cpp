@@ -3,9 +3,12 @@
 
 #include "editor/Controls.h"
 #include "editor/Theme.h"
+#include "editor/Translation.h"
+#include "editor/clip/EditorView.h"
 
 #include <pacini/foundation/Units.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace pacini::editor
@@ -14,16 +17,56 @@ namespace pacini::editor
 namespace
 {
 constexpr int playRowHeight = 3 * grid;
-constexpr int playPreferredHeight = 52 * grid;
+constexpr int playPreferredHeight = 56 * grid;
 constexpr int playLabelWidth = 9 * grid;
-constexpr double leastDecibels = -40.0, mostDecibels = 12.0;
+constexpr double leastDecibels = CharacterSettings::leastGain, mostDecibels = CharacterSettings::mostGain;
 constexpr int noPan = 1; // menus know no item 0; the laws follow
+constexpr int neutral = 1;
+constexpr int playPresets = 4 * grid; // the row of the presets
 } // namespace
 
-PlayPanel::PlayPanel(Transport& playing, HapticOutputs& hapticOutputs)
-    : transport(playing), outputs(hapticOutputs), resetButton("Reset")
+PlayPanel::PlayPanel(EditorView& view)
+    : transport(view.session().transport),
+      outputs(view.session().outputs),
+      own(view, view.hostServices().characterPresetFolder),
+      resetButton("Reset")
 {
     setTitle("Play");
+    own.settings = [this]
+    {
+        return characterSettings(character());
+    };
+    own.load = [this](const std::filesystem::path& file, const juce::String& name) -> Result<void>
+    {
+        const auto read = readCharacterSettings(file);
+        if (!read)
+            return read.error();
+        setCharacter(*read);
+        if (name.isNotEmpty())
+            lastOwn.emplace(name, character());
+        showPreset();
+        return {};
+    };
+    own.onSaved = [this](const juce::String& name)
+    {
+        fillPresets();
+        if (name.isNotEmpty())
+            lastOwn.emplace(name, character());
+        showPreset();
+    };
+    prepareLabel(presetLabel, "Preset", smallFont());
+    presetLabel.setBorderSize({});
+    preset.setTitle("Preset");
+    preset.setTooltip("Presets of gain, intensity, pitch and speed: settings files");
+    fillPresets();
+    preset.onChange = [this]
+    {
+        const int chosen = preset.getSelectedId();
+        showPreset(); // until it is chosen; what saves and loads is no preset
+        if (chosen > 0 && !own.choose(chosen))
+            setCharacter({});
+    };
+    addAll(*this, {&presetLabel, &preset});
     prepare(gain, "Gain", "Haptic gain in dB, within the actuator's limits", {leastDecibels, mostDecibels}, 0.5, 0.0,
             " dB");
     prepare(intensity, "Intensity", "Strength of the haptics", {0.0, 100.0}, 1.0, 100.0, " %");
@@ -93,8 +136,47 @@ void PlayPanel::set()
     transport.setControls(wanted);
 }
 
+CharacterSettings PlayPanel::character() const
+{
+    const auto plain = [](double value) // without the rounding of its way over a factor
+    {
+        return std::round(1e6 * value) / 1e6;
+    };
+    const PlayControls& now = transport.controls();
+    const double decibels = now.gain > 0.0 ? plain(Decibels::fromGain(now.gain).value) : leastDecibels;
+    return {std::clamp(decibels, leastDecibels, mostDecibels), plain(now.intensity), plain(now.transposition),
+            plain(now.speed)};
+}
+
+void PlayPanel::setCharacter(const CharacterSettings& wanted)
+{
+    PlayControls controls = transport.controls();
+    controls.gain = wanted.gain <= leastDecibels ? 0.0 : Decibels(wanted.gain).gain();
+    controls.intensity = wanted.intensity;
+    controls.transposition = wanted.transposition;
+    controls.speed = wanted.speed;
+    transport.setControls(controls);
+}
+
+void PlayPanel::fillPresets()
+{
+    preset.clear(juce::dontSendNotification);
+    preset.addItem(tr("Neutral"), neutral);
+    own.addTo(preset);
+}
+
+void PlayPanel::showPreset()
+{
+    const CharacterSettings now = character();
+    preset.setText(now == CharacterSettings()          ? tr("Neutral")
+                   : lastOwn && lastOwn->second == now ? lastOwn->first
+                                                       : tr("Custom"),
+                   juce::dontSendNotification);
+}
+
 void PlayPanel::show()
 {
+    showPreset();
     const PlayControls& now = transport.controls();
     const auto put = [](juce::Slider& slider, double value)
     {
@@ -124,21 +206,25 @@ void PlayPanel::paint(juce::Graphics& g)
 void PlayPanel::resized()
 {
     auto area = getLocalBounds().reduced(grid);
-    liveCard = area.removeFromTop(29 * grid);
+    liveCard = area.removeFromTop(29 * grid + playPresets);
     area.removeFromTop(grid);
     rowCard = area.removeFromTop(13 * grid);
     auto inside = insideOfCard(liveCard);
-    const auto put = [](juce::Rectangle<int>& from, juce::Component& label, juce::Component& control)
+    const int boxLabels = labelsWidth({&presetLabel, &panLabel}, playLabelWidth, 12 * grid);
+    const int labels =
+        labelsWidth({&gain.label, &intensity.label, &pitch.label, &speed.label, &position.label}, boxLabels, 12 * grid);
+    const auto put = [&](juce::Rectangle<int>& from, juce::Component& label, juce::Component& control)
     {
         auto line = from.removeFromTop(playRowHeight);
         from.removeFromTop(grid);
-        label.setBounds(line.removeFromLeft(playLabelWidth));
+        label.setBounds(line.removeFromLeft(&control == &preset || &control == &pan ? boxLabels : labels));
         control.setBounds(line);
     };
+    put(inside, presetLabel, preset);
     for (Row* row : {&gain, &intensity, &pitch, &speed})
         put(inside, row->label, row->slider);
     auto line = inside.removeFromTop(playRowHeight + 4);
-    resetButton.setBounds(line.removeFromLeft(9 * grid));
+    resetButton.setBounds(line.removeFromLeft(std::min(buttonWidth(resetButton, 9 * grid), line.getWidth())));
     inside.removeFromTop(grid);
     note.setBounds(inside);
     inside = insideOfCard(rowCard);

@@ -48,7 +48,7 @@ SidePanel::SidePanel(EditorView& view) : TabbedComponent(juce::TabbedButtonBar::
     addPage("Edit", std::make_unique<Inspector>(view));
     addPage("Analysis", std::make_unique<AnalysisPanel>(view));
     addPage("Project", std::make_unique<ProjectPanel>(view));
-    addPage("Play", std::make_unique<PlayPanel>(view.session().transport, view.session().outputs));
+    addPage("Play", std::make_unique<PlayPanel>(view));
 }
 
 void SidePanel::addPage(const juce::String& name, std::unique_ptr<juce::Component> content)
