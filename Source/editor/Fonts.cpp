@@ -153,6 +153,11 @@ void useFontOf(const juce::String& language)
     FontSource::get().setJapanese(language == "ja" && findJapaneseFont());
 }
 
+juce::Typeface::Ptr typefaceFor(const juce::Font& font)
+{
+    return FontSource::get().getTypefaceForFont(font);
+}
+
 juce::Font captionFont()
 {
     return fontOf(type::caption);

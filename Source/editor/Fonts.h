@@ -21,6 +21,9 @@ void installFonts();
 /// Fonts from now on suit this language: Japanese is set in its own font as a whole. [message]
 void useFontOf(const juce::String& language);
 
+/// The typeface of a font in the looks of windows. [message]
+[[nodiscard]] juce::Typeface::Ptr typefaceFor(const juce::Font& font);
+
 /// Sizes of type, see Tokens.h. All figures are equally wide, so that numbers do not jitter.
 [[nodiscard]] juce::Font captionFont();
 [[nodiscard]] juce::Font smallFont();

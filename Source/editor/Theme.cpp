@@ -2,9 +2,11 @@
 #include "editor/Theme.h"
 
 #include "editor/Icons.h"
+#include "editor/LineBreaks.h"
 #include "editor/Translation.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace pacini::editor
 {
@@ -51,6 +53,17 @@ ButtonColours coloursOf(const juce::Button& button, const Palette& p, bool highl
                 button.isEnabled() ? p.onPrimary : p.card};
     return {shade(p.control).withMultipliedAlpha(alpha), p.line.withMultipliedAlpha(alpha),
             p.text.withMultipliedAlpha(alpha)};
+}
+
+juce::TextLayout layOutTooltip(const juce::String& text, juce::Colour colour)
+{
+    constexpr float widest = 50.0f * grid;
+    juce::AttributedString words;
+    words.setJustification(juce::Justification::topLeft);
+    words.append(withLineBreaks(text, smallFont(), widest), smallFont(), colour);
+    juce::TextLayout layout;
+    layout.createLayoutWithBalancedLineLengths(words, widest);
+    return layout;
 }
 } // namespace
 
@@ -149,6 +162,15 @@ void Look::setDark(bool dark)
     setColour(juce::AlertWindow::backgroundColourId, p.card);
     setColour(juce::AlertWindow::textColourId, p.text);
     setColour(juce::ScrollBar::thumbColourId, p.dim);
+    setColour(juce::FileChooserDialogBox::titleTextColourId, p.text);
+    setColour(juce::FileBrowserComponent::currentPathBoxBackgroundColourId, p.control);
+    setColour(juce::FileBrowserComponent::currentPathBoxTextColourId, p.text);
+    setColour(juce::FileBrowserComponent::currentPathBoxArrowColourId, p.dim);
+    setColour(juce::FileBrowserComponent::filenameBoxBackgroundColourId, p.well);
+    setColour(juce::FileBrowserComponent::filenameBoxTextColourId, p.text);
+    setColour(juce::DirectoryContentsDisplayComponent::textColourId, p.text);
+    setColour(juce::DirectoryContentsDisplayComponent::highlightColourId, p.accent);
+    setColour(juce::DirectoryContentsDisplayComponent::highlightedTextColourId, p.onAccent);
 }
 
 void Look::drawRotarySlider(juce::Graphics& g, int x, int y, int width, int height, float place, float startAngle,
@@ -428,6 +450,64 @@ juce::Label* Look::createSliderTextBox(juce::Slider& slider)
     label->setColour(juce::Label::backgroundWhenEditingColourId, palette().well);
     label->setBorderSize({});
     return label;
+}
+
+/// Rounded as menus and buttons are; what is behind shows at the corners.
+void Look::fillTextEditorBackground(juce::Graphics& g, int width, int height, juce::TextEditor& editor)
+{
+    editor.setOpaque(false);
+    g.setColour(editor.findColour(juce::TextEditor::backgroundColourId));
+    g.fillRoundedRectangle(juce::Rectangle<int>(width, height).toFloat().reduced(0.5f), space::corner);
+}
+
+void Look::drawTextEditorOutline(juce::Graphics& g, int width, int height, juce::TextEditor& editor)
+{
+    const bool focused = editor.isEnabled() && editor.hasKeyboardFocus(true) && !editor.isReadOnly();
+    const auto colour =
+        editor.findColour(focused ? juce::TextEditor::focusedOutlineColourId : juce::TextEditor::outlineColourId);
+    g.setColour(colour.withMultipliedAlpha(editor.isEnabled() ? 1.0f : disabledAlpha));
+    const auto area = juce::Rectangle<int>(width, height).toFloat();
+    if (focused)
+        g.drawRoundedRectangle(area.reduced(1.0f), space::corner, 2.0f);
+    else
+        g.drawRoundedRectangle(area.reduced(0.5f), space::corner, 1.0f);
+}
+
+juce::Rectangle<int> Look::getTooltipBounds(const juce::String& text, juce::Point<int> pointer,
+                                            juce::Rectangle<int> within)
+{
+    const auto layout = layOutTooltip(text, {});
+    const int width = static_cast<int>(std::ceil(layout.getWidth())) + 2 * grid;
+    const int height = static_cast<int>(std::ceil(layout.getHeight())) + grid;
+    return juce::Rectangle<int>(pointer.x > within.getCentreX() ? pointer.x - (width + 12) : pointer.x + 24,
+                                pointer.y > within.getCentreY() ? pointer.y - (height + 6) : pointer.y + 6, width,
+                                height)
+        .constrainedWithin(within);
+}
+
+/// With right angles: its window is opaque, so round corners would be black.
+void Look::drawTooltip(juce::Graphics& g, const juce::String& text, int width, int height)
+{
+    const Palette& p = palette();
+    g.fillAll(p.card);
+    g.setColour(p.line);
+    g.drawRect(0, 0, width, height);
+    layOutTooltip(text, p.text).draw(g, juce::Rectangle<int>(width, height).reduced(grid, grid / 2).toFloat());
+}
+
+juce::Typeface::Ptr Look::getTypefaceForFont(const juce::Font& font)
+{
+    return typefaceFor(font);
+}
+
+/// With room for the word before the name in every language.
+void Look::layoutFileBrowserComponent(juce::FileBrowserComponent& browser,
+                                      juce::DirectoryContentsDisplayComponent* files,
+                                      juce::FilePreviewComponent* preview, juce::ComboBox* path, juce::TextEditor* name,
+                                      juce::Button* up)
+{
+    juce::LookAndFeel_V4::layoutFileBrowserComponent(browser, files, preview, path, name, up);
+    name->setBounds(name->getBounds().withLeft(10 * grid));
 }
 
 void Look::drawMenuBarBackground(juce::Graphics& g, int width, int height, bool, juce::MenuBarComponent&)

@@ -67,6 +67,15 @@ public:
     juce::Font getTextButtonFont(juce::TextButton&, int height) override;
     juce::Font getLabelFont(juce::Label&) override;
     juce::Label* createSliderTextBox(juce::Slider&) override;
+    void fillTextEditorBackground(juce::Graphics&, int width, int height, juce::TextEditor&) override;
+    void drawTextEditorOutline(juce::Graphics&, int width, int height, juce::TextEditor&) override;
+    juce::Rectangle<int> getTooltipBounds(const juce::String& text, juce::Point<int> pointer,
+                                          juce::Rectangle<int> within) override;
+    void drawTooltip(juce::Graphics&, const juce::String& text, int width, int height) override;
+    juce::Typeface::Ptr getTypefaceForFont(const juce::Font&) override;
+    void layoutFileBrowserComponent(juce::FileBrowserComponent&, juce::DirectoryContentsDisplayComponent*,
+                                    juce::FilePreviewComponent*, juce::ComboBox* path, juce::TextEditor* name,
+                                    juce::Button* up) override;
     void drawLabel(juce::Graphics&, juce::Label&) override;
     void drawMenuBarBackground(juce::Graphics&, int width, int height, bool, juce::MenuBarComponent&) override;
     int getTabButtonBestWidth(juce::TabBarButton&, int depth) override;
@@ -75,6 +84,19 @@ public:
 
 private:
     bool darkNow = true;
+};
+
+/// While it lives, a look is that of windows which nobody gives one: JUCE's own for files, where the system has none.
+class DefaultLook
+{
+public:
+    explicit DefaultLook(juce::LookAndFeel& look) { juce::LookAndFeel::setDefaultLookAndFeel(&look); }
+    ~DefaultLook() { juce::LookAndFeel::setDefaultLookAndFeel(&before); }
+    DefaultLook(const DefaultLook&) = delete;
+    DefaultLook& operator=(const DefaultLook&) = delete;
+
+private:
+    juce::LookAndFeel& before = juce::LookAndFeel::getDefaultLookAndFeel();
 };
 
 /// The look of a component's window; a dark one for a component without.

@@ -7,6 +7,7 @@
 #include "app/editor/PhoneOutput.h"
 #include "app/editor/PreviewDevices.h"
 #include "app/editor/TapInput.h"
+#include "editor/Theme.h"
 #include "editor/clip/EditorView.h"
 
 #include <juce_audio_utils/juce_audio_utils.h>
@@ -44,6 +45,7 @@ private:
     PhoneOutput phones;
     TapInput taps;
     editor::EditorView content;
+    editor::DefaultLook defaultLook{content.getLookAndFeel()};
 };
 
 } // namespace pacini::app

@@ -45,6 +45,8 @@ CommandSheet::CommandSheet(Menus& ofView) : Sheet("Find a command", 560, 440), m
                 all.push_back(
                     {&action, Menus::nameOf(action), tr(menu.name), menus.keyTextOf(action.id), Menus::canDo(action)});
     words.setTitle("Find a command");
+    words.setFont(usualFont());
+    words.setIndents(grid, 0);
     words.setJustification(juce::Justification::centredLeft);
     words.setTextToShowWhenEmpty(tr("Words of a command"), juce::Colours::grey);
     words.onTextChange = [this]
