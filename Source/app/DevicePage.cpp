@@ -2,6 +2,7 @@
 #include "app/DevicePage.h"
 
 #include "editor/Theme.h"
+#include "editor/Translation.h"
 
 namespace pacini::app
 {
@@ -18,14 +19,15 @@ juce::String adviceFor(juce::AudioDeviceManager& manager)
     for (auto* type : manager.getAvailableDeviceTypes())
         any = any || !type->getDeviceNames(false).isEmpty();
     if (any)
-        return "No audio device is open, so nothing is heard or felt. Choose an output below. If it cannot be opened, "
-               "another program may be using it: close that program and search again.";
-    juce::String text =
-        "No audio device was found, so nothing is heard or felt. Connect an audio interface or switch it "
-        "on, then search again.";
+        return editor::tr(
+            "No audio device is open, so nothing is heard or felt. Choose an output below. If it cannot be opened, "
+            "another program may be using it: close that program and search again.");
+    juce::String text = editor::tr("No audio device was found, so nothing is heard or felt. Connect an audio "
+                                   "interface or switch it on, then search again.");
 #if JUCE_LINUX || JUCE_BSD
-    text << " The command \"aplay -l\" lists what the system has. If it lists nothing, the driver is missing or you "
-            "are not allowed to use the device (group \"audio\"). Start JACK before searching.";
+    text << editor::tr(
+        " The command \"aplay -l\" lists what the system has. If it lists nothing, the driver is missing or you "
+        "are not allowed to use the device (group \"audio\"). Start JACK before searching.");
 #endif
     return text;
 }
@@ -38,6 +40,7 @@ DevicePage::DevicePage(juce::AudioDeviceManager& wanted) : manager(wanted), sett
     advice.setCaretVisible(false);
     advice.setTitle("No audio device");
     advice.setFont(editor::usualFont());
+    advice.setIndents(grid, grid / 2);
     searchButton.setTooltip("Looks for audio devices, and opens the system's");
     searchButton.onClick = [this]
     {

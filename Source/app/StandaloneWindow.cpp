@@ -3,6 +3,7 @@
 
 #include "app/DevicePage.h"
 #include "app/WindowPlace.h"
+#include "editor/Theme.h"
 #include "editor/Translation.h"
 
 #include <cstdlib>
@@ -92,10 +93,11 @@ private:
         auto page = std::make_unique<DevicePage>(rig.devices());
         page->setSize(560, 520);
         page->setLookAndFeel(&plugin.getLookAndFeel());
+        editor::translateTexts(*page);
         juce::DialogWindow::LaunchOptions options;
         options.content.setOwned(page.release());
         options.dialogTitle = editor::tr("Audio devices");
-        options.dialogBackgroundColour = editor::paletteFor(plugin).background;
+        options.dialogBackgroundColour = editor::paletteFor(plugin).card;
         options.useNativeTitleBar = true;
         options.resizable = false;
         options.componentToCentreAround = this;
@@ -104,6 +106,7 @@ private:
 
     AudioDevices& rig;
     plugin::PluginWindow plugin;
+    editor::DefaultLook defaultLook{plugin.getLookAndFeel()};
     RoutingBar bar;
 };
 

@@ -26,6 +26,7 @@ ChannelList::ChannelList(const juce::String& name)
     setFocusContainerType(FocusContainerType::focusContainer);
     list.setTitle(name);
     list.setRowHeight(channelRowHeight);
+    list.setColour(juce::ListBox::backgroundColourId, juce::Colours::transparentBlack);
     addAndMakeVisible(list);
 }
 
@@ -34,12 +35,28 @@ ChannelList::~ChannelList()
     list.setModel(nullptr);
 }
 
+void ChannelList::paint(juce::Graphics& g)
+{
+    g.setColour(paletteFor(*this).well);
+    g.fillRoundedRectangle(getLocalBounds().toFloat(), space::corner);
+}
+
+void ChannelList::paintOverChildren(juce::Graphics& g)
+{
+    if (!channels.isEmpty())
+        return;
+    g.setColour(paletteFor(*this).dim);
+    g.setFont(smallFont());
+    g.drawText(tr("No channels"), getLocalBounds(), juce::Justification::centred, true);
+}
+
 void ChannelList::show(const juce::StringArray& names, const juce::BigInteger& used)
 {
     channels = names;
     inUse = used;
     list.updateContent();
     list.repaint();
+    repaint();
 }
 
 juce::String ChannelList::getNameForRow(int row)

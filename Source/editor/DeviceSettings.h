@@ -24,7 +24,9 @@ public:
     std::function<void(const juce::BigInteger&)> onChange; ///< the channels that are wanted
     void show(const juce::StringArray& names, const juce::BigInteger& used);
 
-    void resized() override { list.setBounds(getLocalBounds()); }
+    void resized() override { list.setBounds(getLocalBounds().reduced(0, grid / 2)); }
+    void paint(juce::Graphics& g) override;
+    void paintOverChildren(juce::Graphics& g) override;
     int getNumRows() override { return channels.size(); }
     juce::String getNameForRow(int row) override;
 

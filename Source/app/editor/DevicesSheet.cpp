@@ -25,7 +25,7 @@ DevicesSheet::DevicesSheet(PreviewDevices& wanted, ControllerOutput& wantedContr
     hapticLabel.setText("Haptic output", juce::dontSendNotification);
     hapticLabel.setFont(editor::usualFont());
     hapticLabel.setAccessible(false);
-    hapticButton.setButtonText("Haptic outputs...");
+    hapticButton.setButtonText(editor::toText("Haptic outputs…"));
     editor::prepareButton(hapticButton, "Outputs that clips play on: actuator, gain, delay and position of each",
                           [this]
                           {
