@@ -16,19 +16,22 @@ namespace pacini::study
 namespace
 {
 constexpr std::array<StudyTemplate, 12> templates{
-    {{"coherence", "how well sound and touch belong together: three groups, free words and ratings (Weber 2020)", 2},
-     {"words", "free description of what is felt and heard", 1},
-     {"mushra", "quality of translations beside each other, with hidden reference and anchor", 1},
-     {"abx", "can a translation with fewer breakpoints be told from the full one?", 1},
-     {"jnd", "just noticeable differences of level and frequency of a touch", 0},
-     {"compression", "how few bands and points are not told from the full translation, felt alone and with its sound",
-      1},
-     {"threshold", "weakest touch that is felt, at eight frequencies", 0},
-     {"similarity", "how alike touches are, pair by pair, for a map of them", 3},
-     {"ranking", "touches in order of preference", 2},
-     {"place", "where a touch between two actuators is felt that is placed by level, delay or both", 0},
-     {"events", "how many touches at once are told apart, and which", 0},
-     {"questionnaire", "age, handedness, hearing and musical experience", 0}}};
+    {{"coherence", "Sound and touch together",
+      "how well sound and touch belong together: three groups, free words and ratings (Weber 2020)", 2},
+     {"words", "Free description", "free description of what is felt and heard", 1},
+     {"mushra", "MUSHRA: translations side by side",
+      "quality of translations beside each other, with hidden reference and anchor", 1},
+     {"abx", "ABX: coarse or full", "can a translation with fewer breakpoints be told from the full one?", 1},
+     {"jnd", "Just noticeable differences", "just noticeable differences of level and frequency of a touch", 0},
+     {"compression", "Bands and points needed",
+      "how few bands and points are not told from the full translation, felt alone and with its sound", 1},
+     {"threshold", "Threshold of touch", "weakest touch that is felt, at eight frequencies", 0},
+     {"similarity", "Likeness of touches", "how alike touches are, pair by pair, for a map of them", 3},
+     {"ranking", "Order of preference", "touches in order of preference", 2},
+     {"place", "Place between actuators",
+      "where a touch between two actuators is felt that is placed by level, delay or both", 0},
+     {"events", "Events at once", "how many touches at once are told apart, and which", 0},
+     {"questionnaire", "Questionnaire", "age, handedness, hearing and musical experience", 0}}};
 
 // The octave from 31.5 to 500 Hz in halves, around the 250 Hz where Pacinian corpuscles feel best.
 constexpr std::array<double, 8> thresholdFrequencies{31.5, 45.0, 63.0, 90.0, 125.0, 180.0, 250.0, 355.0};

@@ -17,6 +17,7 @@ namespace pacini::study
 struct StudyTemplate
 {
     std::string_view name;
+    std::string_view title;       ///< a few words for a menu
     std::string_view purpose;     ///< one line
     std::size_t fewestSounds = 0; ///< that it needs
 };

@@ -97,7 +97,7 @@ TEST_CASE("The sheet of a new study offers all templates with their groups, tell
     CHECK(get<juce::Label>(sheet, "Problem").getText().isNotEmpty());
     get<juce::TextEditor>(sheet, "Sounds").setText(twoSounds(folder).string(), true);
     for (int i = 0; i < question.getNumItems(); ++i)
-        if (question.getItemText(i) == "mushra")
+        if (question.getItemText(i).startsWith("MUSHRA"))
             question.setSelectedItemIndex(i, juce::sendNotificationSync);
     get<juce::TextEditor>(sheet, "People in group 1").setText("7", true);
     answer(sheet, "Create");

@@ -40,7 +40,7 @@ NewStudySheet::NewStudySheet(EditorView& shown) : Sheet("New study", 720, 500), 
         addAndMakeVisible(*label);
     }
     for (const auto& one : study::studyTemplates())
-        question.addItem(toText(one.name), question.getNumItems() + 1);
+        question.addItem(toText(one.title), question.getNumItems() + 1);
     question.setTitle("Question");
     question.setTooltip("Template of the study");
     question.setSelectedId(1, juce::dontSendNotification);
@@ -198,7 +198,7 @@ void NewStudySheet::layOut(juce::Rectangle<int> area)
             field->applyColourToAllText(p.text);
     }
     area.removeFromTop(grid / 2);
-    problem.setBounds(area);
+    problem.setBounds(area.withTrimmedLeft(studyLabelWidth));
 }
 
 } // namespace pacini::editor

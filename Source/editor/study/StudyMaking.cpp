@@ -11,6 +11,8 @@
 #include "study/StudyResults.h"
 #include "study/StudyTemplates.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <system_error>
 #include <utility>
@@ -42,7 +44,7 @@ std::string commandProgram()
 Result<fs::path> makeStudyFile(const StudyWish& wish)
 {
     if (wish.folder.empty())
-        return Error{ErrorCode::invalidArgument, "folder", "is missing; choose where the study is kept"};
+        return Error{ErrorCode::invalidArgument, "", "Choose a folder for the study."};
     std::error_code failed;
     std::vector<std::string> sounds;
     if (fs::is_directory(wish.sounds, failed))
@@ -58,6 +60,14 @@ Result<fs::path> makeStudyFile(const StudyWish& wish)
             return Error{ErrorCode::io, utf8Of(wish.sounds), "does not exist; check the name and the folder"};
         sounds.push_back(utf8Of(wish.sounds));
     }
+    for (const auto& one : study::studyTemplates())
+        if (one.name == wish.kind && sounds.size() < one.fewestSounds)
+            return Error{ErrorCode::invalidArgument, "",
+                         one.fewestSounds == 1
+                             ? std::string("This study needs a sound. Choose one, or a folder of them.")
+                             : fmt::format("This study needs at least {} sounds, and {} were found. Choose a folder of "
+                                           "them.",
+                                           one.fewestSounds, sounds.size())};
     auto made = study::makeStudy(wish.kind, sounds);
     if (!made)
         return made.error();
