@@ -5,6 +5,7 @@
 #include "editor/Bench.h"
 #include "editor/Text.h"
 #include "editor/Unmarked.h"
+#include "editor/clip/lanes/LaneText.h"
 
 using namespace pacini;
 
@@ -52,6 +53,15 @@ TEST_CASE("Menus, buttons and pages are in the chosen language, and in English w
     CHECK(anyTooltip(bench.view, "Go to start"));
     const Language unknown("tlh");
     CHECK(editor::tr("Edit") == "Edit");
+}
+
+TEST_CASE("Lanes have designers' words in every language, by whichever name they are asked")
+{
+    const Language german("de");
+    CHECK(editor::designerWord("Transients") == "Ereignisse");
+    CHECK(editor::designerWord("Transienten") == "Ereignisse");
+    CHECK(editor::designerWord("Schwerpunkt") == "Helligkeit");
+    CHECK(editor::designerWord("864 Hz") == "864 Hz");
 }
 
 TEST_CASE("Every language has a name of its own")

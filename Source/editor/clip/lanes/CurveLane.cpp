@@ -127,6 +127,8 @@ PlotLane::Style CurveLane::style() const
                  laneColour(*clip, shown, paletteFor(*this), look == nullptr || look->isDark())};
     if (shown.kind == LaneKind::pitch || shown.kind == LaneKind::amplitude)
         result.note = {};
+    if (behind != nullptr && !behind->empty())
+        result.behind = tr("Sound");
     return result;
 }
 
@@ -200,7 +202,7 @@ void CurveLane::paintPlot(juce::Graphics& g, juce::Rectangle<int> plot, int firs
         paintHandles(g, {first, last}, colour);
 }
 
-/// What the sound has, as a thin line without points, and a word on what it is.
+/// What the sound has, as a thin line without points; the head says what it is.
 void CurveLane::paintBehind(juce::Graphics& g, juce::Rectangle<int> plot, int firstColumn, int lastColumn)
 {
     const Palette& p = paletteFor(*this);
@@ -229,13 +231,6 @@ void CurveLane::paintBehind(juce::Graphics& g, juce::Rectangle<int> plot, int fi
         if (column >= firstColumn)
             line.add(plot.getX() + column, top, std::max(1, bottom - top));
     }
-    g.setColour(p.dim);
-    g.setFont(captionFont());
-    const auto clip = model.clip();
-    const double end = std::min(axis.xOf(clip ? clip->duration : 0.0), static_cast<double>(plot.getWidth()));
-    g.drawText(tr("Thin line: the sound"),
-               plot.withWidth(std::max(0, juce::roundToInt(end))).reduced(grid / 2, 2).removeFromTop(12),
-               juce::Justification::topRight, true);
 }
 
 /// The area under the curve as a bar in each column; with `bars` also the curve, whose points are too many for lines.

@@ -47,8 +47,8 @@ PlotLane::Style EventLane::style() const
 {
     const auto colour = paletteFor(*this).event;
     if (shows == Shows::sharpness)
-        return {"Sharpness", toText("0–100 %"), colour};
-    return {"Transients", counted(count(), "{0} event", "{0} events"), colour};
+        return {tr("Sharpness"), toText("0–100 %"), colour};
+    return {tr("Transients"), counted(count(), "{0} event", "{0} events"), colour};
 }
 
 ValueAxis EventLane::valueAxis(double height) const
@@ -174,6 +174,11 @@ SelectionMove EventLane::move(Breakpoint from, Breakpoint to) const
     SelectionMove result;
     result.sharpness = to.value - from.value;
     return result;
+}
+
+juce::String EventLane::tickText(double value) const
+{
+    return shows == Shows::sharpness ? juce::String(juce::roundToInt(100.0 * value)) : PlotLane::tickText(value);
 }
 
 juce::String EventLane::valueText(double value) const

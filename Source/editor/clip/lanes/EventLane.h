@@ -32,6 +32,7 @@ private:
     EditedClip added(const Clip& clip, Breakpoint where) const override;
     SelectionMove move(Breakpoint from, Breakpoint to) const override;
     juce::String valueText(double value) const override;
+    juce::String tickText(double value) const override;
     std::optional<TimeRange> changedTime(const Clip& before, const Clip& now) const override;
 
     Shows shows;

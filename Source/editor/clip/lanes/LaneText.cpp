@@ -74,7 +74,7 @@ juce::String designerWord(const juce::String& technical)
     constexpr std::array<std::pair<const char*, const char*>, 3> words{
         {{"Transients", "Events"}, {"Envelope", "Intensity"}, {"Centroid", "Brightness"}}};
     for (const auto& [term, word] : words)
-        if (technical == tr(term))
+        if (technical == term || technical == tr(term))
             return tr(word);
     return technical;
 }

@@ -201,36 +201,55 @@ void PlotLane::paintHead(juce::Graphics& g)
     for (const auto* button : getChildren())
         text.setRight(std::min(text.getRight(), button->getX() - grid / 2));
     g.setColour(p.text);
-    const bool two = look.note.isNotEmpty() && text.getHeight() >= 38;
+    constexpr int nameHeight = 19, noteHeight = 17;
+    const bool two = look.note.isNotEmpty() && text.getHeight() >= nameHeight + noteHeight + 2;
+    const bool three = look.behind.isNotEmpty() && text.getHeight() >= nameHeight + 2 * noteHeight + 2;
     if (two)
-        text = text.withSizeKeepingCentre(text.getWidth(), 36);
+        text = text.withSizeKeepingCentre(text.getWidth(), nameHeight + (three ? 2 : 1) * noteHeight);
     const bool technical = viewState.viewOptions().technicalTerms;
     const auto name = tr(technical ? look.name : designerWord(look.name));
     // "1.25 kHz" has the room of "864 Hz" beside buttons.
     g.setFont(usualFont().getStringWidth(name) <= text.getWidth() ? usualFont() : smallFont());
-    g.drawFittedText(name, two ? text.removeFromTop(19) : text, juce::Justification::centredLeft, 1);
+    g.drawFittedText(name, two ? text.removeFromTop(nameHeight) : text, juce::Justification::centredLeft, 1);
     if (!two)
         return;
     g.setColour(p.dim);
     g.setFont(smallFont());
-    g.drawFittedText(look.note, text, juce::Justification::centredLeft, 1);
+    g.drawFittedText(look.note, text.removeFromTop(noteHeight), juce::Justification::centredLeft, 1);
+    if (!three)
+        return;
+    g.fillRect(text.removeFromLeft(2 * grid).withSizeKeepingCentre(2 * grid, 1));
+    g.drawText(look.behind, text.withTrimmedLeft(grid / 2), juce::Justification::centredLeft, true);
+}
+
+juce::String PlotLane::tickText(double value) const
+{
+    if (scale().scale == ValueScale::decibels)
+        return juce::String(juce::roundToInt(Decibels::fromGain(value).value));
+    return value >= 1000.0 ? numberText(value / 1000.0, 0) + "k"
+           : value >= 10.0 ? juce::String(juce::roundToInt(value))
+                           : numberText(value, value < 0.1 ? 2 : 1);
 }
 
 /// Numbers of the scale, at the edge of the plot.
 void PlotLane::paintTicks(juce::Graphics& g, juce::Rectangle<int> column, juce::Justification side)
 {
     const ValueAxis& axis = scale();
-    g.setColour(paletteFor(*this).dim);
-    g.setFont(captionFont());
+    const Palette& p = paletteFor(*this);
+    const auto font = captionFont();
+    const bool inPlot = plotArea().intersects(column);
+    g.setFont(font);
     for (const double value : valueTicks(axis, tickGap))
     {
-        const juce::String text = axis.scale == ValueScale::decibels
-                                      ? juce::String(juce::roundToInt(Decibels::fromGain(value).value))
-                                  : value >= 1000.0 ? numberText(value / 1000.0, 0) + "k"
-                                  : value >= 10.0   ? juce::String(juce::roundToInt(value))
-                                                    : numberText(value, value < 0.1 ? 2 : 1);
-        const int y = plotArea().getY() + juce::roundToInt(axis.yOf(value));
-        g.drawText(text, column.withY(y - 6).withHeight(12), side, false);
+        const juce::String text = tickText(value);
+        const auto place = column.withY(plotArea().getY() + juce::roundToInt(axis.yOf(value)) - 6).withHeight(12);
+        if (inPlot) // over the curve
+        {
+            g.setColour(p.well.withAlpha(0.8f));
+            g.fillRoundedRectangle(place.withWidth(font.getStringWidth(text) + 4).translated(-2, 0).toFloat(), 2.0f);
+        }
+        g.setColour(p.dim);
+        g.drawText(text, place, side, false);
     }
 }
 

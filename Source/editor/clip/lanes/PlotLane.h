@@ -58,6 +58,7 @@ protected:
     {
         juce::String name, note; ///< the head's two lines
         juce::Colour colour;
+        juce::String behind = {}; ///< what a thin line in the plot is; empty: there is none
     };
 
     [[nodiscard]] virtual Style style() const = 0;
@@ -73,6 +74,8 @@ protected:
     /// How everything selected moves when the thing at `from` goes to `to`.
     [[nodiscard]] virtual SelectionMove move(Breakpoint from, Breakpoint to) const = 0;
     [[nodiscard]] virtual juce::String valueText(double value) const = 0;
+    /// A value of the scale, without its unit.
+    [[nodiscard]] virtual juce::String tickText(double value) const;
     /// A drag that is for a tool and not for things; false: there is none for it.
     virtual bool beginTool(const juce::MouseEvent&) { return false; }
     virtual void dragTool(const juce::MouseEvent&) {}

@@ -251,7 +251,7 @@ void Inspector::showFacts()
     juce::String text;
     text << numberText(clip->duration, 2) << " s, " << counted(clip->bands.size(), "{0} band", "{0} bands") << "\n"
          << counted(breakpointCount(*clip), "{0} point", "{0} points") << ", "
-         << counted(clip->transients.size(), "{0} transient", "{0} transients");
+         << counted(clip->transients.size(), "{0} event", "{0} events");
     if (const auto item = model.item(); item && !item->unfitting.empty())
         text << "\n" << counted(item->unfitting.size(), "{0} unapplied edit", "{0} unapplied edits");
     facts.setText(text, juce::dontSendNotification);
