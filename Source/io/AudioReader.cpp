@@ -612,9 +612,10 @@ std::vector<Marker> AudioReader::takeMarkers(double duration)
     if (std::exchange(state->markersAreTold, true))
         return within;
     state->warnings.insert(state->warnings.end(), told.begin(), told.end());
-    if (behind > 0)
-        state->warn("has {} behind the end of its sound, which {} left out",
-                    behind == 1 ? "a marker" : fmt::format("{} markers", behind), behind == 1 ? "is" : "are");
+    if (behind == 1)
+        state->warn("has a marker behind the end of its sound, which is left out");
+    else if (behind > 1)
+        state->warn("has {} markers behind the end of its sound, which are left out", behind);
     if (const auto left = all.size() - behind - within.size(); left > 0)
         state->warn("has more markers than the {} or the {} bytes of names that a clip takes; {} are left out",
                     limits::soundMarkers, limits::soundMarkerBytes, left);

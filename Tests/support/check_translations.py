@@ -26,6 +26,9 @@ ENCODER_PRESETS = Path("Source/io/EncoderPresets.cpp")
 ERRORS = Path("Core/pacini/foundation/Result.h")  # of the core, which windows show
 STUDY_TEMPLATES = Path("Source/study/StudyTemplates.cpp")  # what each asks
 FILE_NAMES = Path("Source/io/FileNames.h")  # why a preset cannot be called so
+# Why a file cannot be read or written, and what its sound lacks.
+FILE_ERRORS = [Path("Source/io") / name for name in ("FileHandle.cpp", "AtomicFile.cpp", "AudioReader.cpp",
+                                                     "ClipFile.cpp")]
 
 # Files without a text for users of windows.
 FILES = {
@@ -60,7 +63,7 @@ LITERALS = {
         "gtk-application-prefer-dark-theme", "max ", "fs ", "devices",
         "state", "recovery", "profiles", "Resources/demo", "share/pacini/demo", "pacini", "json", "wav", "pacb",
         "files", "clip", "Presets", "scale", ".sound-", "md", "demo", "pacini-demo", "flac", "plain drive",
-        "analysis presets", "output presets"],
+        "analysis presets", "output presets", "character presets"],
     "names that Windows keeps for devices": ["CON", "PRN", "AUX", "NUL", "COM", "LPT"],
     "records of studies, which are the same file in every language": [
         "agreed: ", "the touch starts {:.3f} ms earlier", "stopped by the participant", "comfortable at ", "Pacini "],
@@ -86,6 +89,7 @@ LITERALS = {
     "errors of settings that the windows cannot make": ["must be 8 to 768 kHz to be encoded", "must be 0 to 1",
         "must have 1 to 8 actuators",
         "is not one of the project's sounds"],
+    "what libsndfile says, which other words take the place of": ["internal error", "file does not exist"],
     "names in files of formats": ["Simple Parametric", "noise {} {}"],
     "codes of languages": ["en", "ja"],
 }
@@ -182,13 +186,15 @@ def check(root, tables):
             if re.match(r"[A-Z0-9]", text):
                 wanted.setdefault(text, f"{presets.as_posix()}:{line}")
     templates = (root / STUDY_TEMPLATES).read_text(encoding="utf-8")
-    for match in re.finditer(r'\{"[\w-]+",\s*("(?:\\.|[^"\\])*"(?:\s*"(?:\\.|[^"\\])*")*),\s*\d+\}', templates):
+    for match in re.finditer(r'\{"[\w-]+",\s*"([^"]*)",\s*("(?:\\.|[^"\\])*"(?:\s*"(?:\\.|[^"\\])*")*),\s*\d+\}',
+                             templates):
         line = templates.count("\n", 0, match.start()) + 1
-        wanted.setdefault("".join(PART.findall(match.group(1))), f"{STUDY_TEMPLATES.as_posix()}:{line}")
-    for source in (ERRORS, FILE_NAMES):
+        for text in (match.group(1), "".join(PART.findall(match.group(2)))):
+            wanted.setdefault(text, f"{STUDY_TEMPLATES.as_posix()}:{line}")
+    for source in (ERRORS, FILE_NAMES, *FILE_ERRORS):
         for line, text in literals(root / source):
-            if is_text(text, "Source/io"):
-                wanted.setdefault(text, f"{source.as_posix()}:{line}")
+            if text not in no_texts and is_text(text, "Source/io"):
+                wanted.setdefault(numbered(text), f"{source.as_posix()}:{line}")
     problems = []
     for code, pairs in tables.items():
         keys = {numbered(key) for key in pairs}

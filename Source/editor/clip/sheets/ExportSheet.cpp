@@ -388,6 +388,7 @@ void ExportSheet::sayBusy()
 void ExportSheet::fail(const Error& error)
 {
     losses.setText(tr("Not exported: {0}", {translateMessage(toText(error.text()))}), false);
+    losses.applyColourToAllText(paletteFor(*this).danger, false);
 }
 
 /// For the next export.
