@@ -66,9 +66,9 @@ void CapturePanel::resized()
     row.removeFromLeft(grid);
     keepButton.setBounds(row.removeFromLeft(13 * grid));
     row.removeFromLeft(grid);
-    editButton.setBounds(row.removeFromLeft(9 * grid));
+    editButton.setBounds(row.removeFromLeft(editor::buttonWidth(editButton, 9 * grid)));
     row.removeFromLeft(grid);
-    saveButton.setBounds(row.removeFromLeft(9 * grid));
+    saveButton.setBounds(row.removeFromLeft(editor::buttonWidth(saveButton, 9 * grid)));
     row.removeFromLeft(grid);
     chip.setBounds(row);
     message.setBounds(row);

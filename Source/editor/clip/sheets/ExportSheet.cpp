@@ -451,7 +451,7 @@ void ExportSheet::layOut(juce::Rectangle<int> area)
     all.setBounds(line.removeFromRight(28 * grid));
     events.setBounds(row(eventsLabel).removeFromLeft(28 * grid));
     line = row(targetLabel);
-    browseButton.setBounds(line.removeFromRight(11 * grid));
+    browseButton.setBounds(line.removeFromRight(buttonWidth(browseButton, 11 * grid)));
     line.removeFromRight(grid);
     target.setBounds(line);
     lossLabel.setBounds(area.removeFromLeft(labelWidth).removeFromTop(rowHeight));
