@@ -234,6 +234,25 @@ TEST_CASE("A day of a tone stays in tune", "[texture][tones]")
           Approx(0.4).epsilon(0.01));
 }
 
+TEST_CASE("A line that falls apart is one tone, at the mean of its frequencies by power", "[texture][tones]")
+{
+    // A bin is 1.5 Hz: lines up to 4.5 Hz from the one before them are one.
+    std::vector<detail::WayLine> lines = {{150.0, 5.0}, {451.0, 3.0}, {447.0, 1.0}, {300.0, 2.5}, {304.5, 2.0}};
+    detail::mergeSplitLines(lines, 1.5);
+    REQUIRE(lines.size() == 4); // strongest first
+    CHECK(lines[0].frequency == 150.0);
+    CHECK(lines[1].frequency == Approx(450.0));
+    CHECK(lines[1].power == 4.0);
+    CHECK(lines[2].frequency == 300.0);
+    CHECK(lines[3].frequency == 304.5);
+    detail::mergeSplitLines(lines, 1.6);
+    REQUIRE(lines.size() == 3);
+    CHECK(lines[1].frequency == Approx((2.5 * 300.0 + 2.0 * 304.5) / 4.5));
+    lines.clear();
+    detail::mergeSplitLines(lines, 1.0);
+    CHECK(lines.empty());
+}
+
 TEST_CASE("Errors of tones name their place", "[texture][tones]")
 {
     const auto wrong = [](auto&& change)

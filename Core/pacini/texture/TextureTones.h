@@ -87,7 +87,7 @@ struct WayLine
 /// the distance of two bins.
 [[nodiscard]] inline std::vector<WayLine> linesOverWay(std::span<const double> samples, double step, double& resolution)
 {
-    constexpr double longest = 1.0; // s of full speed: lines 1.5 Hz apart are told apart
+    constexpr double longest = 1.0; // s of full speed: lines 3 Hz apart are told apart, see mergeSplitLines()
     constexpr std::size_t fewest = 4, around = 16, own = 3;
     constexpr double outstanding = 8.0;
     const double whole = step * static_cast<double>(samples.size());
@@ -141,6 +141,29 @@ struct WayLine
     }
     std::stable_sort(lines.begin(), lines.end(), [](const auto& a, const auto& b) { return a.power > b.power; });
     return lines;
+}
+
+/// Merges lines closer than three bins, at the mean of their frequencies by power: the line of a tone whose distances
+/// are uneven, such as a harmonic of ridges, falls apart into some, and two tones in its place would beat.
+inline void mergeSplitLines(std::vector<WayLine>& lines, double resolution)
+{
+    std::sort(lines.begin(), lines.end(), [](const auto& a, const auto& b) { return a.frequency < b.frequency; });
+    std::vector<WayLine> merged;
+    for (std::size_t i = 0; i < lines.size();)
+    {
+        WayLine sum;
+        double last = lines[i].frequency;
+        for (; i < lines.size() && lines[i].frequency < last + 3.0 * resolution; ++i)
+        {
+            last = lines[i].frequency;
+            sum.frequency += lines[i].power * lines[i].frequency;
+            sum.power += lines[i].power;
+        }
+        sum.frequency /= sum.power;
+        merged.push_back(sum);
+    }
+    std::stable_sort(merged.begin(), merged.end(), [](const auto& a, const auto& b) { return a.power > b.power; });
+    lines = std::move(merged);
 }
 
 /// Moves lines that are near multiples of one frequency onto them, so that harmonics keep their phases to each other.
@@ -271,6 +294,7 @@ private:
     const double highest = 0.25 * rate / *tenth;
     double resolution = 1.0;
     auto lines = detail::linesOverWay(detail::overWay(samples, way, 0.5 / highest), 0.5 / highest, resolution);
+    detail::mergeSplitLines(lines, resolution);
     if (lines.size() > most)
         lines.resize(most);
     detail::alignHarmonics(lines, resolution);

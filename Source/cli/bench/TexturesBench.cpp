@@ -250,6 +250,12 @@ Play withTones(const Training& training, int order)
     return texturePlay(training, order, TextureParams().tones);
 }
 
+/// With at most so many tones beside the usual noise.
+Play numberOfTones(const Training& training, int count)
+{
+    return texturePlay(training, TextureParams().order, count);
+}
+
 /// Bands of noise from 20 to 1000 Hz, equally wide in octaves; levels as a texture of order 64 has them, by the same
 /// interpolation.
 Play noiseBands(const Training& training, int count)
@@ -349,6 +355,7 @@ void measureTextures(const BenchSound&, const BenchSettings& settings, BenchTabl
 {
     const std::array forms = {TextureForm{"autoregressive", autoregressive, {2, 4, 8, 12, 16, 24, 32, 48, 64}},
                               TextureForm{"with tones", withTones, {2, 8, 16, 32}},
+                              TextureForm{"number of tones", numberOfTones, {1, 2, 3, 4, 8}},
                               TextureForm{"noise bands", noiseBands, {1, 4, 8, 12, 16, 24}},
                               TextureForm{"loop", loop, {1}}};
     using Kind = MadeSurface::Kind;
@@ -410,7 +417,8 @@ Bench texturesBench()
         "The error is the RMS difference in sixths of octaves from 25 to 950 Hz, mean of spectra of 20 ms, 125 ms "
         "and 1 s; modulation is that of the envelope's octaves from 1 to 32 Hz; repetition is the largest "
         "autocorrelation at 50 ms to 2 s. A size is an order or a number of bands from 20 to 1000 Hz (1: noise that "
-        "is only band-limited); the loop is a second of the recording nearest in speed.",
+        "is only band-limited), or the most tones beside noise of order 32; the loop is a second of the recording "
+        "nearest in speed.",
         columnsOf({"surface", "speeds", "form", "size"},
                   {summed("frames"),
                    summed("seconds", "s"),
