@@ -22,6 +22,13 @@ namespace pacini::study
 
 namespace
 {
+std::string_view trimmed(std::string_view text)
+{
+    const auto first = text.find_first_not_of(" \t");
+    return first == std::string_view::npos ? std::string_view()
+                                           : text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
 /// Lines of fields. A field in quotes may contain separators.
 class CsvLines
 {
@@ -44,8 +51,13 @@ public:
                 ++nextLine;
             if (quoted && c == '"' && at + 1 < text.size() && text[at + 1] == '"')
                 fields.back() += text[at++];
-            else if (c == '"' && (quoted || fields.back().empty()))
-                quoted = !quoted;
+            else if (c == '"' && quoted)
+                quoted = false;
+            else if (c == '"' && trimmed(fields.back()).empty())
+            {
+                fields.back().clear();
+                quoted = true;
+            }
             else if (!quoted && c == separator)
                 fields.emplace_back();
             else if (!quoted && isEnd)
@@ -54,8 +66,12 @@ public:
                 fields.back() += c;
         }
         ++at;
+        open = quoted;
         return fields;
     }
+
+    /// Whether the last line ends within quotes, which hold all of the text from there.
+    [[nodiscard]] bool endsInQuotes() const noexcept { return open; }
 
     [[nodiscard]] std::string place() const { return fmt::format("line {}", line); }
 
@@ -65,16 +81,10 @@ private:
     std::size_t at = 0;
     std::size_t line = 1;
     std::size_t nextLine = 1;
+    bool open = false;
 };
 
 constexpr std::size_t largestTable = 64'000'000; // bytes
-
-std::string_view trimmed(std::string_view text)
-{
-    const auto first = text.find_first_not_of(" \t");
-    return first == std::string_view::npos ? std::string_view()
-                                           : text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
 
 std::string inSmallLetters(std::string_view text)
 {
@@ -101,7 +111,8 @@ const std::vector<Role>& roles()
          {{"participant"},
           {"participant_id", "participantid", "subject", "subject_id", "subjectid", "prolific_pid"},
           {"session_uuid"},
-          {"email"}}},
+          {"email"},
+          {"name"}}},
         {"block", &RatingColumns::block, {{"block"}, {"trial_id"}}},
         {"stimulus", &RatingColumns::stimulus, {{"stimulus"}, {"rating_stimulus"}}},
         {"rating", &RatingColumns::rating, {{"rating"}, {"rating_score"}, {"response", "score"}}}};
@@ -223,7 +234,10 @@ Result<std::vector<Rating>> ratingsOfCsv(std::string_view bytes, const RatingCol
     std::string firstMissing;
     while (const auto fields = lines.next())
     {
-        if (fields->size() == 1 && fields->front().empty())
+        if (lines.endsInQuotes())
+            return Error{ErrorCode::invalidData, lines.place(),
+                         "has a quotation mark without a second one; close it, or write two of them for one in a text"};
+        if (fields->size() == 1 && trimmed(fields->front()).empty())
             continue;
         if (isTooLong(*fields, heading.size()))
             return Error{ErrorCode::invalidData, lines.place(),
@@ -233,7 +247,7 @@ Result<std::vector<Rating>> ratingsOfCsv(std::string_view bytes, const RatingCol
         const auto field = [&](std::size_t role)
         {
             const auto& place = (*places)[role];
-            return place && *place < fields->size() ? (*fields)[*place] : std::string();
+            return std::string(place && *place < fields->size() ? trimmed((*fields)[*place]) : std::string_view());
         };
         const std::string number = field(4);
         if (isMissing(number))

@@ -113,6 +113,19 @@ TEST_CASE("Missing ratings are counted and told, and columns that may be one or 
     CHECK(ratingsOfCsv(both, columns)->front().value == 2.0);
     columns.rating = "other";
     CHECK(ratingsOfCsv(both, columns).error().text() == "line 1: has no column 'other'");
+    // The rest of a table would else be one field.
+    CHECK(ratingsOfCsv("stimulus,rating\na,1\n\"b,2\nc,3\nd,4\n").error().text() ==
+          "line 3: has a quotation mark without a second one; close it, or write two of them for one in a text");
+    const auto blanks = ratingsOfCsv("participant, stimulus, rating\nP1, a, 1\n P1 ,\ta , 2\nP1, \"a, b\", 3\n");
+    REQUIRE(blanks.ok());
+    REQUIRE(blanks->size() == 3);
+    CHECK((*blanks)[0].stimulus == "a");
+    CHECK((*blanks)[1].stimulus == "a");
+    CHECK((*blanks)[1].participant == "P1");
+    CHECK((*blanks)[2].stimulus == "a, b");
+    CHECK(ratingsOfCsv("session_test_id,name,age,trial_id,rating_stimulus,rating_score\nt,Ann,30,1,C1,80\n")
+              ->front()
+              .participant == "Ann");
     CHECK(ratingsOfCsv(std::string("s\0t\0", 4)).error().text() ==
           "line 1, column 1: is UTF-16 text; save it as UTF-8");
 }
