@@ -1,6 +1,7 @@
 #include "io/CommentChapters.h"
 
 #include "io/JsonText.h"
+#include "io/TextMark.h"
 #include "io/Utf8.h"
 
 #include <pacini/foundation/ParseNumber.h>
@@ -124,7 +125,7 @@ FoundMarkers commentChapters(std::string_view comments)
         if (const auto time = chapterTimeOf(chapter.time.value_or("")))
         {
             const auto digits = number.substr(std::min(number.find_first_not_of('0'), number.size() - 1));
-            found.markers.push_back({*time, wellFormedUtf8(chapter.name.empty() ? digits : chapter.name)});
+            found.markers.push_back({*time, utf8OfEither(chapter.name.empty() ? digits : chapter.name)});
             continue;
         }
         if (broken++ == 0)

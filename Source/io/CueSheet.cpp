@@ -1,7 +1,7 @@
 #include "io/CueSheet.h"
 
 #include "io/TextLines.h"
-#include "io/Utf8.h"
+#include "io/TextMark.h"
 
 #include <pacini/foundation/ParseNumber.h>
 
@@ -96,7 +96,7 @@ Result<FoundMarkers> readCueSheet(std::string_view text)
                            title.clear();
                        }
                        else if (isWord(word, "TITLE") && !track.empty())
-                           title = wellFormedUtf8(wordOf(line));
+                           title = utf8OfEither(wordOf(line));
                        if (!isWord(word, "INDEX"))
                            return true;
                        const auto index = parseNumber(wordOf(line)).value_or(0.0);
@@ -108,7 +108,7 @@ Result<FoundMarkers> readCueSheet(std::string_view text)
                            ++others;
                        else if (index >= 1.0)
                        {
-                           auto name = title.empty() ? wellFormedUtf8(track) : title;
+                           auto name = title.empty() ? utf8OfEither(track) : title;
                            if (index >= 2.0)
                                name += fmt::format(" {}", index);
                            found.markers.push_back({*time, std::move(name)});

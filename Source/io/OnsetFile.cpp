@@ -5,7 +5,6 @@
 #include "io/JsonText.h"
 #include "io/TextMark.h"
 #include "io/TimeLines.h"
-#include "io/Utf8.h"
 
 #include <fmt/format.h>
 
@@ -134,14 +133,14 @@ Result<FoundMarkers> readLabelText(std::string_view text)
         return readCueSheet(*unmarked);
     FoundMarkers found;
     std::size_t regions = 0;
-    const auto read = forEachTimeLine(*unmarked,
-                                      [&](const TimeLine& line)
-                                      {
-                                          found.markers.push_back(
-                                              {line.time, line.label.empty() ? std::to_string(found.markers.size() + 1)
-                                                                             : wellFormedUtf8(line.label)});
-                                          regions += line.end.value_or(line.time) > line.time ? 1u : 0u;
-                                      });
+    const auto read = forEachTimeLine(
+        *unmarked,
+        [&](const TimeLine& line)
+        {
+            found.markers.push_back(
+                {line.time, line.label.empty() ? std::to_string(found.markers.size() + 1) : utf8OfEither(line.label)});
+            regions += line.end.value_or(line.time) > line.time ? 1u : 0u;
+        });
     if (!read)
         return read.error();
     if (regions > 0)

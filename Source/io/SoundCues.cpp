@@ -1,6 +1,6 @@
 #include "io/SoundCues.h"
 
-#include "io/Utf8.h"
+#include "io/TextMark.h"
 
 #include <fmt/format.h>
 
@@ -33,23 +33,26 @@ struct CueList
     std::map<std::uint64_t, std::string> names; ///< by id
     std::uint64_t stated = 0;
     std::uint64_t regions = 0;
-    std::uint64_t unread = 0; ///< regions of which nothing is read
+    std::uint64_t unread = 0;                   ///< regions of which nothing is read
+    std::uint64_t uncounted = 0;                ///< cues beyond the number that is stated
+    std::map<std::uint64_t, std::string> notes; ///< by id, for cues without a label
 };
 
 std::string cueTextAt(ByteWindow& file, std::uint64_t offset, std::uint64_t bytes)
 {
     const auto found = file.at(offset, static_cast<std::size_t>(std::min<std::uint64_t>(bytes, file.most)));
     const std::string_view text(reinterpret_cast<const char*>(found.data()), found.size());
-    return wellFormedUtf8(text.substr(0, text.find('\0')));
+    return utf8OfEither(text.substr(0, text.find('\0')));
 }
 
 void readCues(CueList& list, ByteWindow& file, const FileChunk& chunk, bool bigEndian)
 {
     if (chunk.bytes < 4)
         return;
-    const auto stated = file.number(chunk.content, 4, bigEndian);
-    list.stated += stated;
-    for (std::uint64_t i = 0; i < std::min(stated, (chunk.bytes - 4) / cueBytes); ++i)
+    const auto stated = file.number(chunk.content, 4, bigEndian), there = (chunk.bytes - 4) / cueBytes;
+    list.stated += std::max(stated, there);
+    list.uncounted += there > stated ? there - stated : 0;
+    for (std::uint64_t i = 0; i < there; ++i)
     {
         const auto cue = chunk.content + 4 + i * cueBytes;
         list.cues.push_back(
@@ -67,11 +70,25 @@ void readLabels(CueList& list, ByteWindow& file, const FileChunk& chunk, bool bi
     {
         const auto bytes = std::min(file.number(offset + 4, 4, bigEndian), end - offset - 8);
         const auto id = file.number(offset + 8, 4, bigEndian);
+        constexpr std::uint64_t fixedBytes = 20; // of "ltxt", before its text
         if (file.has(offset, "labl") && bytes > 4)
             list.names[id] = cueTextAt(file, offset + 12, bytes - 4);
-        else if (file.has(offset, "ltxt") && bytes >= 8 && file.number(offset + 12, 4, bigEndian) > 0)
-            ++list.regions;
-        offset += 8 + bytes + bytes % 2;
+        else if (file.has(offset, "note") && bytes > 4)
+            list.notes[id] = cueTextAt(file, offset + 12, bytes - 4);
+        else if (file.has(offset, "ltxt") && bytes >= 8)
+        {
+            list.regions += file.number(offset + 12, 4, bigEndian) > 0 ? 1u : 0u;
+            if (bytes > fixedBytes)
+                list.notes.try_emplace(id, cueTextAt(file, offset + 8 + fixedBytes, bytes - fixedBytes));
+        }
+        offset += 8 + bytes;
+        // Some writers leave out the byte of padding.
+        const auto isText = [&](std::uint64_t place)
+        {
+            return file.has(place, "labl") || file.has(place, "note") || file.has(place, "ltxt");
+        };
+        if (bytes % 2 != 0 && (isText(offset + 1) || !isText(offset)))
+            ++offset;
     }
 }
 
@@ -160,14 +177,19 @@ FoundMarkers cuesOf(ByteWindow& file, std::uint64_t begin, const std::vector<Fil
     const bool byPlay = std::all_of(list.cues.begin(), list.cues.end(), [](const auto& cue) { return cue.frame == 0; });
     for (const auto& cue : list.cues)
     {
-        const auto name = list.names.find(cue.id);
-        const bool isNamed = name != list.names.end() && !name->second.empty();
+        std::string name;
+        for (const auto* texts : {&list.names, &list.notes})
+            if (const auto text = texts->find(cue.id); name.empty() && text != texts->end())
+                name = text->second;
         found.markers.push_back({static_cast<double>(byPlay ? cue.played : cue.frame) / sampleRate,
-                                 isNamed ? name->second : std::to_string(found.markers.size() + 1)});
+                                 name.empty() ? std::to_string(found.markers.size() + 1) : name});
     }
     if (list.cues.size() < list.stated)
         found.warnings.push_back(
             fmt::format("states {} markers, of which {} can be read", list.stated, list.cues.size()));
+    if (list.uncounted > 0)
+        found.warnings.push_back(fmt::format("states {} markers, but has {}, which are all read",
+                                             list.stated - list.uncounted, list.stated));
     if (list.unread > 0)
         found.warnings.push_back(fmt::format("has {} regions, which are left out", list.unread));
     if (list.regions > 0)

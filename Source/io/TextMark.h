@@ -6,6 +6,7 @@
 
 #include <pacini/foundation/Result.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <string>
@@ -65,6 +66,22 @@ namespace pacini
         appendUtf8(result, byte >= 0x80 && byte < 0xA0 ? others[byte - 0x80u] : byte);
     }
     return result;
+}
+
+/// Returns a short text as UTF-8: as it is, without what ends within a character, or else that of Windows-1252.
+[[nodiscard]] inline std::string utf8OfEither(std::string_view text)
+{
+    if (isUtf8(text))
+        return std::string(text);
+    constexpr std::size_t longest = 4; // bytes of a character
+    for (std::size_t cut = 1; cut < longest && cut < text.size(); ++cut)
+    {
+        const auto rest = text.substr(0, text.size() - cut);
+        const bool isAscii = std::all_of(rest.begin(), rest.end(), [](char c) { return (c & 0x80) == 0; });
+        if (!isAscii && isUtf8(rest))
+            return std::string(rest);
+    }
+    return utf8OfWindows1252(text);
 }
 
 } // namespace pacini

@@ -156,3 +156,19 @@ TEST_CASE("Tracks of a cue sheet are markers by their titles", "[io]")
               "line 3");
     CHECK(readLabelText("FILE").error().where == "line 1");
 }
+
+TEST_CASE("Labels that are no UTF-8 are read as those of western Europe", "[io]")
+{
+    const auto read = readLabelText("0.5\t0.5\tSchl\xE4ge\n1\t1\tT\xC3\xBCr\n2\t2\tT\xC3\xBCr\xE2\x82\n");
+    REQUIRE(read.ok());
+    REQUIRE(read->markers.size() == 3);
+    CHECK(read->markers[0].name == "Schl\xC3\xA4ge");
+    CHECK(read->markers[1].name == "T\xC3\xBCr");
+    CHECK(read->markers[2].name == "T\xC3\xBCr"); // cut off within a character
+    const auto sheet = readLabelText("FILE \"a.wav\" WAVE\n TRACK 01 AUDIO\n TITLE \"Stra\xDF"
+                                     "e\"\n INDEX 01 00:01:00\n");
+    REQUIRE(sheet.ok());
+    REQUIRE(sheet->markers.size() == 1);
+    CHECK(sheet->markers[0].name == "Stra\xC3\x9F"
+                                    "e");
+}

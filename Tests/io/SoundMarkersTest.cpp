@@ -115,8 +115,9 @@ std::vector<Marker> markersOf(const std::string& bytes)
 TEST_CASE("Cues of a WAV are its markers, by their labels and in order", "[io]")
 {
     CHECK(markersOf(withCues({{4000, "ring"}, {2000, "hit"}})) == std::vector<Marker>{{0.25, "hit"}, {0.5, "ring"}});
-    CHECK(markersOf(withCues({{0, ""}, {8000, "end\xFF"}})) ==
-          std::vector<Marker>{{0.0, "1"}, {1.0, "end\xEF\xBF\xBD"}});
+    // Labels of Windows-1252, which most programs write, and one that is cut off within a character of UTF-8.
+    CHECK(markersOf(withCues({{0, ""}, {4000, "T\xC3\xBCr\xE2\x82"}, {8000, "T\xFCr \x80"}})) ==
+          std::vector<Marker>{{0.0, "1"}, {0.5, "T\xC3\xBCr"}, {1.0, "T\xC3\xBCr \xE2\x82\xAC"}});
     CHECK(markersOf(withCues({})).empty());
     CHECK(markersOf(wavBytes({}, pcm16({1, 2, 3}))).empty());
     std::vector<Cue> many;
@@ -452,4 +453,46 @@ TEST_CASE("Chapters in an ID3 tag behind a sound are markers", "[io]")
             CHECK(takenOf(bytes).markers == expected);
         CHECK(takenOf(tag + sound + tag).markers == expected);
     }
+}
+
+TEST_CASE("Cues are read beyond their stated number, and notes are names where there is no label", "[io]")
+{
+    TempFolder folder;
+    const auto read = [&](const std::string& chunks)
+    {
+        const std::string bytes = wavBytes({}, pcm16(std::vector<int>(8000, 5))) + chunks;
+        auto reader = AudioReader::open(put(folder / "x.wav", bytes));
+        REQUIRE(reader);
+        const auto markers = reader->takeMarkers(1.0);
+        return std::pair(markers, reader->warnings());
+    };
+    const auto point = [](std::uint64_t id, std::uint64_t frame)
+    {
+        return littleEndian(id, 4) + littleEndian(frame, 4) + "data" + littleEndian(0, 8) + littleEndian(frame, 4);
+    };
+    const auto cues = [&](std::uint64_t stated)
+    {
+        return wavChunk("cue ", littleEndian(stated, 4) + point(1, 2000) + point(2, 4000));
+    };
+    const auto id = [](std::uint64_t number)
+    {
+        return littleEndian(number, 4);
+    };
+    for (const std::uint64_t stated : {0, 1})
+    {
+        const auto [markers, warnings] = read(cues(stated));
+        CHECK(markers == std::vector<Marker>{{0.25, "1"}, {0.5, "2"}});
+        REQUIRE(warnings.size() == 1);
+        CHECK(warnings.front() == "states " + std::to_string(stated) + " markers, but has 2, which are all read");
+    }
+    const auto texts = wavChunk("note", id(1) + "a note\0"s) + wavChunk("labl", id(2) + "label\0"s) +
+                       wavChunk("note", id(2) + "unused\0"s);
+    CHECK(read(cues(2) + wavChunk("LIST", "adtl" + texts)).first ==
+          std::vector<Marker>{{0.25, "a note"}, {0.5, "label"}});
+    const auto region = wavChunk("ltxt", id(2) + littleEndian(0, 4) + "rgn " + std::string(8, '\0') + "text\0"s);
+    CHECK(read(cues(2) + wavChunk("LIST", "adtl" + region)).first == std::vector<Marker>{{0.25, "1"}, {0.5, "text"}});
+    // Without the byte of padding behind an odd length.
+    const auto unpadded =
+        "labl" + littleEndian(7, 4) + id(1) + "ab\0"s + "labl" + littleEndian(8, 4) + id(2) + "cde\0"s;
+    CHECK(read(cues(2) + wavChunk("LIST", "adtl" + unpadded)).first == std::vector<Marker>{{0.25, "ab"}, {0.5, "cde"}});
 }
