@@ -1,5 +1,6 @@
 #include "io/Mp4Tables.h"
 
+#include "io/AudioHeader.h"
 #include "io/ByteWindow.h"
 
 #include <algorithm>
@@ -34,14 +35,23 @@ public:
 
     std::vector<Mp4Track> tracks()
     {
-        const auto movie = child({0, file.size()}, "moov");
-        if (!movie || child({0, file.size()}, "moof") || child(*movie, "mvex"))
+        const Mp4Box whole{0, file.size()};
+        const auto movie = child(whole, "moov");
+        if (!movie)
+            return {};
+        const auto fragments = children(whole, "moof");
+        const bool isWhole = stopped + 8 > whole.end || areZeros(file, stopped, whole.end);
+        const bool isFragmented = !fragments.empty() || child(*movie, "mvex");
+        if (isFragmented && (fragments.empty() || fragments.size() * 2 >= mostBoxes))
             return {};
         const auto header = child(*movie, "mvhd");
         movieScale = header ? timeScale(*header) : 0;
         std::vector<Mp4Track> all;
         for (const Mp4Box& box : children(*movie, "trak"))
-            all.push_back(track(box));
+            all.push_back(isFragmented ? fragmentedTrack(box, *movie, fragments, isWhole) : track(box));
+        if (children({0, file.size()}, "moov").size() > 1)
+            for (Mp4Track& one : all)
+                one.doubts.emplace_back("has another film behind it, which is left out; save it as a file of its own");
         return all;
     }
 
@@ -67,6 +77,7 @@ private:
                 found.push_back({offset + head, offset + size});
             offset += size;
         }
+        stopped = offset;
         return found;
     }
 
@@ -148,6 +159,64 @@ private:
         return found;
     }
 
+    /// A track whose blocks are told of piece by piece, in front of each piece.
+    Mp4Track fragmentedTrack(const Mp4Box& box, const Mp4Box& movie, const std::vector<Mp4Box>& fragments, bool isWhole)
+    {
+        Mp4Track found;
+        const Mp4Box handler = inner(box, {"mdia", "hdlr"});
+        if (handler.bytes() < 12 || !file.has(handler.begin + 8, "soun"))
+            return found;
+        const Mp4Box header = inner(box, {"tkhd"});
+        const auto id = at(header, at(header, 0, 1) == 1 ? 20 : 12, 4);
+        const auto scale = timeScale(inner(box, {"mdia", "mdhd"}));
+        const Mp4Box times = inner(box, {"mdia", "minf", "stbl", "stts"});
+        double ticks = 0.0;
+        for (std::uint64_t i = 0; i < rows(times, 4, 8); ++i)
+            ticks += static_cast<double>(at(times, 8 + 8 * i, 4)) * static_cast<double>(at(times, 12 + 8 * i, 4));
+        std::uint64_t usual = 0; // ticks of a block, where nothing else is stated
+        for (const Mp4Box& defaults : children(inner(movie, {"mvex"}), "trex"))
+            if (at(defaults, 4, 4) == id)
+                usual = at(defaults, 12, 4);
+        for (const Mp4Box& fragment : fragments)
+            for (const Mp4Box& piece : children(fragment, "traf"))
+                ticks += ticksOf(piece, id, usual);
+        found.seconds = found.played = scale > 0 ? ticks / static_cast<double>(scale) : 0.0;
+        if (!isWhole)
+            found.doubts.emplace_back(
+                "is damaged or cut off between its fragments; some of its sound may be missing; get "
+                "a complete copy");
+        return found;
+    }
+
+    /// How long the blocks of a track last that a fragment tells of: 0 if it is about another track.
+    double ticksOf(const Mp4Box& piece, std::uint64_t id, std::uint64_t usual)
+    {
+        constexpr std::uint64_t hasBase = 1, hasDescription = 2, hasDuration = 8;
+        const Mp4Box header = inner(piece, {"tfhd"});
+        if (at(header, 4, 4) != id)
+            return 0.0;
+        const auto flags = at(header, 1, 3);
+        if ((flags & hasDuration) != 0)
+            usual = at(header, 8 + ((flags & hasBase) != 0 ? 8u : 0u) + ((flags & hasDescription) != 0 ? 4u : 0u), 4);
+        double ticks = 0.0;
+        for (const Mp4Box& run : children(piece, "trun"))
+        {
+            // An offset of the data, flags of the first block, then up to four numbers of each block.
+            const auto what = at(run, 1, 3);
+            const auto first = 8 + ((what & 1u) != 0 ? 4u : 0u) + ((what & 4u) != 0 ? 4u : 0u);
+            const auto count = std::min(at(run, 4, 4), mostRows);
+            std::uint64_t bytes = 0;
+            for (const std::uint64_t one : {0x100u, 0x200u, 0x400u, 0x800u})
+                bytes += (what & one) != 0 ? 4u : 0u;
+            if ((what & 0x100u) == 0)
+                ticks += static_cast<double>(count) * static_cast<double>(usual);
+            else
+                for (std::uint64_t i = 0; i < count && first + i * bytes < run.bytes(); ++i)
+                    ticks += static_cast<double>(at(run, first + i * bytes, 4));
+        }
+        return ticks;
+    }
+
     /// Blocks by the table that says how many are in each chunk: first chunk, blocks, description.
     std::uint64_t blocksOf(const Mp4Box& runs, std::uint64_t chunks)
     {
@@ -203,6 +272,7 @@ private:
 
     ByteWindow file;
     std::uint64_t movieScale = 0;
+    std::uint64_t stopped = 0; ///< where the boxes ended that were looked at last
 };
 } // namespace
 

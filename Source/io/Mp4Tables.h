@@ -18,8 +18,8 @@ struct Mp4Track
     std::vector<std::string> doubts; ///< contradictions, each a sentence about the file
 };
 
-/// The tracks of an MP4 or MOV file in their order, those that are no sound with 0 s. None for other files, and for
-/// those in fragments, whose lengths no header states. Moves the stream's position; trusts no number. Source: ISO/IEC
+/// The tracks of an MP4 or MOV file in their order, those that are no sound with 0 s; in fragments by what these
+/// state. None for other files. Moves the stream's position; trusts no number. Source: ISO/IEC
 /// 14496-12.
 [[nodiscard]] std::vector<Mp4Track> mp4Tracks(std::FILE* file);
 

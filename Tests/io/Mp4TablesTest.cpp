@@ -87,3 +87,46 @@ TEST_CASE("No damage of an MP4's header shortens its sound in silence", "[io][au
     CHECK(silent > rounds / 20);
     CHECK(without < rounds / 2);
 }
+
+TEST_CASE("The fragments of an MP4 state its sound, and one behind another is told", "[io][audio]")
+{
+    const TempFolder folder;
+    const auto twice = tracksOf(mp4Bytes(60, 16000) + mp4Bytes(60, 16000), folder);
+    REQUIRE(twice.size() == 1);
+    CHECK(twice[0].doubts ==
+          std::vector<std::string>{"has another film behind it, which is left out; save it as a file of its own"});
+
+    const std::string plain(4, '\0');
+    const std::string movie = mp4Box(
+        "moov",
+        mp4Box("mvhd", plain + plain + plain + bigEndian(1000, 4) + plain) +
+            mp4Box("trak",
+                   mp4Box("tkhd", plain + plain + plain + bigEndian(7, 4) + std::string(68, '\0')) +
+                       mp4Box("mdia", mp4Box("mdhd", plain + plain + plain + bigEndian(16000, 4) + plain + plain) +
+                                          mp4Box("hdlr", plain + plain + "soun" + std::string(13, '\0')))) +
+            mp4Box("mvex",
+                   mp4Box("trex", plain + bigEndian(7, 4) + bigEndian(1, 4) + bigEndian(1024, 4) + plain + plain)));
+    const auto fragment =
+        [&](std::uint32_t track, std::uint32_t headerFlags, const std::string& more, const std::string& run)
+    {
+        return mp4Box("moof",
+                      mp4Box("mfhd", plain + bigEndian(1, 4)) +
+                          mp4Box("traf", mp4Box("tfhd", bigEndian(headerFlags, 4) + bigEndian(track, 4) + more) +
+                                             mp4Box("trun", run))) +
+               mp4Box("mdat", std::string(100, 'x'));
+    };
+    // 10 blocks of the usual length, 5 of 512, two of their own lengths, and others of another track.
+    const std::string whole =
+        mp4Box("ftyp", "isom" + plain) + movie + fragment(7, 0, "", bigEndian(1, 4) + bigEndian(10, 4) + plain) +
+        fragment(7, 8, bigEndian(512, 4), bigEndian(0, 4) + bigEndian(5, 4)) +
+        fragment(7, 0, "",
+                 bigEndian(0x300, 4) + bigEndian(2, 4) + bigEndian(1000, 4) + plain + bigEndian(24, 4) + plain) +
+        fragment(8, 0, "", bigEndian(0, 4) + bigEndian(50, 4));
+    const auto tracks = tracksOf(whole, folder);
+    REQUIRE(tracks.size() == 1);
+    CHECK(std::abs(tracks[0].played - (10.0 * 1024.0 + 5.0 * 512.0 + 1024.0) / 16000.0) < 1e-9);
+    CHECK(tracks[0].doubts.empty());
+    CHECK(tracksOf(whole + std::string(100, '\0'), folder)[0].doubts.empty());
+    for (const std::string& damaged : {whole.substr(0, whole.size() - 20), whole + "no box at all"})
+        CHECK(tracksOf(damaged, folder)[0].doubts.size() == 1);
+}
