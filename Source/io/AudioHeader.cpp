@@ -1,5 +1,7 @@
 #include "io/AudioHeader.h"
 
+#include "io/SoundTags.h"
+
 #include <algorithm>
 #include <iterator>
 #include <limits>
@@ -74,11 +76,88 @@ std::uint64_t behindPadding(ByteWindow& file, const ChunkLayout& layout, std::ui
     return padded == next || hasId(file, layout, padded) || !hasId(file, layout, next) ? padded : next;
 }
 
+/// The bytes of audio of the frames that an AIFF states in its COMM; nothing for packed codecs.
+std::optional<std::uint64_t> statedByAiff(ByteWindow& file, std::uint64_t begin, std::uint64_t end)
+{
+    for (const FileChunk& chunk : chunksOf(file, begin, end, 0))
+    {
+        if (!file.has(chunk.offset, "COMM") || chunk.bytes < 18)
+            continue;
+        const auto channels = file.number(chunk.content, 2, true), bits = file.number(chunk.content + 6, 2, true);
+        const auto codec = chunk.content + 18;
+        const bool isPacked =
+            chunk.bytes >= 22 && (file.has(codec, "ima4") || file.has(codec, "GSM ") || file.has(codec, "agsm") ||
+                                  file.has(codec, "DWVW") || file.has(codec, ".mp") || file.has(codec, "MAC"));
+        if (isPacked)
+            return {};
+        return file.number(chunk.content + 2, 4, true) * channels * ((bits + 7) / 8);
+    }
+    return {};
+}
+
+/// An AIFF may place its first frame some bytes behind the start of the audio, for blocks of a disc. Writers that leave
+/// the number to chance are told by the frames that the file states.
+bool isTrueOffset(ByteWindow& file, std::uint64_t begin, std::uint64_t end, const AudioChunk& chunk,
+                  std::uint64_t offset)
+{
+    constexpr std::uint64_t usual = 4096, largest = 65536; // sizes of blocks
+    const auto there = std::min(chunk.promise.value_or(~std::uint64_t{0}), chunk.present(end));
+    if (offset > there)
+        return false;
+    if (const auto stated = statedByAiff(file, begin, chunk.sizeField); stated && *stated > 0)
+    {
+        if (there >= *stated && there - *stated >= offset)
+            return true;
+        if (there >= *stated)
+            return false;
+        return offset <= usual;
+    }
+    return offset <= largest;
+}
+
+/// The audio chunk whose id is at `offset`, of the file that begins at `begin`. `longSize` is that of a ds64.
+AudioChunk audioChunkAt(ByteWindow& file, const ChunkLayout& layout, std::uint64_t begin, std::uint64_t offset,
+                        std::uint64_t end, std::optional<std::uint64_t> longSize)
+{
+    const auto headerBytes = layout.idBytes + layout.sizeBytes;
+    AudioChunk found;
+    found.layout = &layout;
+    found.bigEndian = layout.bigEndian;
+    found.sizeField = offset + layout.idBytes;
+    found.start = offset + headerBytes + layout.headerOfData;
+    found.sizeExtra = layout.headerOfData + (layout.sizeCountsHeader ? headerBytes : 0);
+    const auto size = file.number(found.sizeField, layout.sizeBytes, layout.bigEndian);
+    if (size == 0xFFFFFFFFu && longSize)
+    {
+        if (!isLeftOpen64(*longSize))
+            found.promise = *longSize;
+    }
+    else if (!isLeftOpen(size, layout.sizeBytes))
+        found.promise = size - std::min(size, found.sizeExtra);
+    if (layout.fileId != "FORM")
+        return found;
+    const auto field = offset + headerBytes;
+    const auto skipped = file.number(field, 4, true);
+    if (skipped == 0)
+        return found;
+    if (found.promise == 0u ? skipped > 4096 : !isTrueOffset(file, begin, end, found, skipped))
+    {
+        found.wrongOffset = field;
+        return found;
+    }
+    found.start += skipped;
+    found.sizeExtra += skipped;
+    if (found.promise)
+        found.promise = *found.promise - std::min(*found.promise, skipped);
+    return found;
+}
+
 std::optional<AudioChunk> walk(ByteWindow& file, const ChunkLayout& layout, std::uint64_t begin, std::uint64_t end)
 {
     const auto headerBytes = layout.idBytes + layout.sizeBytes;
     std::optional<std::uint64_t> longSize;
     bool isUnpadded = false;
+    int formats = 0; // libsndfile gives up at a second one
     auto offset = begin + layout.firstChunk;
     for (int chunk = 0; chunk < maxChunks && offset + headerBytes <= end; ++chunk)
     {
@@ -88,22 +167,15 @@ std::optional<AudioChunk> walk(ByteWindow& file, const ChunkLayout& layout, std:
             longSize = file.number(offset + headerBytes + 8, 8, false);
         if (file.has(offset, layout.dataId))
         {
-            AudioChunk found;
-            found.layout = &layout;
-            found.isUnpadded = isUnpadded;
-            found.sizeField = offset + layout.idBytes;
-            found.start = offset + headerBytes + layout.headerOfData;
-            found.sizeExtra = layout.headerOfData + (layout.sizeCountsHeader ? headerBytes : 0);
-            const auto size = file.number(found.sizeField, layout.sizeBytes, layout.bigEndian);
-            if (size == 0xFFFFFFFFu && longSize)
-            {
-                if (!isLeftOpen64(*longSize))
-                    found.promise = *longSize;
-            }
-            else if (!isLeftOpen(size, layout.sizeBytes))
-                found.promise = size - std::min(size, found.sizeExtra);
+            auto found = audioChunkAt(file, layout, begin, offset, end, longSize);
+            // An empty one, and the audio in another behind it: what a recorder began, and what it wrote at last.
+            if (found.promise == 0u)
+                if (auto later = nextAudioChunk(file, layout, begin, found.start, end); later && later->promise != 0u)
+                    return later;
+            found.isHidden = isUnpadded || formats > 1;
             return found;
         }
+        formats += layout.isWave() && file.has(offset, "fmt ") ? 1 : 0;
         const auto next = nextChunk(file, layout, offset, end);
         if (!next)
             return {};
@@ -121,15 +193,39 @@ std::optional<AudioChunk> findAudioChunk(ByteWindow& file, std::uint64_t begin, 
     for (const ChunkLayout& layout : layouts)
         if (file.has(begin, layout.fileId))
             return walk(file, layout, begin, end);
-    // AU: the size of the header, then the size of the audio, big-endian (Sun, "audio.h").
-    if (!file.has(begin, ".snd"))
+    // AU: the size of the header, then the size of the audio, big-endian (Sun, "audio.h"); DEC wrote it the other way
+    // round.
+    const bool isSun = file.has(begin, ".snd");
+    if (!isSun && !file.has(begin, "dns."))
         return {};
     AudioChunk found;
+    found.bigEndian = isSun;
     found.sizeField = begin + 8;
-    found.start = begin + file.number(begin + 4, 4, true);
-    if (const auto size = file.number(found.sizeField, 4, true); !isLeftOpen(size, 4))
+    found.start = begin + file.number(begin + 4, 4, isSun);
+    if (const auto size = file.number(found.sizeField, 4, isSun); !isLeftOpen(size, 4))
         found.promise = size;
     return found;
+}
+
+std::optional<AudioChunk> nextAudioChunk(ByteWindow& file, const ChunkLayout& layout, std::uint64_t begin,
+                                         std::uint64_t offset, std::uint64_t end)
+{
+    for (int chunk = 0; chunk < maxChunks && offset < end; ++chunk)
+    {
+        if (!hasId(file, layout, offset) || startsSound(file, offset))
+            return {};
+        if (file.has(offset, layout.dataId))
+        {
+            auto found = audioChunkAt(file, layout, begin, offset, end, {});
+            found.isHidden = true;
+            return found.present(end) > 0 ? std::optional(found) : std::nullopt;
+        }
+        const auto next = nextChunk(file, layout, offset, end);
+        if (!next)
+            return {};
+        offset = behindPadding(file, layout, *next, begin);
+    }
+    return {};
 }
 
 bool startsSound(ByteWindow& file, std::uint64_t offset)
@@ -140,6 +236,8 @@ bool startsSound(ByteWindow& file, std::uint64_t offset)
             return file.has(offset + 8, "WAVE");
     if (file.has(offset, "FORM"))
         return file.has(offset + 8, "AIF");
+    if (file.has(offset, "dns."))
+        return file.number(offset + 4, 4, false) < 65536;
     for (const std::string_view id : {"caff\0\1"sv, "riff\x2e\x91\xcf\x11"sv, ".snd\0\0"sv, "fLaC\0\0\0"sv, "OggS\0"sv})
         if (file.has(offset, id))
             return true;
@@ -159,7 +257,7 @@ bool areZeros(ByteWindow& file, std::uint64_t offset, std::uint64_t end)
 }
 
 std::optional<std::uint64_t> endOfChunks(ByteWindow& file, const ChunkLayout& layout, std::uint64_t offset,
-                                         std::uint64_t end)
+                                         std::uint64_t end, std::optional<std::uint64_t>* tag)
 {
     for (int chunk = 0; chunk < maxChunks; ++chunk)
     {
@@ -169,6 +267,14 @@ std::optional<std::uint64_t> endOfChunks(ByteWindow& file, const ChunkLayout& la
             return offset;
         if (chunk > 0 && areZeros(file, offset, end))
             return end;
+        if (const auto bytes = file.has(offset, "ID3") ? tagBytesAt(file, offset) : 0;
+            bytes > 0 && bytes <= end - offset && !hasId(file, layout, offset))
+        {
+            if (tag && !*tag)
+                *tag = offset;
+            offset += bytes;
+            continue;
+        }
         if (!hasId(file, layout, offset) || file.has(offset, layout.dataId))
             return {};
         const auto next = nextChunk(file, layout, offset, end);

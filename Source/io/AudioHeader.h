@@ -37,7 +37,9 @@ struct AudioChunk
     std::uint64_t start = 0;              ///< of the first sample
     std::uint64_t sizeExtra = 0;          ///< what the size counts besides the audio
     std::optional<std::uint64_t> promise; ///< bytes of audio; empty where the writer left them open
-    bool isUnpadded = false;              ///< a chunk before it lacks the byte of padding behind it
+    bool isHidden = false;                ///< libsndfile does not find it behind what comes before it
+    bool bigEndian = false;               ///< byte order of the size
+    std::uint64_t wrongOffset = 0;        ///< of an AIFF: where an offset is that cannot be true
 
     [[nodiscard]] std::uint64_t present(std::uint64_t end) const noexcept { return end > start ? end - start : 0; }
 };
@@ -54,6 +56,11 @@ struct FileChunk
 /// (FLAC, Ogg, MP3), or when there is no such chunk. Trusts no number of the file.
 [[nodiscard]] std::optional<AudioChunk> findAudioChunk(ByteWindow& file, std::uint64_t begin, std::uint64_t end);
 
+/// The next audio chunk of the same file, if chunks and nothing else lie between it and `offset`: a sound may be stored
+/// in several. `begin` is where the file begins.
+[[nodiscard]] std::optional<AudioChunk> nextAudioChunk(ByteWindow& file, const ChunkLayout& layout, std::uint64_t begin,
+                                                       std::uint64_t offset, std::uint64_t end);
+
 /// Whether a file of a known format begins at `offset`.
 [[nodiscard]] bool startsSound(ByteWindow& file, std::uint64_t offset);
 
@@ -61,9 +68,11 @@ struct FileChunk
 [[nodiscard]] bool areZeros(ByteWindow& file, std::uint64_t offset, std::uint64_t end);
 
 /// `end` if chunks and nothing else lie from `offset` to there, zeros behind them apart; where another sound begins
-/// behind such chunks; nothing if there is something else.
+/// behind such chunks; nothing if there is something else. ID3 tags may lie among them; `tag` becomes the place of the
+/// first.
 [[nodiscard]] std::optional<std::uint64_t> endOfChunks(ByteWindow& file, const ChunkLayout& layout,
-                                                       std::uint64_t offset, std::uint64_t end);
+                                                       std::uint64_t offset, std::uint64_t end,
+                                                       std::optional<std::uint64_t>* tag = nullptr);
 
 /// The chunks of the file that begins at `begin`, before and behind its audio, which lasts until `audioEnd`. As many as
 /// can be told; none for other formats.

@@ -140,6 +140,10 @@ Error openingFailed(const SoundPart& part)
     // What it says of rates and channels that cannot be.
     if (reason.starts_with("internal error"))
         reason = "its header is damaged";
+    if (reason.starts_with("unspecified internal error"))
+        reason = "its header is damaged, or states an unknown format of samples";
+    if (reason.find("No 'data' chunk marker") != std::string::npos)
+        reason = "no sound is where its header leads";
     // What its MP3 part says of every file that is too short to start.
     if (reason.starts_with("file does not exist"))
         reason = "its audio is incomplete";
@@ -313,9 +317,14 @@ struct AudioReader::State
     /// Adds the markers of the current part, which is open and not read yet.
     void findMarkers()
     {
+        if (part().isContinued)
+            return; // they are those of the file
         const auto before = current > 0 ? parts[current - 1].end : 0;
         const auto from = std::min(before, part().begin);
-        const auto until = current + 1 < parts.size() ? parts[current + 1].begin : ByteWindow(file.get()).size();
+        auto next = current + 1;
+        while (next < parts.size() && parts[next].isContinued)
+            ++next;
+        const auto until = next < parts.size() ? parts[next].begin : ByteWindow(file.get()).size();
         pacini::addMarkers(markers, soundMarkers(file.get(), part(), from, until, info.samplerate), seconds(delivered));
         view.goTo(view.place); // where libsndfile left it
     }
@@ -352,9 +361,12 @@ struct AudioReader::State
 
     void warnOfPromise(double promised, double present)
     {
-        if (promised != present)
-            warn("has a header that states {:.3f} s, but {:.3f} s are there and all of them are read; save it anew",
-                 promised, present);
+        if (promised == present)
+            return;
+        // As many digits as it takes to tell them apart.
+        const int digits = fmt::format("{:.3f}", promised) == fmt::format("{:.3f}", present) ? 6 : 3;
+        warn("has a header that states {:.{}f} s, but {:.{}f} s are there and all of them are read; save it anew",
+             promised, digits, present, digits);
     }
 
     /// Why fewer frames came than were asked for; ok at a regular end.
@@ -372,6 +384,12 @@ struct AudioReader::State
                                 here)};
             warn("is cut off after {:.3f} s: the mark of its end is missing", seconds(here));
         }
+        else if (part().isUnended && isFormat(SF_FORMAT_OGG))
+            warn("lacks the mark of its end behind {:.3f} s; it may have been cut off", seconds(here));
+        if (part().streamsBeside > 0)
+            warn("has {} at the same time, which {} left out; save {} as a file of its own",
+                 part().streamsBeside == 1 ? "another sound" : fmt::format("{} other sounds", part().streamsBeside),
+                 part().streamsBeside == 1 ? "is" : "are", part().streamsBeside == 1 ? "it" : "each");
         if (isFormat(SF_FORMAT_MPEG))
             return explainMpegEnd(here);
         if (isFormat(SF_FORMAT_OGG))

@@ -64,9 +64,9 @@ SoundCodec soundCodecOf(ByteWindow& file, std::uint64_t begin, std::uint64_t end
 {
     if (file.has(begin, "OggS"))
         return codecOfOgg(file, begin);
-    if (file.has(begin, ".snd"))
+    if (const bool isSun = file.has(begin, ".snd"); isSun || file.has(begin, "dns."))
     {
-        const auto encoding = file.number(begin + 12, 4, true); // 23 to 26: G.721 and G.723, 24: G.722
+        const auto encoding = file.number(begin + 12, 4, isSun); // 23 to 26: G.721 and G.723, 24: G.722
         const bool isPlain = encoding <= 7 || encoding == 23 || encoding == 25 || encoding == 26 || encoding == 27;
         return isPlain ? SoundCodec::plain : SoundCodec::foreign;
     }

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <set>
 #include <string_view>
 #include <utility>
 
@@ -59,6 +60,7 @@ public:
         SoundPart part;
         part.begin = begin;
         part.end = endBeforeTags(file, begin, end);
+        hideMetadata(part);
         // STREAMINFO comes first; the lowest 36 bits before its checksum count the frames, 0 if they are not known (RFC
         // 9639, 8.2). libsndfile reads no more than they say, so it is not told.
         const auto type = file.at(begin + 4, 1);
@@ -75,6 +77,24 @@ public:
     }
 
 private:
+    /// Lets libsndfile pass over all blocks of metadata but the first: its decoder refuses the whole sound for a
+    /// picture or comments that are damaged.
+    void hideMetadata(SoundPart& part)
+    {
+        constexpr unsigned last = 0x80, padding = 1;
+        constexpr int most = 1000;
+        auto offset = part.begin + 4;
+        for (int block = 0; block < most && offset + 4 <= part.end; ++block)
+        {
+            const auto type = file.number(offset, 1, true);
+            if ((type & 0x7Fu) > padding)
+                part.patches.push_back({offset, std::string(1, static_cast<char>((type & last) | padding))});
+            if ((type & last) != 0)
+                return;
+            offset += 4 + file.number(offset + 1, 3, true);
+        }
+    }
+
     /// Where the first sound begins. libsndfile skips tags only in front of some formats.
     std::uint64_t behindTags()
     {
@@ -104,12 +124,29 @@ private:
         constexpr std::size_t fewestFrames = 8; // which chance does not make
         if (startsSound(file, begin) || hasMpegSync(file, begin))
             return begin;
-        const auto last = std::min(end, begin + reach);
-        if (const auto first = firstSound(begin, last); first < last)
+        const auto from = behindZeros(begin);
+        const auto last = std::min(end, from + reach);
+        if (const auto first = firstSound(from, last); first < last)
             return first;
-        const auto runs = mpegRuns(file, begin, std::min(end, begin + window));
+        const auto runs = mpegRuns(file, from, std::min(end, from + window));
         const bool found = !runs.empty() && runs.front().begin < last && runs.front().frames >= fewestFrames;
         return found ? runs.front().begin : begin;
+    }
+
+    /// Where something else than zeros begins: files that were fetched in pieces may lack the first.
+    std::uint64_t behindZeros(std::uint64_t begin)
+    {
+        for (auto offset = begin; offset < end;)
+        {
+            const auto piece = file.at(offset, static_cast<std::size_t>(std::min<std::uint64_t>(end - offset, 4096)));
+            const auto found = std::find_if(piece.begin(), piece.end(), [](unsigned char c) { return c != 0; });
+            if (found != piece.end())
+                return offset + static_cast<std::uint64_t>(found - piece.begin());
+            if (piece.empty())
+                break;
+            offset += piece.size();
+        }
+        return begin;
     }
 
     /// Where the first sound of a known kind begins from one place to another; the latter if there is none.
@@ -117,7 +154,7 @@ private:
     {
         auto first = last;
         for (const std::string_view id :
-             {"RIFF", "RIFX", "RF64", "BW64", "FORM", "caff", "riff", ".snd", "fLaC", "OggS"})
+             {"RIFF", "RIFX", "RF64", "BW64", "FORM", "caff", "riff", ".snd", "dns.", "fLaC", "OggS"})
             for (auto place = file.find(id, from, first); place < first; place = file.find(id, place + 1, first))
                 if (startsSound(file, place))
                 {
@@ -156,52 +193,67 @@ private:
     /// A sound of chunks, or of a format that is not looked into.
     std::optional<std::uint64_t> addChunked(std::uint64_t begin)
     {
-        SoundPart& part = parts.emplace_back();
-        part.begin = begin;
-        part.end = end;
+        parts.emplace_back().begin = begin;
+        parts.back().end = end;
         const auto found = findAudioChunk(file, begin, end);
         if (!found)
         {
             if (startsSound(file, begin))
-                part.presentBytes = end - begin; // at most
+                parts.back().presentBytes = end - begin; // at most
             return {};
         }
-        const auto next = addAudio(part, *found);
+        later.reset();
+        auto next = addAudio(parts.back(), *found);
         if (soundCodecOf(file, begin, end) == SoundCodec::mpeg)
         {
             addMpegInside(*found, begin);
+            parts.back().leftOutBytes += later ? end - later->start : 0;
             return next;
         }
-        addPadding(part, *found);
-        // AIFF says how many bytes of its audio chunk lie before the first frame, to place it on a disc: hardly ever.
-        if (!found->layout || found->layout->fileId != "FORM")
-            return next;
-        constexpr std::uint64_t largestOffset = 4096;
-        const auto field = found->start - found->layout->headerOfData;
-        if (const auto offset = file.number(field, 4, true); offset > largestOffset)
-            part.patches.push_back({field, std::string(4, '\0')});
-        else
-            part.skippedBytes = offset;
+        addHeader(parts.back(), *found);
+        while (const auto chunk = std::exchange(later, std::nullopt))
+        {
+            if (parts.size() == mostParts)
+            {
+                parts.back().leftOutBytes += end - chunk->start;
+                break;
+            }
+            SoundPart& part = parts.emplace_back();
+            part.begin = begin;
+            part.end = end;
+            part.isContinued = true;
+            next = addAudio(part, *chunk);
+            addHeader(part, *chunk);
+        }
         return next;
     }
 
-    /// Lets a file begin later whose audio chunk follows one of odd length without padding, where libsndfile does not
-    /// look for it: header and format are read again in front of the audio chunk.
-    void addPadding(SoundPart& part, const AudioChunk& chunk)
+    /// Lets a file begin later whose audio chunk libsndfile does not find: header and format are read again in front of
+    /// it.
+    void addHeader(SoundPart& part, const AudioChunk& chunk)
     {
+        if (chunk.wrongOffset > 0)
+            part.patches.push_back({chunk.wrongOffset, std::string(4, '\0')});
         const auto* layout = chunk.layout;
-        if (!chunk.isUnpadded || (layout->fileId != "RIFF" && layout->fileId != "FORM"))
+        if (!chunk.isHidden || !layout)
             return;
         const auto audio = chunk.sizeField - layout->idBytes;
-        constexpr std::string_view needed[] = {"fmt ", "fact", "FVER", "COMM"};
+        constexpr std::string_view needed[] = {"fmt ", "fact", "FVER", "COMM", "desc", "chan"};
         constexpr std::uint64_t largest = 4096;
         auto header = bytesAt(part.begin, layout->firstChunk);
+        for (const BytePatch& patch : part.patches)
+            if (patch.offset >= part.begin && patch.offset + patch.bytes.size() <= part.begin + header.size())
+                header.replace(static_cast<std::size_t>(patch.offset - part.begin), patch.bytes.size(), patch.bytes);
+        std::set<std::string_view> taken;
         for (const FileChunk& piece : chunksOf(file, part.begin, audio, 0))
-            if (const auto whole = piece.content + piece.bytes - piece.offset;
-                piece.bytes % layout->alignment == 0 && piece.bytes <= largest &&
-                std::any_of(std::begin(needed), std::end(needed),
-                            [&](std::string_view id) { return file.has(piece.offset, id); }))
-                header += bytesAt(piece.offset, whole);
+            for (const std::string_view id : needed)
+                if (piece.bytes <= largest && file.has(piece.offset, id) && taken.insert(id).second)
+                {
+                    header += bytesAt(piece.offset, piece.content + piece.bytes - piece.offset);
+                    header.append((layout->alignment - header.size() % layout->alignment) % layout->alignment, '\0');
+                }
+        if (header.size() > audio)
+            return;
         part.outerBegin = std::exchange(part.begin, audio - header.size());
         part.patches.push_back({part.begin, std::move(header)});
     }
@@ -260,7 +312,8 @@ private:
         }
         const auto stop = chunk.start + promise;
         part.presentBytes = promise;
-        if (isRenamed(chunk))
+        // libsndfile takes what follows the audio of a W64 for more of it.
+        if (isRenamed(chunk) || (chunk.layout && chunk.layout->fileId == "riff" && stop < end))
             setEnd(part, chunk, stop);
         return addBehind(part, chunk, stop, std::max(stop, soundEnd));
     }
@@ -276,13 +329,27 @@ private:
         for (std::uint64_t pad = 0; pad < padding; ++pad)
         {
             const auto behind = std::min(stop + pad, soundEnd);
-            const auto next = chunk.layout ? endOfChunks(file, *chunk.layout, behind, soundEnd) : std::nullopt;
+            std::optional<std::uint64_t> tag;
+            const auto next = chunk.layout ? endOfChunks(file, *chunk.layout, behind, soundEnd, &tag) : std::nullopt;
             if (next && *next >= soundEnd)
+            {
+                part.end = tag.value_or(part.end);
                 return {};
+            }
             if (next || startsSound(file, behind))
             {
                 part.end = next.value_or(behind);
                 return part.end;
+            }
+            if (const auto tagged = behindLastTags(behind, soundEnd))
+            {
+                part.end = behind;
+                return *tagged < soundEnd ? tagged : std::nullopt;
+            }
+            if (chunk.layout && (later = nextAudioChunk(file, *chunk.layout, part.begin, behind, soundEnd)))
+            {
+                setEnd(part, chunk, stop);
+                return {};
             }
         }
         constexpr std::uint64_t mostPadding = 65536; // the largest blocks that discs are divided in
@@ -295,6 +362,22 @@ private:
         part.promisedBytes = chunk.promise;
         setEnd(part, chunk, audioEnd);
         return {};
+    }
+
+    /// The end, or where another sound begins, behind nothing but tags; nothing where something else lies there.
+    std::optional<std::uint64_t> behindLastTags(std::uint64_t offset, std::uint64_t soundEnd)
+    {
+        const auto begin = offset;
+        while (offset < soundEnd)
+        {
+            if (offset > begin && startsSound(file, offset))
+                return offset;
+            const auto tag = tagBytesAt(file, offset);
+            if (tag == 0 || tag > soundEnd - offset)
+                return {};
+            offset += tag;
+        }
+        return offset;
     }
 
     /// Whether a header that promises more than the file has is merely wrong: by its own length or a few bytes, by
@@ -340,7 +423,7 @@ private:
         const auto* layout = chunk.layout;
         if (!layout)
         {
-            part.patches.push_back({chunk.sizeField, bytesOf(std::min(size, largest32), 4, true)});
+            part.patches.push_back({chunk.sizeField, bytesOf(std::min(size, largest32), 4, chunk.bigEndian)});
             return;
         }
         if (layout->sizeBytes == 4 && layout->fileId != "FORM")
@@ -366,10 +449,11 @@ private:
     void addOgg(std::uint64_t begin)
     {
         constexpr std::size_t headerBytes = 27;
-        constexpr unsigned beginsStream = 2;
+        constexpr unsigned beginsStream = 2, endsStream = 4;
         bool headers = false;
         std::uint64_t skipped = 0;
         std::uint64_t stream = 0, nextPage = 0;
+        bool isSound = false; // what `stream` is
         for (auto offset = begin; offset < end;)
         {
             const auto head = file.at(offset, headerBytes + 255);
@@ -394,22 +478,32 @@ private:
                     return;
                 }
                 parts.emplace_back().begin = offset;
+                isSound = false;
+            }
+            const bool beginsSound = starts && startsOggSound(offset);
+            SoundPart& part = parts.back();
+            // The first sound among streams that run side by side.
+            if (part.begin == offset || (beginsSound && !isSound))
+            {
                 stream = file.number(offset + 14, 4, false);
                 nextPage = file.number(offset + 18, 4, false);
+                isSound = beginsSound;
             }
+            else if (beginsSound)
+                ++part.streamsBeside;
             headers = starts;
-            SoundPart& part = parts.back();
             if (file.number(offset + 14, 4, false) == stream)
             {
                 const auto page = file.number(offset + 18, 4, false);
                 part.lostPages += page > nextPage ? page - nextPage : 0;
                 nextPage = page + 1;
-            }
-            // The time at the end of the page; all ones where no packet ends on it.
-            if (const auto time = file.number(offset + 6, 8, false); time > 0 && time < std::uint64_t{1} << 62u)
-            {
-                part.firstTime = part.firstTime == 0 ? time : std::min(part.firstTime, time);
-                part.lastTime = std::max(part.lastTime, time);
+                part.isUnended = (head[5] & endsStream) == 0;
+                // The time at the end of the page; all ones where no packet ends on it.
+                if (const auto time = file.number(offset + 6, 8, false); time > 0 && time < std::uint64_t{1} << 62u)
+                {
+                    part.firstTime = part.firstTime == 0 ? time : std::min(part.firstTime, time);
+                    part.lastTime = std::max(part.lastTime, time);
+                }
             }
             part.skippedBytes += std::exchange(skipped, 0);
             offset += bytes;
@@ -418,9 +512,38 @@ private:
         parts.back().skippedBytes += skipped;
     }
 
+    /// Whether the page at `offset` begins a stream of sound.
+    bool startsOggSound(std::uint64_t offset)
+    {
+        using namespace std::string_view_literals;
+        const auto packet = offset + 27 + file.number(offset + 26, 1, true);
+        for (const auto name : {"\1vorbis"sv, "OpusHead"sv, "\x7F\x46LAC"sv, "Speex   "sv})
+            if (file.has(packet, name))
+                return true;
+        return false;
+    }
+
     bool addMpeg(std::uint64_t begin, std::uint64_t audioEnd)
     {
-        const auto runs = mpegRuns(file, begin, audioEnd);
+        auto runs = mpegRuns(file, begin, audioEnd);
+        // A header that counts frames, in front of another such header instead of them: programs that join files leave
+        // it.
+        for (std::size_t i = 0; i + 1 < runs.size();)
+            if (runs[i].frames == 0 && runs[i].end > runs[i].begin && runs[i + 1].skipped == 0)
+            {
+                runs[i + 1].skipped += runs[i].skipped;
+                runs.erase(runs.begin() + static_cast<std::ptrdiff_t>(i));
+            }
+            else
+                ++i;
+        // Zeros behind the sound.
+        std::uint64_t zeros = 0;
+        if (runs.size() > 1 && runs.back().end == runs.back().begin && runs.back().skipped <= audioEnd - begin &&
+            areZeros(file, audioEnd - runs.back().skipped, audioEnd))
+        {
+            zeros = runs.back().skipped;
+            runs.pop_back();
+        }
         if (runs.empty() || runs.front().frames == 0)
             return false;
         for (const MpegRun& run : runs)
@@ -439,11 +562,13 @@ private:
             if (run.countField != 0 && run.statedFrames != run.frames)
                 part.patches.push_back({run.countField, bytesOf(run.frames, 4, true)});
         }
+        parts.back().leftOutBytes += zeros;
         return true;
     }
 
     ByteWindow file;
     std::uint64_t end;
+    std::optional<AudioChunk> later; ///< more audio behind that of the last part, in the same file of chunks
     std::vector<SoundPart> parts;
 };
 } // namespace

@@ -39,6 +39,9 @@ struct SoundPart
     std::uint64_t lastTime = 0;                  ///< frames, those of Opus at 48 kHz
     std::uint64_t lostPages = 0;                 ///< of an Ogg stream, which counts them
     bool endsInFrame = false;                    ///< it ends within a frame of its codec
+    bool isContinued = false;                    ///< more audio of the file of chunks that the part before is of
+    bool isUnended = false;                      ///< of an Ogg stream: no page says that it ends
+    std::uint64_t streamsBeside = 0;             ///< of an Ogg stream: sounds that run at the same time
 };
 
 /// Returns the parts of `file` for libsndfile to read, in order; at least one unless the file is empty. Moves the

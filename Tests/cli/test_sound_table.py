@@ -150,6 +150,33 @@ class SoundTable(CommandTest):
         self.assertEqual(self.markers(), [0.25])
         says = self.row("another sound behind that has another rate")
         self.reads_with_a_word(says, sound + wav(sine(100, 1.0), rate=44100), "another sound")
+        says = self.row("audio in several chunks")
+        half, data = 44 + size // 2, chunk(b"data", b"")
+        self.reads(says, with_size(sound[:half], size // 2) + chunk(b"data", sound[half:]))
+        self.reads(says, sound[:36] + data + sound[36:])
+        says = self.row("a first frame that an AIFF places")
+        samples = sound[44:]
+        swapped = b"".join(samples[i + 1:i + 2] + samples[i:i + 1] for i in range(0, len(samples), 2))
+        common = struct.pack(">HIHH", 1, size // 2, 16, 16383 + 15) + struct.pack(">Q", RATE << 48)
+        for offset, filling in ((0, b""), (512, b"U" * 512), (512, b"")):
+            inside = struct.pack(">II", offset, 512) + filling + swapped
+            body = b"AIFFCOMM" + struct.pack(">I", 18) + common + b"SSND" + struct.pack(">I", len(inside)) + inside
+            self.reads(says, b"FORM" + struct.pack(">I", len(body)) + body)
+        says = self.row("sounds that run side by side")
+        pages = [b"OggS" + page for page in (SOUNDS / "tone.ogg").read_bytes().split(b"OggS")[1:]]
+        others = [b"OggS" + page for page in (SOUNDS / "tone.opus").read_bytes().split(b"OggS")[1:]]
+        self.assertEqual(self.encode(b"".join(pages)), 0, self.said)
+        alone = self.clip_read["duration"]
+        mixed = b"".join([pages[0], others[0], *pages[1:], *others[1:]])
+        self.reads_with_a_word(says, mixed, "another sound at the same time", alone)
+        self.assertEqual(self.encode(b"".join(pages[:-1])), 0, self.said)
+        self.assertIn("lacks the mark of its end", self.said)
+        says = self.row("damaged pictures")
+        flac = (SOUNDS / "ramp.flac").read_bytes()
+        self.assertEqual(self.encode(flac), 0, self.said)
+        picture = bytes([6]) + struct.pack(">I", 30)[1:] + b"\x7f" * 30
+        self.reads(says, flac[:4] + bytes([flac[4] & 127]) + flac[5:42] + picture + flac[42:],
+                   self.clip_read["duration"])
         self.reads_with_a_word(self.row("zeros behind the stated end"), sound + bytes(400), "400 bytes")
         says = self.row("a hole in an MP3")
         self.assertIn("warning", says)

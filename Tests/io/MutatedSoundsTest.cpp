@@ -226,7 +226,7 @@ TEST_CASE("What follows a sound is told from more of it", "[io][audio]")
     const std::string id3v1 = "TAG" + std::string(125, 'x');
     const std::string id3v2 = "ID3\x03" + std::string(5, '\0') + "\x40" + std::string(64, 'x');
     const KnownSound wave = waveFile("RIFF");
-    for (const std::string& rest : {list, list + list, id3v1, list + id3v1})
+    for (const std::string& rest : {list, list + list, id3v1, list + id3v1, id3v2, list + id3v2, id3v2 + id3v1})
     {
         const auto audio = read(wave.bytes + rest);
         CHECK(audio.samples.size() == knownFrames);
@@ -235,6 +235,7 @@ TEST_CASE("What follows a sound is told from more of it", "[io][audio]")
     CHECK(read(id3v2 + wave.bytes).samples.size() == knownFrames);
     CHECK(read(id3v2 + wave.bytes).warnings.empty());
     CHECK(read(wave.bytes + wave.bytes).samples.size() == 2 * knownFrames);
+    CHECK(read(wave.bytes + id3v2 + wave.bytes).samples.size() == 2 * knownFrames);
     CHECK(read(wave.bytes + list + wave.bytes).samples.size() == 2 * knownFrames);
     // A size that was left open, and chunks behind the sound.
     auto open = wave.bytes;
@@ -364,4 +365,243 @@ TEST_CASE("MPEG audio in a file of chunks is read as if it lay alone", "[io][aud
     const auto rest = read(whole.substr(0, whole.size() - mp3.size() / 2), true);
     REQUIRE(rest.ok());
     CHECK_FALSE(rest->warnings.empty());
+}
+
+TEST_CASE("Audio in several chunks of one file is read as one", "[io][audio]")
+{
+    const TempFolder folder;
+    const auto read = [&](const std::string& bytes)
+    {
+        const auto audio = readAudio(put(folder / "x", bytes));
+        REQUIRE(audio.ok());
+        CHECK(audio->warnings.empty());
+        return audio->samples;
+    };
+    // The header in front of the audio is that of the known sound; its size is of the first part alone.
+    const std::string listOfWave = "LIST" + littleEndian(4, 4) + "INFO", listOfAiff = "NAME" + bigEndian(2, 4) + "ab";
+    const std::string guid("\xF3\xAC\xD3\x11\x8C\xD1\x00\xC0\x4F\x8E\xDB\x8A", 12);
+    struct Kind
+    {
+        KnownSound sound;
+        std::size_t start;    // of the audio
+        std::uint64_t counts; // what a size counts besides
+        std::string id;
+        std::string list;
+    };
+    const std::size_t first = 2000, second = 3000; // bytes
+    for (const Kind& kind : {Kind{waveFile("RIFF"), 44, 0, "data", listOfWave},
+                             Kind{waveFile("RF64"), 80, 0, "data", listOfWave}, Kind{aiff(), 54, 8, "SSND", listOfAiff},
+                             Kind{caf(), 68, 4, "data", ""}, Kind{wave64(), 104, 24, "data" + guid, ""}})
+    {
+        CAPTURE(kind.sound.name);
+        const auto& bytes = kind.sound.bytes;
+        const auto whole = read(bytes);
+        const bool isLong = kind.sound.name == "RF64";
+        const auto sized = [&](std::size_t count, int width)
+        {
+            return kind.sound.bigEndian ? bigEndian(count + kind.counts, width)
+                                        : littleEndian(count + kind.counts, width);
+        };
+        const int width = isLong ? 4 : kind.sound.sizeBytes;
+        const auto chunk = [&](std::size_t from, std::size_t count)
+        {
+            const auto inside = kind.sound.name == "AIFF" ? 8u : kind.sound.name == "CAF" ? 4u : 0u;
+            return kind.id + sized(count, width) + std::string(inside, '\0') + bytes.substr(kind.start + from, count);
+        };
+        const auto audio = bytes.find(kind.id, 12 + (isLong ? 36 : 0));
+        const auto header = bytes.substr(0, audio);
+        const auto rest = bytes.size() - kind.start - first - second;
+        const auto whenSplit = [&](const std::string& between)
+        {
+            return header + chunk(0, first) + between + chunk(first, second) + chunk(first + second, rest);
+        };
+        CHECK(read(whenSplit(kind.list)) == whole);
+        CHECK(read(whenSplit("")) == whole);
+        CHECK(read(header + chunk(0, 0) + kind.list + chunk(0, first + second + rest)) == whole);
+    }
+    // The second part may be what is cut off.
+    const auto wave = waveFile("RIFF").bytes;
+    const auto cut = wave.substr(0, 40) + littleEndian(2000, 4) + wave.substr(44, 2000) + "data" +
+                     littleEndian(50'000, 4) + wave.substr(2044, 3000);
+    const auto refused = readAudio(put(folder / "x", cut));
+    const auto taken = readAudio(put(folder / "x", cut), {.allowTruncated = true});
+    REQUIRE(refused.ok());
+    CHECK(refused->samples.size() == 1000);
+    REQUIRE(refused->warnings.size() == 1);
+    CHECK(refused->warnings.front().starts_with(
+        "has another sound behind 0.125 s, which is left out: it is truncated: "));
+    REQUIRE(taken.ok());
+    CHECK(taken->samples.size() == 2500);
+    CHECK(taken->warnings.size() == 1);
+    // Markers behind the last part count from the start of the first.
+    const std::string cue = "cue " + littleEndian(28, 4) + littleEndian(1, 4) + littleEndian(1, 4) +
+                            littleEndian(3000, 4) + "data" + std::string(8, '\0') + littleEndian(3000, 4);
+    const auto split = wave.substr(0, 40) + littleEndian(2000, 4) + wave.substr(44, 2000) + "data" +
+                       littleEndian(6000, 4) + wave.substr(2044) + cue;
+    auto reader = AudioReader::open(put(folder / "x", split));
+    REQUIRE(reader.ok());
+    REQUIRE(reader->markers().size() == 1);
+    CHECK(reader->markers().front().time == 3000.0 / rate);
+    // Two chunks of format, of which libsndfile wants one.
+    CHECK(read(wave.substr(0, 36) + wave.substr(12, 24) + wave.substr(36)) == read(wave));
+}
+
+TEST_CASE("An AIFF places its first frame where it says, unless its number of frames contradicts", "[io][audio]")
+{
+    const TempFolder folder;
+    const KnownSound sound = aiff();
+    const auto whole = readAudio(put(folder / "whole", sound.bytes));
+    REQUIRE(whole.ok());
+    const auto read = [&](std::size_t stated, std::size_t filled, char filling)
+    {
+        auto bytes = sound.bytes;
+        bytes.replace(sound.size, 4, bigEndian(8 + filled + 2 * knownFrames, 4));
+        bytes.replace(sound.size + 4, 4, bigEndian(stated, 4));
+        bytes.insert(sound.size + 12, std::string(filled, filling));
+        const auto audio = readAudio(put(folder / "x", bytes));
+        REQUIRE(audio.ok());
+        CHECK(audio->warnings.empty());
+        return audio->samples;
+    };
+    for (const std::size_t offset : {2u, 8u, 512u, 4096u, 5000u, 70000u})
+    {
+        CAPTURE(offset);
+        CHECK(read(offset, offset, '\0') == whole->samples);
+        CHECK(read(offset, offset, 'U') == whole->samples);
+        CHECK(read(offset, 0, '\0') == whole->samples);
+    }
+    CHECK(read(0xFFFFFFF0u, 0, '\0') == whole->samples);
+}
+
+TEST_CASE("An AU whose bytes are the other way round is read as a whole, too", "[io][audio]")
+{
+    const TempFolder folder;
+    const auto data = tone(false);
+    const auto file = [&](std::uint64_t stated)
+    {
+        return "dns." + littleEndian(24, 4) + littleEndian(stated, 4) + littleEndian(3, 4) + littleEndian(rate, 4) +
+               littleEndian(1, 4) + data;
+    };
+    for (const auto& [stated, warnings] :
+         {std::pair(std::uint64_t{2 * knownFrames}, 0u), std::pair(std::uint64_t{0xFFFFFFFF}, 0u),
+          std::pair(std::uint64_t{0}, 1u), std::pair(std::uint64_t{1000}, 1u)})
+    {
+        CAPTURE(stated);
+        const auto audio = readAudio(put(folder / "x", file(stated)));
+        REQUIRE(audio.ok());
+        CHECK(audio->samples.size() == knownFrames);
+        CHECK(audio->warnings.size() == warnings);
+    }
+    CHECK(readAudio(put(folder / "x", file(50'000))).error().code == ErrorCode::truncated);
+}
+
+TEST_CASE("Chunks behind the audio of a W64 are not read as sound", "[io][audio]")
+{
+    const TempFolder folder;
+    const std::string guid("\xF3\xAC\xD3\x11\x8C\xD1\x00\xC0\x4F\x8E\xDB\x8A", 12);
+    const auto audio =
+        readAudio(put(folder / "x", wave64().bytes + "list" + guid + littleEndian(32, 8) + std::string(8, 'x')));
+    REQUIRE(audio.ok());
+    CHECK(audio->samples.size() == knownFrames);
+    CHECK(audio->warnings.empty());
+}
+
+TEST_CASE("Sounds that run side by side in an Ogg, and a missing mark of its end, are told", "[io][audio]")
+{
+    const TempFolder folder;
+    const auto pagesOf = [](const std::string& name)
+    {
+        const auto bytes = bytesOf(testFolder() / "io/audio" / name);
+        std::vector<std::string> pages;
+        for (std::size_t begin = 0; begin < bytes.size();)
+        {
+            auto next = bytes.find("OggS", begin + 4);
+            next = next == std::string::npos ? bytes.size() : next;
+            pages.push_back(bytes.substr(begin, next - begin));
+            begin = next;
+        }
+        return pages;
+    };
+    const auto vorbis = pagesOf("tone.ogg"), opus = pagesOf("tone.opus");
+    const auto joined = [](const std::vector<std::string>& pages, std::size_t from, std::size_t to)
+    {
+        std::string bytes;
+        for (std::size_t i = from; i < to; ++i)
+            bytes += pages[i];
+        return bytes;
+    };
+    const auto alone = readAudio(put(folder / "x", joined(vorbis, 0, vorbis.size())));
+    REQUIRE(alone.ok());
+    const auto beside = readAudio(
+        put(folder / "x", vorbis[0] + opus[0] + joined(vorbis, 1, vorbis.size()) + joined(opus, 1, opus.size())));
+    REQUIRE(beside.ok());
+    CHECK(beside->samples == alone->samples);
+    CHECK(beside->warnings == std::vector<std::string>{"has another sound at the same time, which is left out; save it "
+                                                       "as a file of its own"});
+    const auto unended = readAudio(put(folder / "x", joined(vorbis, 0, vorbis.size() - 1)));
+    REQUIRE(unended.ok());
+    REQUIRE(unended->samples.size() < alone->samples.size());
+    REQUIRE(unended->warnings.size() == 1);
+    CHECK(unended->warnings.front().starts_with("lacks the mark of its end behind "));
+}
+
+TEST_CASE("Zeros around an MP3 are passed over, and a header in front of another is none", "[io][audio]")
+{
+    const TempFolder folder;
+    const auto mp3 = bytesOf(testFolder() / "io/audio/tone.mp3");
+    const auto alone = readAudio(put(folder / "x", mp3));
+    REQUIRE(alone.ok());
+    const auto header = std::min(mp3.find("Xing"), mp3.find("Info"));
+    const auto begin = mp3.rfind('\xFF', header), second = mp3.find(mp3.substr(begin, 2), header);
+    const auto twice =
+        readAudio(put(folder / "x", mp3.substr(0, begin) + mp3.substr(begin, second - begin) + mp3.substr(begin)));
+    REQUIRE(twice.ok());
+    CHECK(twice->samples == alone->samples);
+    CHECK(twice->warnings.empty());
+    for (const std::size_t zeros : {5000u, 100'000u})
+    {
+        CAPTURE(zeros);
+        const auto behind = readAudio(put(folder / "x", mp3 + std::string(zeros, '\0')));
+        REQUIRE(behind.ok());
+        CHECK(behind->samples == alone->samples);
+        REQUIRE(behind->warnings.size() == 1);
+        CHECK(behind->warnings.front().find("bytes behind its sound that are left out") != std::string::npos);
+        const auto before = readAudio(put(folder / "x", std::string(zeros, '\0') + mp3.substr(begin)));
+        REQUIRE(before.ok());
+        CHECK(before->samples == alone->samples);
+        CHECK(before->warnings.size() == 1);
+    }
+}
+
+TEST_CASE("A FLAC is read whatever its blocks of metadata hold", "[io][audio]")
+{
+    const TempFolder folder;
+    const auto flac = bytesOf(testFolder() / "io/audio/ramp.flac");
+    const auto alone = readAudio(put(folder / "x", flac));
+    REQUIRE(alone.ok());
+    const auto first = std::size_t{4 + 4 + 34}; // behind the first block
+    for (const char type : {'\x03', '\x04', '\x05', '\x06', '\x55'})
+    {
+        CAPTURE(int(type));
+        auto bytes = flac;
+        bytes.insert(first, type + bigEndian(30, 3) + std::string(30, '\x7F'));
+        bytes[4] = static_cast<char>(bytes[4] & 0x7F);
+        if ((flac[4] & 0x80) != 0)
+            bytes[first] = static_cast<char>(bytes[first] | 0x80);
+        const auto audio = readAudio(put(folder / "x", bytes));
+        REQUIRE(audio.ok());
+        CHECK(audio->samples == alone->samples);
+    }
+}
+
+TEST_CASE("A warning of two lengths that differ little has the digits that tell them apart", "[io][audio]")
+{
+    const TempFolder folder;
+    auto bytes = waveFile("RIFF").bytes;
+    bytes.replace(40, 4, littleEndian(2 * knownFrames + 4, 4));
+    const auto audio = readAudio(put(folder / "x", bytes));
+    REQUIRE(audio.ok());
+    CHECK(audio->warnings ==
+          std::vector<std::string>{"has a header that states 0.500250 s, but 0.500000 s are there and "
+                                   "all of them are read; save it anew"});
 }

@@ -478,7 +478,7 @@ TEST_CASE("Cues are read beyond their stated number, and notes are names where t
     {
         return littleEndian(number, 4);
     };
-    for (const std::uint64_t stated : {0, 1})
+    for (const std::uint64_t stated : {0u, 1u})
     {
         const auto [markers, warnings] = read(cues(stated));
         CHECK(markers == std::vector<Marker>{{0.25, "1"}, {0.5, "2"}});
