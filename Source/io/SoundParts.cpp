@@ -466,7 +466,8 @@ private:
                 offset = next;
                 continue;
             }
-            const bool starts = (head[5] & beginsStream) != 0;
+            // `head` lasts until more is looked at.
+            const bool starts = (head[5] & beginsStream) != 0, ends = (head[5] & endsStream) != 0;
             std::uint64_t bytes = headerBytes + head[26];
             for (std::size_t i = 0; i < head[26]; ++i)
                 bytes += head[headerBytes + i];
@@ -497,7 +498,7 @@ private:
                 const auto page = file.number(offset + 18, 4, false);
                 part.lostPages += page > nextPage ? page - nextPage : 0;
                 nextPage = page + 1;
-                part.isUnended = (head[5] & endsStream) == 0;
+                part.isUnended = !ends;
                 // The time at the end of the page; all ones where no packet ends on it.
                 if (const auto time = file.number(offset + 6, 8, false); time > 0 && time < std::uint64_t{1} << 62u)
                 {
