@@ -147,7 +147,10 @@ FoundMarkers soundMarkers(std::FILE* opened, const SoundPart& part, std::uint64_
     if (until == file.size())
         addTags(behind, file, part.end, until);
     if (file.has(part.begin, "fLaC"))
-        appendFound(tags, commentChapters(flacComments(file, part.begin + 4, part.end)));
+    {
+        if (const std::string comments = flacComments(file, part.begin + 4, part.end); !comments.empty())
+            appendFound(tags, commentChapters(comments));
+    }
     if (file.has(part.begin, "OggS"))
     {
         const std::string packet = oggComments(file, part.begin, part.end);
