@@ -153,7 +153,7 @@ bool isAsMade(const fs::path& path)
         const auto wanted = sealBy(fingerprint, read);
         return wanted && wanted->digits == found->sealDigits && std::ferror(file->get()) == 0;
     };
-    return hasSealBy(StripedFingerprint()) || hasSealBy(Fingerprint()); // which versions up to 1.0 wrote
+    return hasSealBy(StripedFingerprint()) || hasSealBy(Fingerprint()); // as 0.1 wrote it
 }
 
 std::optional<OriginSeal> sealOf(const std::function<std::size_t(std::span<std::byte>)>& read)

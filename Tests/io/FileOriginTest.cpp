@@ -72,7 +72,7 @@ TEST_CASE("A sound file says what it was made from, and whether it is still as i
     }
 }
 
-TEST_CASE("A seal as versions up to 1.0 wrote it is still a seal", "[io]")
+TEST_CASE("A seal as version 0.1 wrote it is still a seal", "[io]")
 {
     const TempFolder folder;
     for (const std::size_t more : {0u, 1u, 63u, 64u, 65536u, 200001u})
