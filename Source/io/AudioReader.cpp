@@ -341,7 +341,7 @@ struct AudioReader::State
         if (info.channels < 1 || info.samplerate < 1)
             return invalid(fmt::format("has a damaged header, which names no {}; get a complete copy",
                                        info.channels < 1 ? "channels" : "sample rate"));
-        if (const auto range = checkRange(); !range)
+        if (auto range = checkRange(); !range)
             return range;
         const auto broken = brokenPromise(part(), info);
         if (broken && !options.allowTruncated)
@@ -365,8 +365,8 @@ struct AudioReader::State
             return;
         // As many digits as it takes to tell them apart.
         const int digits = fmt::format("{:.3f}", promised) == fmt::format("{:.3f}", present) ? 6 : 3;
-        warn("has a header that states {:.{}f} s, but {:.{}f} s are there and all of them are read; save it anew",
-             promised, digits, present, digits);
+        warn("has a header that states {} s, but {} s are there and all of them are read; save it anew",
+             fmt::format("{:.{}f}", promised, digits), fmt::format("{:.{}f}", present, digits));
     }
 
     /// Why fewer frames came than were asked for; ok at a regular end.
@@ -386,10 +386,11 @@ struct AudioReader::State
         }
         else if (part().isUnended && isFormat(SF_FORMAT_OGG))
             warn("lacks the mark of its end behind {:.3f} s; it may have been cut off", seconds(here));
-        if (part().streamsBeside > 0)
-            warn("has {} at the same time, which {} left out; save {} as a file of its own",
-                 part().streamsBeside == 1 ? "another sound" : fmt::format("{} other sounds", part().streamsBeside),
-                 part().streamsBeside == 1 ? "is" : "are", part().streamsBeside == 1 ? "it" : "each");
+        if (part().streamsBeside == 1)
+            warn("has another sound at the same time, which is left out; save it as a file of its own");
+        else if (part().streamsBeside > 1)
+            warn("has {} other sounds at the same time, which are left out; save each as a file of its own",
+                 part().streamsBeside);
         if (isFormat(SF_FORMAT_MPEG))
             return explainMpegEnd(here);
         if (isFormat(SF_FORMAT_OGG))

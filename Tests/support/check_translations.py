@@ -89,7 +89,8 @@ LITERALS = {
     "errors of settings that the windows cannot make": ["must be 8 to 768 kHz to be encoded", "must be 0 to 1",
         "must have 1 to 8 actuators",
         "is not one of the project's sounds"],
-    "what libsndfile says, which other words take the place of": ["internal error", "file does not exist"],
+    "what libsndfile says, which other words take the place of": ["internal error", "file does not exist",
+        "unspecified internal error", "No 'data' chunk marker"],
     "names in files of formats": ["Simple Parametric", "noise {} {}"],
     "codes of languages": ["en", "ja"],
 }
