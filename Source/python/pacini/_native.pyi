@@ -17,7 +17,9 @@ _Progress = Callable[[float], object] | None
 _BandTuple = tuple[float, float, float, int, _Rows, _Rows, float]
 _NoiseTuple = tuple[float, float, _Rows]
 _Loss = tuple[str, float, float, float, str]
-_Rendered = tuple[npt.NDArray[np.float32], float, float, list[tuple[str, str]], list[tuple[str, str, float]]]
+_Rendered = tuple[
+    npt.NDArray[np.float32], float, float, list[tuple[str, str]], list[tuple[str, str, float]], list[str]
+]
 
 class ExportOptions:
     def __init__(self, options: dict[str, Any], profile: ProfileHandle | None) -> None: ...
