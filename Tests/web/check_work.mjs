@@ -204,6 +204,16 @@ try {
     execFileSync(program, ['convert', 'link.json', '-o', 'link.pacb', '-q', '-y'], { cwd: folder })
     return `http://127.0.0.1:${port}/?fresh#c=${readFileSync(join(folder, 'link.pacb')).toString('base64url')}`
   }
+  // The sound of the work comes later than the clip of the link.
+  const hasty = await open(main.context, await linkOf(fresh), () => {
+    const post = Worker.prototype.postMessage
+    Worker.prototype.postMessage = function (...what) {
+      setTimeout(() => post.apply(this, what), what[0].name === 'mono' ? 1500 : 0)
+    }
+  })
+  await wait(4000)
+  check('a link is what is shown, also when the sound of the work comes late', await hasty.name() === 'shared', await hasty.name())
+  await hasty.tab.close()
   const theirs = await open(main.context, await linkOf({ ...fresh, name: 'theirs' }))
   await theirs.shown()
   check('a link is opened', await until(async () => await theirs.name() === 'shared' && !theirs.tab.url().includes('#c=')), theirs.tab.url())

@@ -290,6 +290,7 @@ const show = async () => {
     view.picture = undefined
     pictureOf = ''
     if (sound) await showSound(sound) // before anything else: each needs memory
+    if (document !== history.now) return // what was opened meanwhile is shown
   }
   if (view.clip?.duration !== document.clip.duration || !sameSound) {
     lanes.showAll(document.clip.duration)
