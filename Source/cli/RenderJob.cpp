@@ -251,7 +251,7 @@ Result<RenderResult> render(const std::filesystem::path& input, const std::files
     static_cast<RenderReport&>(result) = std::move(**rendered);
     result.adaptations.insert(result.adaptations.begin(), made.begin(), made.end());
     for (const LeftOut& item : result.leftOut)
-        if (item.unplayable && item.where.find('.') == std::string::npos) // a whole play
+        if (item.unplayable && item.isWholePlay())
             result.warnings.push_back(fmt::format("{} {}, so it is left out", item.where, item.reason));
     const auto written = file.finish();
     if (!written)

@@ -88,11 +88,7 @@ std::vector<Kind> kindsOf(const std::vector<LeftOut>& items)
     {
         const auto same = [&](const Kind& kind)
         {
-            const auto isPlay = [](const LeftOut& x)
-            {
-                return x.where.find('.') == std::string::npos;
-            };
-            return kind.first == item.reason && isPlay(*kind.second.front()) == isPlay(item);
+            return kind.first == item.reason && kind.second.front()->isWholePlay() == item.isWholePlay();
         };
         auto found = std::find_if(kinds.begin(), kinds.end(), same);
         if (found == kinds.end())

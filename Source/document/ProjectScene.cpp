@@ -396,7 +396,7 @@ Result<SceneForecast> forecast(const BuiltScene& built, const Profile* profile, 
     for (const LeftOut& one : planned->leftOut)
         if (const auto part = partOf(one.where, built))
         {
-            if (one.where.find('.') == std::string::npos)
+            if (one.isWholePlay())
                 result.leftOut[*part] = one.reason;
             else
                 ++result.bands;

@@ -42,6 +42,9 @@ struct LeftOut
     double error = 0.0;      ///< largest error of leaving it out, dB below the whole scene's energy; -infinity = none
     bool unplayable = false; ///< left out as the actuator cannot do it, not as nobody would feel it
     bool operator==(const LeftOut&) const = default;
+
+    /// Whether it is all of a play, not a part of one.
+    [[nodiscard]] bool isWholePlay() const noexcept { return where.find('.') == std::string::npos; }
 };
 
 /// Report of the adaptation: changes made for the actuator.

@@ -93,7 +93,7 @@ nb::object handedOut(RenderedScene&& made)
     for (const LeftOut& item : report.leftOut)
     {
         leftOut.append(nb::make_tuple(item.where, item.reason, item.error));
-        if (item.unplayable && item.where.find('.') == std::string::npos) // a whole play
+        if (item.unplayable && item.isWholePlay())
             unplayable.append(item.where + " " + item.reason);
     }
     return nb::make_tuple(toArray(std::move(made.samples), {report.actuators, static_cast<std::size_t>(report.frames)}),
