@@ -427,7 +427,7 @@ slow-tests)
     PACINI_WINDOWS_TURN=$turn PACINI_MACOS_TURN=$turn \
         run_tests release --label-regex slow --label-exclude "^($others)$" --no-tests=ignore
     ;;
-# One part for each commit, in turn: core, files, command. By hand: all of them without a name, `sanitized-tests assertions`
+# One part for each commit, in turn: core, files, fuzz, command. By hand: all of them without a name, `sanitized-tests assertions`
 # has the assertions on, `sanitized-tests thread` looks at what threads share, and `sanitized-tests slow` runs the slow
 # ones, which take as long as all others together.
 sanitized-tests)
@@ -439,12 +439,17 @@ sanitized-tests)
         run_tests asan --label-exclude slow --tests-regex '^(tests-|library|limits)'
         ;;
     files)
-        build asan all "-DPACINI_TEST_ROOMS=$(rooms_of_tests '^(io|devices|study|phone)')"
-        run_tests asan --label-exclude slow --tests-regex '^(tests-|fuzz-|.*-schema$)'
+        build asan "pacini_tests pacini_clip_tool pacini_profile_tool pacini_texture_tool pacini_study_tool" \
+            "-DPACINI_TEST_ROOMS=$(rooms_of_tests '^(io|document|devices|study|phone)(/|$)')"
+        run_tests asan --label-exclude slow --tests-regex '^(tests-|.*-schema$)'
+        ;;
+    fuzz)
+        build asan pacini_fuzz_replays
+        run_tests asan --label-exclude slow --tests-regex '^fuzz-' --exclude-regex '^fuzz-replay-manifest$'
         ;;
     command)
-        build asan "pacini pacini-bench pacini_tests" "-DPACINI_TEST_ROOMS=$(rooms_of_tests '^(cli|document)(/|$)')"
-        run_tests asan --label-exclude slow --tests-regex '^(tests-|cli-|plot-)'
+        build asan "pacini pacini-bench pacini_tests fuzz_replay_manifest" "-DPACINI_TEST_ROOMS=$(rooms_of_tests '^cli(/|$)')"
+        run_tests asan --label-exclude slow --tests-regex '^(tests-|cli-|plot-|fuzz-replay-manifest$)'
         ;;
     thread)
         build tsan "pacini_tests pacini_library_tests pacini_random_calls"
