@@ -145,28 +145,12 @@ std::vector<Marker> renderedMarkers(const Clip& clip, const RenderParams& params
     return markers;
 }
 
-/// Makes all clips of a scene feel as they do on the actuator that they were designed for. What was done comes into
-/// `done`, what cannot be into the warnings. Errors: those of transparentClip().
-Result<void> makeTransparent(Scene& scene, const RenderSettings& settings, std::vector<Adaptation>& done,
-                             std::vector<std::string>& warnings)
+/// An error of transparentScene() with the option that names the profile.
+Error ofOption(Error error)
 {
-    for (std::size_t i = 0; i < scene.clips.size(); ++i)
-    {
-        const std::string where = fmt::format("clips[{}]", i);
-        auto made = transparentClip(std::move(scene.clips[i]), *settings.designedFor, *settings.profile,
-                                    settings.compile.adaptation);
-        if (!made)
-            return Error{made.error().code,
-                         (made.error().where.starts_with("from.") ? "--designed-for: " : "--profile: ") +
-                             made.error().where.substr(made.error().where.find('.') + 1),
-                         made.error().message};
-        scene.clips[i] = std::move(made->clip);
-        for (std::string& what : made->changes)
-            done.push_back({where, std::move(what)});
-        for (const std::string& what : made->lost)
-            warnings.push_back(scene.clips.size() > 1 ? where + ": " + what : what);
-    }
-    return {};
+    error.where = (error.where.starts_with("from.") ? "--designed-for: " : "--profile: ") +
+                  error.where.substr(error.where.find('.') + 1);
+    return error;
 }
 
 /// Reads `input` and finds out whether anything is to be done: nothing where the output is up to date, as `result` says
@@ -233,10 +217,15 @@ Result<RenderResult> render(const std::filesystem::path& input, const std::files
     std::vector<Adaptation> made;
     if (settings.designedFor)
     {
-        Result<void> able;
-        work.run([&] { able = makeTransparent(found->scene, settings, made, result.warnings); });
-        if (!able)
-            return able.error();
+        std::optional<Result<TransparentScene>> alike;
+        const AdaptationParams& params = settings.compile.adaptation;
+        work.run([&] { alike = transparentScene(std::move(found->scene), *settings.designedFor, *profile, params); });
+        if (!*alike)
+            return ofOption(alike->error());
+        found->scene = std::move((*alike)->scene);
+        made = std::move((*alike)->changes);
+        for (const auto& [where, what] : (*alike)->lost)
+            result.warnings.push_back(found->scene.clips.size() > 1 ? where + ": " + what : what);
     }
     std::optional<Result<RenderReport>> rendered;
     work.run([&] { rendered = renderScene(std::move(found->scene), profile, settings, file); });

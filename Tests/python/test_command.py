@@ -2,6 +2,7 @@
 
 import json
 import unittest
+import warnings
 
 import numpy as np
 import pacini
@@ -122,11 +123,41 @@ class SameAsCommand(FolderTest):
             pacini.read_audio(self.folder / "felt.wav")[0],
         )
 
-    def test_a_scene_has_the_same_samples_on_all_actuators(self):
+    def test_what_was_designed_on_another_actuator_has_the_same_samples(self):
+        clip = pacini.encode(DEMO[4])
+        clip.save(self.folder / "clip.pacb")
+        actuators = {"profile": "l5-wristband", "designed_for": "quest-controller"}
+        words = ["--profile", "l5-wristband", "--designed-for", "quest-controller", "--overwrite", "-q"]
+        for function, further in ((pacini.render, []), (pacini.felt, ["--felt"])):
+            with self.subTest(further), warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                run("render", self.folder / "clip.pacb", "-o", self.folder / "drive.wav", *words, *further)
+                made = function(clip, **actuators)
+                np.testing.assert_array_equal(made, pacini.read_audio(self.folder / "drive.wav")[0])
+                self.assertFalse(np.array_equal(made, function(clip, profile="l5-wristband")))
+        scene = pacini.Scene.load(SOURCE / "Resources/demo/workshop.scene.json", clips=self.demo_clips())
+        with self.assertWarnsRegex(UserWarning, r"^clips\[\d\]: .* weaker than where it was designed"):
+            report = pacini.explain(scene, profile="phone-taptic", designed_for="l5-wristband")
+        self.assertIn(("clips[0]", "levels are those that are felt on L5 voice coil in a wristband"), report.adaptations)
+        for wrong, where in (
+            ({"designed_for": "lra-175"}, "designed_for"),
+            ({"profile": "lra-175", "designed_for": "erm-coin"}, "designed_for: technology"),
+            ({"profile": "flat-pcm", "designed_for": "lra-175"}, "profile: body"),
+            ({"profile": "piezo", "designed_for": "lra-175", "adapt": False}, "designed_for"),
+        ):
+            with self.subTest(wrong), self.assertRaises(pacini.Error) as raised:
+                pacini.render(clip, **wrong)
+            self.assertEqual(raised.exception.where, where)
+
+    def demo_clips(self):
+        """A folder with the clips of the demo."""
         run("encode", *DEMO, "-o", f"{self.folder}/clips/", "--format", "packed", "-q")
-        path = SOURCE / "Resources/demo/workshop.scene.json"
-        run("render", path, "--clips", self.folder / "clips", "-o", self.folder / "scene.wav", "--to", 2, "-q")
-        scene = pacini.Scene.load(path, clips=self.folder / "clips")
+        return self.folder / "clips"
+
+    def test_a_scene_has_the_same_samples_on_all_actuators(self):
+        path, clips = SOURCE / "Resources/demo/workshop.scene.json", self.demo_clips()
+        run("render", path, "--clips", clips, "-o", self.folder / "scene.wav", "--to", 2, "-q")
+        scene = pacini.Scene.load(path, clips=clips)
         drive = pacini.render(scene, end=2)
         self.assertEqual(drive.shape[0], scene.actuators)
         np.testing.assert_array_equal(drive, pacini.read_audio(self.folder / "scene.wav")[0])

@@ -13,6 +13,8 @@
 #include <pacini/foundation/Result.h>
 #include <pacini/synthesis/AdaptationParams.h>
 #include <pacini/synthesis/ClipAdaptation.h>
+#include <pacini/synthesis/RenderPlan.h>
+#include <pacini/synthesis/Scene.h>
 #include <pacini/synthesis/VoiceMerge.h>
 
 #include <algorithm>
@@ -199,6 +201,35 @@ Curve weightedAmplitude(const Band& band, const Ratio& ratio)
         result.lost.push_back(std::to_string(made.bands.size()) + " bands share " + std::to_string(to.polyphony) +
                               (to.polyphony == 1 ? " voice" : " voices"));
     result.changes.push_back("levels are those that are felt on " + from.name);
+    return result;
+}
+
+/// The clips of a scene made transparent, see transparentClip().
+struct TransparentScene
+{
+    Scene scene;
+    std::vector<Adaptation> changes; ///< what was done
+    std::vector<Adaptation> lost;    ///< what cannot feel alike
+};
+
+/// Makes all clips of a scene that was designed on `from` feel alike on `to`. Errors: those of transparentClip().
+[[nodiscard]] inline Result<TransparentScene> transparentScene(Scene scene, const Profile& from, const Profile& to,
+                                                               const AdaptationParams& params = {})
+{
+    TransparentScene result{std::move(scene), {}, {}};
+    for (std::size_t i = 0; i < result.scene.clips.size(); ++i)
+    {
+        Clip& clip = result.scene.clips[i];
+        auto made = transparentClip(std::move(clip), from, to, params);
+        if (!made)
+            return made.error();
+        clip = std::move(made->clip);
+        const std::string where = "clips[" + std::to_string(i) + "]";
+        for (std::string& what : made->changes)
+            result.changes.push_back({where, std::move(what)});
+        for (std::string& what : made->lost)
+            result.lost.push_back({where, std::move(what)});
+    }
     return result;
 }
 

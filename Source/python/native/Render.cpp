@@ -12,6 +12,7 @@
 
 #include <pacini/actuator/Strength.h>
 #include <pacini/synthesis/RenderScene.h>
+#include <pacini/synthesis/Transparency.h>
 
 #include <nanobind/operators.h>
 #include <nanobind/stl/filesystem.h>
@@ -84,12 +85,18 @@ Result<RenderedScene> rendered(Scene scene, const RenderOptions& options, Watch&
                        });
 }
 
+nb::list handedOut(const std::vector<Adaptation>& adaptations)
+{
+    nb::list made;
+    for (const Adaptation& adaptation : adaptations)
+        made.append(nb::make_tuple(adaptation.where, adaptation.what));
+    return made;
+}
+
 nb::object handedOut(RenderedScene&& made)
 {
     const RenderReport& report = made.report;
-    nb::list adaptations, leftOut, unplayable;
-    for (const Adaptation& adaptation : report.adaptations)
-        adaptations.append(nb::make_tuple(adaptation.where, adaptation.what));
+    nb::list leftOut, unplayable;
     for (const LeftOut& item : report.leftOut)
     {
         leftOut.append(nb::make_tuple(item.where, item.reason, item.error));
@@ -97,7 +104,27 @@ nb::object handedOut(RenderedScene&& made)
             unplayable.append(item.where + " " + item.reason);
     }
     return nb::make_tuple(toArray(std::move(made.samples), {report.actuators, static_cast<std::size_t>(report.frames)}),
-                          report.reduction, report.predictedError, adaptations, leftOut, unplayable);
+                          report.reduction, report.predictedError, handedOut(report.adaptations), leftOut, unplayable);
+}
+
+/// The scene as it feels on the actuator of `options` as it did on `designed`, what was done, and what cannot be.
+nb::object transparent(const SceneHandle& scene, const ProfileHandle& designed, const RenderOptions& options)
+{
+    if (!options.profile)
+        wrong("designed_for", "needs a profile, the actuator that shall feel alike");
+    if (!options.compile.adapt)
+        wrong("designed_for", "excludes adapt=False");
+    auto made = unlocked(
+        [&]
+        { return transparentScene(scene.scene(), designed.profile(), *options.profile, options.compile.adaptation); });
+    if (!made)
+    {
+        Error error = made.error();
+        error.where = (error.where.starts_with("from.") ? "designed_for: " : "profile: ") +
+                      error.where.substr(error.where.find('.') + 1);
+        raise(error);
+    }
+    return nb::make_tuple(SceneHandle(std::move(made->scene)), handedOut(made->changes), handedOut(made->lost));
 }
 
 /// "0" to the first of `clips`, and so on: a text of a scene names them so.
@@ -210,6 +237,7 @@ void bindRender(nb::module_& module)
             return handedOut(take(unlocked([&] { return rendered(scene.scene(), options, watch); })));
         },
         "scene"_a, "options"_a, "progress"_a.none());
+    module.def("transparent", &transparent, "scene"_a, "designed_for"_a, "options"_a);
     module.attr("STANDARD_STRENGTH") = standardStrength;
     module.attr("FELT_FULL_SCALE") = FeltParams().fullScale;
 }

@@ -301,18 +301,27 @@ def _rendered(
     options: _native.RenderOptions,
     dtype: npt.DTypeLike,
     progress: Progress,
+    designed_for: Optional[AnyProfile] = None,
 ) -> tuple[FloatArray, RenderReport]:
     wanted = np.dtype(dtype)
     if wanted not in (np.float32, np.float64):
         raise Error("must be float32 or float64", "dtype")
+    if not isinstance(content, (Clip, Scene)):
+        raise Error("must be a Clip or a Scene", "content")
+    alike: list[tuple[str, str]] = []
+    handle: Union[_native.ClipHandle, _native.SceneHandle] = content._handle
+    if designed_for is not None:
+        scene = _native.SceneHandle.of_clip(handle) if isinstance(handle, _native.ClipHandle) else handle
+        handle, alike, unlike = _native.transparent(scene, as_profile(designed_for)._handle, options)
+        for where, what in unlike:
+            warnings.warn(what if isinstance(content, Clip) else f"{where}: {what}", stacklevel=3)
     with shown(progress, "rendering") as tell:
-        if isinstance(content, Clip):
-            made = _native.render_clip(content._handle, options, tell)
-        elif isinstance(content, Scene):
-            made = _native.render_scene(content._handle, options, tell)
+        if isinstance(handle, _native.ClipHandle):
+            made = _native.render_clip(handle, options, tell)
         else:
-            raise Error("must be a Clip or a Scene", "content")
+            made = _native.render_scene(handle, options, tell)
     samples, reduction, error, adaptations, left_out, unplayable = made
+    adaptations = [*alike, *adaptations]
     for what in unplayable:
         warnings.warn(f"{what}, so it is left out", stacklevel=3)
     signal = samples[0] if isinstance(content, Clip) or samples.shape[0] == 1 else samples
@@ -342,6 +351,7 @@ def render(
     sample_rate: float = 48000,
     *,
     profile: Optional[AnyProfile] = None,
+    designed_for: Optional[AnyProfile] = None,
     protect: bool = True,
     gain: float = 0.0,
     transpose: float = 0.0,
@@ -376,6 +386,8 @@ def render(
         Rate of the drive, 2000 to 768000 Hz.
     profile : Profile, str or path, optional
         The actuator, by its profile, the name of a shipped one, or a file. Without it the drive is flat.
+    designed_for : Profile, str or path, optional
+        The actuator on which the content was designed: it feels alike on that of `profile`. What cannot is a warning.
     protect : bool, default True
         Keep the drive within the limits of the actuator.
     gain : float, default 0
@@ -456,7 +468,7 @@ def render(
         pulse_frequency=pulse_frequency,
         pulse_cycles=pulse_cycles,
     )
-    return _rendered(content, options, dtype, progress)[0]
+    return _rendered(content, options, dtype, progress, designed_for)[0]
 
 
 def explain(
@@ -464,6 +476,7 @@ def explain(
     sample_rate: float = 48000,
     *,
     profile: Optional[AnyProfile] = None,
+    designed_for: Optional[AnyProfile] = None,
     tolerance: float = -60.0,
     strength: float = _native.STANDARD_STRENGTH,
     gain: float = 0.0,
@@ -472,7 +485,7 @@ def explain(
 
     Parameters
     ----------
-    content, sample_rate, profile, tolerance, strength, gain
+    content, sample_rate, profile, designed_for, tolerance, strength, gain
         As of :func:`render`.
 
     Returns
@@ -480,7 +493,7 @@ def explain(
     RenderReport
     """
     options = _render_options(profile, sample_rate, gain=gain, tolerance=tolerance, strength=strength)
-    return _rendered(content, options, np.float32, None)[1]
+    return _rendered(content, options, np.float32, None, designed_for)[1]
 
 
 def felt(
@@ -488,6 +501,7 @@ def felt(
     sample_rate: float = 48000,
     *,
     profile: AnyProfile,
+    designed_for: Optional[AnyProfile] = None,
     wearer: int = 0,
     full_scale: float = _native.FELT_FULL_SCALE,
     gain: float = 0.0,
@@ -502,7 +516,7 @@ def felt(
 
     Parameters
     ----------
-    content, sample_rate, gain, start, end, strength, protect, dtype, progress
+    content, sample_rate, designed_for, gain, start, end, strength, protect, dtype, progress
         As of :func:`render`.
     profile : Profile, str or path
         An actuator with a model of the body.
@@ -523,7 +537,7 @@ def felt(
     """
     options = _render_options(profile, sample_rate, protect=protect, gain=gain, start=start, end=end, strength=strength)
     options.feel({"wearer": wearer, "full_scale": full_scale})
-    return _rendered(content, options, dtype, progress)[0]
+    return _rendered(content, options, dtype, progress, designed_for)[0]
 
 
 @dataclass(frozen=True)
