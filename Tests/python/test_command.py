@@ -138,7 +138,9 @@ class SameAsCommand(FolderTest):
         scene = pacini.Scene.load(SOURCE / "Resources/demo/workshop.scene.json", clips=self.demo_clips())
         with self.assertWarnsRegex(UserWarning, r"^clips\[\d\]: .* weaker than where it was designed"):
             report = pacini.explain(scene, profile="phone-taptic", designed_for="l5-wristband")
-        self.assertIn(("clips[0]", "levels are those that are felt on L5 voice coil in a wristband"), report.adaptations)
+        self.assertIn(
+            ("clips[0]", "levels are those that are felt on L5 voice coil in a wristband"), report.adaptations
+        )
         for wrong, where in (
             ({"designed_for": "lra-175"}, "designed_for"),
             ({"profile": "lra-175", "designed_for": "erm-coin"}, "designed_for: technology"),
