@@ -115,7 +115,8 @@ class Release(unittest.TestCase):
     def test_checksums_are_of_all_that_is_released(self):
         names = ("linux/pacini_1_amd64.deb", "windows/pacini-1-windows.zip", "part-macos-arm64/macos-arm64.tar.gz",
                  "packages/pacini-1.tgz", "packages/pacini_1_amd64.deb", "packages/pacini-1-windows-setup.exe",
-                 "windows-plugin/VST3/Pacini.vst3/a", "macos/pacini-macos.tar.gz")
+                 "windows-plugin/VST3/Pacini.vst3/a", "macos/pacini-macos.tar.gz",
+                 "macos/pacini-macos.pkg")
         for name in names:
             path = self.folder / "artifacts" / name
             path.parent.mkdir(parents=True, exist_ok=True)
@@ -127,7 +128,7 @@ class Release(unittest.TestCase):
         done = self.step("Checksums")
         self.assertEqual(done.returncode, 0, done.stderr)
         files = sorted(path.name for path in (self.folder / "files").iterdir())
-        own = [f"pacini-{self.version}-macos.tar.gz", f"pacini-{self.version}-windows-plugin.tar.gz"]
+        own = [f"pacini-{self.version}-{what}" for what in ("macos.pkg", "macos.tar.gz", "windows-plugin.tar.gz")]
         self.assertEqual(files, sorted(["SHA256SUMS", *packed, *own]))
         subprocess.run(["sha256sum", "--check", "--quiet", "SHA256SUMS"], cwd=self.folder / "files", check=True)
         self.assertEqual(len((self.folder / "files/SHA256SUMS").read_text().splitlines()), len(files) - 1)
