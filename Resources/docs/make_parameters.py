@@ -83,11 +83,11 @@ def page(text, described):
 
 
 def schema_of(one):
-    made = {"description": one["text"] + (f", {one['unit']}" if one["unit"] else "")}
+    made = {"description": one["text"] + (f", {one['unit']}" if one.get("unit") else "")}
     if one["kind"] == "choice":
         made["enum"] = one["choices"]
-    elif one["kind"] == "truth":
-        made["type"] = "boolean"
+    elif one["kind"] in ("truth", "text"):
+        made["type"] = {"truth": "boolean", "text": "string"}[one["kind"]]
     else:
         made.update(type="integer" if one["kind"] == "whole" else "number", minimum=one["lowest"], maximum=one["highest"])
     if "default" in one:
@@ -95,7 +95,24 @@ def schema_of(one):
     return made
 
 
-def schema(described, methods, presets):
+def play_schema(play):
+    """The parts that say how clips are played, each with what its entries are."""
+    def entries(listed):
+        return {one["name"]: schema_of(one) for one in listed}
+
+    return {
+        **entries(play["pan"]),
+        "outputs": {
+            "description": "Haptic outputs beside each other, of the editor's preview. Encoding does not need them.",
+            "type": "array", "maxItems": play["most"],
+            "items": {"type": "object", "properties": entries(play["outputs"])}},
+        "character": {
+            "description": "The editor's live controls. Encoding does not need them.",
+            "type": "object",
+            "properties": entries(play["character"])}}
+
+
+def schema(described, methods, presets, play):
     parts = {"encode": {
         "description": "Of encoding, as options of `pacini encode`. A method takes the parameters that it has.",
         "type": "object",
@@ -105,7 +122,8 @@ def schema(described, methods, presets):
              "export": {
         "description": "Of formats of other programs. Each entry counts for the formats that have it.",
         "type": "object",
-        "properties": {one["name"]: schema_of(one) for one in described["export"]}}}
+        "properties": {one["name"]: schema_of(one) for one in described["export"]}},
+             **play_schema(play)}
     whole = {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "$id": "urn:pacini:settings:1",
@@ -163,8 +181,9 @@ def main():
     methods = [method["name"] for method in reported("encode", "--list-methods")["methods"]]
     varied = {name for preset in presets for name in preset["values"]}
     usual_values = {one["name"]: one["default"] for one in described["encode"] if one["name"] in varied}
-    made = {PRESETS: script_presets(presets, usual_values), SCHEMA: schema(described, methods, [preset["name"] for preset in presets]), PYTHON: python(described),
-            TYPES: types((ROOT / TYPES).read_text(), described, presets)}
+    names = [preset["name"] for preset in presets]
+    made = {PRESETS: script_presets(presets, usual_values), PYTHON: python(described),
+            SCHEMA: schema(described, methods, names, printed["play"]), TYPES: types((ROOT / TYPES).read_text(), described, presets)}
     for name in PAGES:
         made[name] = page((ROOT / name).read_text(), every)
     made[PAGES[0]] = filled(made[PAGES[0]], "<!-- presets -->", "<!-- end of presets -->", lambda _: preset_table(presets))

@@ -421,7 +421,8 @@ void EncodeCommand::printChosen(Console& console, const TranslationParams& trans
                           {{"encode", translationDescriptionsJson()},
                            {"export", exportDescriptionsJson()},
                            {"render", descriptionsJson(infosOf(renderParameters))},
-                           {"felt", descriptionsJson(infosOf(feltParameters))}}}});
+                           {"felt", descriptionsJson(infosOf(feltParameters))}}},
+                         {"play", playDescriptionsJson()}});
     console.print(document.dump(4));
 }
 

@@ -45,6 +45,9 @@ public:
             error = Error{code, place(name), std::move(message)};
     }
 
+    /// An entry that may be there, and is not read.
+    void passOver(const char* name) { (void)find(name, Need::optional); }
+
     void text(const char* name, std::string& value)
     {
         if (const nlohmann::json* entry = find(name, Need::required))

@@ -82,9 +82,20 @@ void readEncodeSettings(FieldsReader& reader, Settings& settings)
 void readSettingsFields(FieldsReader& reader, Settings& settings)
 {
     reader.format(settingsFormat.name, settingsFormat.version);
-    reader.object("encode", settings, Need::optional, [&](Settings& into) { readEncodeSettings(reader, into); });
+    reader.object("encode", settings, Need::optional,
+                  [&](Settings& into)
+                  {
+                      into.hasEncode = true;
+                      readEncodeSettings(reader, into);
+                  });
     reader.object("export", settings.exporting, Need::optional,
                   [&](GivenParameters& into) { readParameters(reader, exportParameterInfos(), into); });
+#if PACINI_PLAYBACK_PASSED_OVER // on the web page, which is loaded for this and plays otherwise
+    for (const char* name : {"pan", "outputs", "character"})
+        reader.passOver(name);
+#else
+    readPlaybackSettings(reader, settings.playback);
+#endif
 }
 
 Result<Settings> readSettings(std::string_view text, ReadWarnings* warnings)

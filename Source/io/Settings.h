@@ -1,8 +1,9 @@
 #pragma once
 
-// Settings of encoding and exports, from files (pacini.settings) and from programs.
+// Settings of encoding, exports and playing, from files (pacini.settings) and from programs.
 
 #include "io/GivenParameters.h"
+#include "io/PlaybackSettings.h"
 #include "io/ReadWarnings.h"
 
 #include <pacini/analysis/methods/MethodChoices.h>
@@ -27,6 +28,8 @@ struct Settings
     std::string preset; ///< whose values are among `encode`; empty: none
     GivenParameters encode;
     GivenParameters exporting; ///< part `export`
+    bool hasEncode = false;    ///< the document has a part `encode`
+    PlaybackSettings playback; ///< parts `pan`, `outputs` and `character`
 };
 
 /// The method of this name, a2vt where it is empty. Errors: invalidArgument, with the nearest name.

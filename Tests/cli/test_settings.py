@@ -110,6 +110,20 @@ class Settings(CommandTest):
         self.fails(1, ["encode", "a.wav", "--settings", "mine.json"], "mine.json: line 1")
         self.fails(1, ["encode", "a.wav", "--settings", "none.json"], "none.json")
 
+    def test_presets_of_the_editor_are_settings_without_a_word(self):
+        self.put("a.wav", wav(noise(24000)))
+        self.succeeds("encode", "a.wav", "-o", "plain.pacb", "--bands", "5")
+        outputs = [{"channel": 3, "gain": -3.5, "delay": 0, "position": 0.5, "actuator": "lra-175"}]
+        character = {"gain": -6.5, "intensity": 0.7, "transposition": 7, "speed": 0.5}
+        self.settings(encode={"bands": 5}, pan="constantPower", outputs=outputs, character=character)
+        self.succeeds("--strict", "encode", "a.wav", "-o", "set.pacb", "--settings", "mine.json")
+        self.assertEqual((self.folder / "set.pacb").read_bytes(), (self.folder / "plain.pacb").read_bytes())
+        for parts, says in (({"character": {"gain": "loud"}}, "character.gain: must be a number"),
+                            ({"outputs": [{"chanel": 1}]}, "outputs[0].chanel: is unknown"),
+                            ({"outputs": 3}, "outputs: must be a list of outputs")):
+            self.settings(**parts)
+            self.fails(1, ["--strict", "encode", "a.wav", "--settings", "mine.json"], says)
+
     def test_exports_take_what_their_format_has(self):
         self.put("a.wav", wav(noise(24000)))
         self.settings(export={"points": 5, "sampleRate": 4000})

@@ -2,9 +2,11 @@
 
 #include "io/EncoderPresets.h"
 #include "io/FieldsWriter.h"
+#include "io/InputFile.h"
 #include "io/ParameterFields.h"
 #include "io/formats/ExportParameters.h"
 #include "support/Catch.h"
+#include "support/Paths.h"
 
 #include <pacini/analysis/methods/Method.h>
 
@@ -141,6 +143,48 @@ TEST_CASE("What is wrong with settings is told with its place", "[settings]")
 
     CHECK(readSettings(R"({"format": "pacini.clip", "version": 1})").error().where == "format");
     CHECK(readSettings(R"({"format": "pacini.settings", "version": 2})").error().code == ErrorCode::unsupportedVersion);
+}
+
+TEST_CASE("Parts that say how clips are played come back, are no unknown keys, and are checked", "[settings]")
+{
+    PlaybackSettings wanted;
+    wanted.outputs = OutputSettings{{{2, "", -3.5, 0.0, 0.0}, {-1, "erm-coin", 0.0, 0.012, 0.75}}, PanLaw::delay};
+    wanted.character = CharacterSettings{-6.5, 0.7, 7.0, 0.5};
+    auto document = playbackSettingsJson(wanted);
+    ReadWarnings strict(true);
+    const auto read = readSettings(document.dump(), &strict);
+    REQUIRE(read);
+    CHECK(read->playback == wanted);
+    CHECK(translationOf(*read)->params == EncoderParams());
+    CHECK_FALSE(read->hasEncode);
+    wanted.outputs->pan.reset();
+    CHECK(readSettings(playbackSettingsJson(wanted).dump(), &strict)->playback == wanted);
+
+    const auto message = [](const std::string& parts)
+    {
+        const auto settings = readSettings(R"({"format": "pacini.settings", "version": 1, )" + parts + "}");
+        return settings ? std::string() : settings.error().text();
+    };
+    CHECK(message(R"("outputs": [{"channel": 1}], "character": {})").empty());
+    CHECK(message(R"("outputs": {})") == "outputs: must be a list of outputs");
+    CHECK(message(R"("outputs": [{"channel": 1}, {"gain": "loud"}])") == "outputs[1].gain: must be a number");
+    CHECK(message(R"("outputs": [{"channel": 1.5}])") == "outputs[0].channel: must be a whole number, 0 to 256");
+    CHECK(message(R"("outputs": [{"actuator": 3}])") == "outputs[0].actuator: must be a text in quotes");
+    CHECK(message(R"("pan": "dealy")") ==
+          "pan: must be off, constantPower, delay or both, not 'dealy'; did you mean delay?");
+    CHECK(message(R"("character": {"speed": 9})") == "character.speed: must be 0.25 to 4");
+    CHECK(message(R"("character": [])") == "character: must be an object in braces");
+
+    // The schema has all that is written.
+    const auto schema = nlohmann::json::parse(
+        *readWholeFile(sourceFolder() / "Resources/schema/pacini.settings.schema.json", largestSettingsText));
+    const auto& properties = schema["properties"];
+    for (const auto& [name, entry] : document.items())
+        CHECK(properties.contains(name));
+    for (const auto& [name, entry] : document["outputs"][0].items())
+        CHECK(properties["outputs"]["items"]["properties"].contains(name));
+    for (const auto& [name, entry] : document["character"].items())
+        CHECK(properties["character"]["properties"].contains(name));
 }
 
 TEST_CASE("Exports take what changes something in their format, within one range", "[settings][formats]")

@@ -30,6 +30,11 @@ FILE_NAMES = Path("Source/io/FileNames.h")  # why a preset cannot be called so
 FILE_ERRORS = [Path("Source/io") / name for name in ("FileHandle.cpp", "AtomicFile.cpp", "AudioReader.cpp",
                                                      "ClipFile.cpp")]
 
+# What is wrong with settings files, which are the presets of windows.
+SETTINGS_ERRORS = [Path("Source/io/FieldsReader.h"), Path("Source/io/Settings.cpp"), Path("Source/io/GivenParameters.cpp"),
+                   Path("Core/pacini/foundation/Description.h")]
+RANGES = ("must be {0} to {1}", "must be a whole number, {0} to {1}")  # as checkValue() puts them together
+
 # Files without a text for users of windows.
 FILES = {
     "names in files": [
@@ -53,6 +58,9 @@ FILES = {
 }
 
 LITERALS = {
+    "messages that list names of files, which are English": [
+        ", not '{}'", "must be {}", "must be {}{}", "must be {}, not '{}'{}", "must be a list of {}", "has more than {} {}",
+        "'{}' is not one of {}{}", "true or false"],
     "names of products and of what devices are called": [
         "Pacini", "Pacini Editor", "PaciniEditor", "pacini-editor", " - Pacini Editor", "Noto Sans CJK JP",
         "Noto Sans JP", "Source Han Sans JP", "Hiragino Sans", "Yu Gothic UI", "Meiryo", "IPAexGothic", "IPAPGothic",
@@ -192,10 +200,12 @@ def check(root, tables):
         line = templates.count("\n", 0, match.start()) + 1
         for text in (match.group(1), "".join(PART.findall(match.group(2)))):
             wanted.setdefault(text, f"{STUDY_TEMPLATES.as_posix()}:{line}")
-    for source in (ERRORS, FILE_NAMES, *FILE_ERRORS):
+    for source in (ERRORS, FILE_NAMES, *FILE_ERRORS, *SETTINGS_ERRORS):
         for line, text in literals(root / source):
             if text not in no_texts and is_text(text, "Source/io"):
                 wanted.setdefault(numbered(text), f"{source.as_posix()}:{line}")
+    for text in RANGES:
+        wanted.setdefault(text, SETTINGS_ERRORS[-1].as_posix())
     problems = []
     for code, pairs in tables.items():
         keys = {numbered(key) for key in pairs}

@@ -4,9 +4,9 @@
 // The haptic outputs that a clip plays on: which actuator is on each, its gain, delay and place. They are the user's
 // and not the project's.
 
-#include "document/HapticOutput.h"
 #include "document/PreviewRow.h"
 #include "editor/clip/session/Actuators.h"
+#include "io/PlaybackSettings.h"
 
 #include <cstddef>
 #include <functional>
