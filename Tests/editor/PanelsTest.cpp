@@ -2,6 +2,7 @@
 
 #include "editor/Bench.h"
 #include "editor/Pump.h"
+#include "editor/Text.h"
 #include "editor/clip/panels/AnalysisPanel.h"
 #include "editor/clip/panels/PlayPanel.h"
 #include "editor/clip/panels/ProjectPanel.h"
@@ -574,4 +575,73 @@ TEST_CASE("Own presets are settings files, which the menu offers, asks before it
     REQUIRE(view.sheet() != nullptr);
     CHECK(view.sheet()->getTitle() == "Preset not saved");
     CHECK_FALSE(std::filesystem::exists(folder / "doors.json"));
+}
+
+TEST_CASE("Own presets are renamed and deleted, never over another one")
+{
+    const TempFolder folder;
+    EditorBench bench;
+    editor::HostServices around;
+    around.presetFolder = folder / "presets";
+    editor::EditorView view(bench.session, around);
+    view.setBounds(0, 0, 1280, 800);
+    editor::AnalysisPanel panel(view);
+    panel.setSize(240, 640);
+    bench.openDemo("knock_wood_bridge");
+    auto& preset = get<juce::ComboBox>(panel, "Preset");
+    const auto idOf = [&](const juce::String& name)
+    {
+        for (int i = 0; i < preset.getNumItems(); ++i)
+            if (preset.getItemText(i) == name)
+                return preset.getItemId(i);
+        return 0;
+    };
+    const juce::String manage = editor::toText("Manage presets…");
+    CHECK(idOf(manage) == 0); // there are none
+    get<juce::Slider>(panel, "Bands").setValue(7.0, juce::sendNotificationSync);
+    panel.saveAs("doors");
+    get<juce::Slider>(panel, "Bands").setValue(9.0, juce::sendNotificationSync);
+    panel.saveAs("floors");
+    const auto open = [&]() -> juce::ListBox&
+    {
+        view.showSheet(nullptr);
+        preset.setSelectedId(idOf(manage), juce::sendNotificationSync);
+        REQUIRE(view.sheet() != nullptr);
+        CHECK(preset.getText() == "floors"); // what is in use stays
+        return get<juce::ListBox>(*view.sheet(), "Own presets");
+    };
+    const auto nameField = [&]() -> juce::TextEditor&
+    {
+        return get<juce::TextEditor>(view, "Name of the preset");
+    };
+    open();
+    // Another's name is refused, and nothing is lost.
+    answer(*view.sheet(), editor::toText("Rename…"));
+    CHECK(nameField().getText() == "doors");
+    nameField().setText("floors");
+    nameField().onReturnKey();
+    CHECK(readAnalysisSettings(folder / "presets" / "doors.json")->bands == 7);
+    CHECK(readAnalysisSettings(folder / "presets" / "floors.json")->bands == 9);
+    // The one in use is shown by its new name.
+    open().selectRow(1);
+    answer(*view.sheet(), editor::toText("Rename…"));
+    nameField().setText("windows");
+    nameField().onReturnKey();
+    CHECK(preset.getText() == "windows");
+    CHECK(idOf("windows") != 0);
+    CHECK(idOf("floors") == 0);
+    CHECK(readAnalysisSettings(folder / "presets" / "windows.json")->bands == 9);
+    CHECK_FALSE(std::filesystem::exists(folder / "presets" / "floors.json"));
+    // Deleted after a question; what is set stays.
+    view.showSheet(nullptr);
+    preset.setSelectedId(idOf(manage), juce::sendNotificationSync);
+    get<juce::ListBox>(*view.sheet(), "Own presets").selectRow(1);
+    answer(*view.sheet(), editor::toText("Delete…"));
+    CHECK(std::filesystem::exists(folder / "presets" / "windows.json"));
+    answer(*view.question(), "Delete");
+    CHECK_FALSE(std::filesystem::exists(folder / "presets" / "windows.json"));
+    CHECK(idOf("windows") == 0);
+    CHECK(idOf("doors") != 0);
+    CHECK(preset.getText() == "Custom");
+    CHECK(panel.params().bands == 9);
 }

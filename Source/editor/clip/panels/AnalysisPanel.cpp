@@ -52,6 +52,15 @@ AnalysisPanel::AnalysisPanel(EditorView& shown)
             lastOwn = OwnPreset{name, params()};
         showPreset(params());
     };
+    ownPresets.onRenamed = [this](const juce::String& old, const juce::String& name)
+    {
+        fillPresets();
+        if (lastOwn && lastOwn->name == old)
+            lastOwn->name = name;
+        if (lastOwn && lastOwn->name.isEmpty())
+            lastOwn.reset();
+        showPreset(params());
+    };
     const auto label = [this](juce::Label& one, const juce::String& text)
     {
         prepareLabel(one, text, smallFont());

@@ -54,6 +54,15 @@ PlayPanel::PlayPanel(EditorView& view)
             lastOwn.emplace(name, character());
         showPreset();
     };
+    own.onRenamed = [this](const juce::String& old, const juce::String& name)
+    {
+        fillPresets();
+        if (lastOwn && lastOwn->first == old)
+            lastOwn->first = name;
+        if (lastOwn && lastOwn->first.isEmpty())
+            lastOwn.reset();
+        showPreset();
+    };
     prepareLabel(presetLabel, "Preset", smallFont());
     presetLabel.setBorderSize({});
     preset.setTitle("Preset");

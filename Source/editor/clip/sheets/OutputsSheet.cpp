@@ -73,6 +73,10 @@ OutputsSheet::OutputsSheet(EditorView& view, const juce::StringArray& channels,
     {
         fillPresets();
     };
+    own->onRenamed = [this](const juce::String&, const juce::String&)
+    {
+        fillPresets();
+    };
     presetBox.setTitle("Preset");
     presetBox.setTooltip("Presets of all outputs: settings files");
     presetBox.onChange = [this]

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The user's presets in a menu: settings files, to be chosen, saved and loaded from elsewhere.
+// The user's presets in a menu: settings files, to be chosen, saved, renamed, deleted and loaded from elsewhere.
 
 #include "document/SettingsPresets.h"
 
@@ -33,6 +33,8 @@ public:
     /// Takes a settings file; `name` is that of a preset, empty for another file.
     std::function<Result<void>(const std::filesystem::path& file, const juce::String& name)> load;
     std::function<void(const juce::String& name)> onSaved = {}; ///< or not: the menu is to be filled again
+    /// A preset has another name, or none: it is deleted. The menu is to be filled again.
+    std::function<void(const juce::String& old, const juce::String& name)> onRenamed = {};
 
     /// Adds the presets, and what saves and loads.
     void addTo(juce::ComboBox& menu);
@@ -40,12 +42,22 @@ public:
     bool choose(int id);
     /// Writes the settings as a preset, after a question where there is one of this name.
     void saveAs(const juce::String& name);
+    /// Gives a preset another name.
+    void rename(const juce::String& old, const juce::String& name);
+    /// Deletes a preset's file.
+    void remove(const juce::String& name);
     /// See `load`; what fails is told.
     void open(const std::filesystem::path& file, const juce::String& name = {});
 
 private:
-    static constexpr int saveId = firstId, loadId = firstId + 1, firstOwn = 2 * firstId;
+    static constexpr int saveId = firstId, loadId = firstId + 1, manageId = firstId + 2, firstOwn = 2 * firstId;
 
+    void manage();
+    void askForName();
+    void askToRename(const juce::String& name);
+    void askToRemove(const juce::String& name);
+    void renamed(const Result<void>& done, const char* failure, const juce::String& old, const juce::String& name);
+    void tell(const juce::String& title, const Error& error);
     void write(const juce::String& name, bool replace);
 
     EditorView& view;
