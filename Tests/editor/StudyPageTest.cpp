@@ -65,7 +65,62 @@ juce::Slider* sliderIn(juce::Component& within)
     }
     return nullptr;
 }
+
+editor::LargeButton* buttonNamed(juce::Component& page, const juce::String& text)
+{
+    for (auto* child : page.getChildren())
+        if (auto* button = dynamic_cast<editor::LargeButton*>(child);
+            button != nullptr && button->getButtonText() == text)
+            return button;
+    return nullptr;
+}
+
+void agree(juce::Component& page)
+{
+    auto* button = buttonNamed(page, "I agree");
+    REQUIRE(button != nullptr);
+    button->triggerClick();
+}
 } // namespace
+
+TEST_CASE("No key that goes on elsewhere agrees, or finds comfortable what was not felt")
+{
+    const TempFolder folder;
+    InstantDevice device;
+    editor::StudyServices services;
+    services.player = &device;
+    study::Study study = twoTones();
+    study.comfort = {"strong"};
+    editor::StudyPage page({study, folder.path()}, services);
+    page.setSize(960, 720);
+    using State = editor::StudyPage::State;
+    const auto goOn = [&]
+    {
+        for (int i = 0; i < 3; ++i)
+        {
+            page.keyPressed(juce::KeyPress(juce::KeyPress::returnKey));
+            page.keyPressed(juce::KeyPress(juce::KeyPress::spaceKey));
+            page.control(editor::Control::next);
+            pumpFor(0.05);
+        }
+    };
+    page.control(editor::Control::next);
+    REQUIRE(pumpUntil([&] { return page.state() == State::welcome; }));
+    goOn();
+    REQUIRE(page.state() == State::consent);
+    CHECK(page.run()->session().head().consent.empty());
+    agree(page);
+    REQUIRE(pumpUntil([&] { return page.state() == State::comfort; }));
+    page.keyPressed(juce::KeyPress(juce::KeyPress::returnKey));
+    page.control(editor::Control::next);
+    pumpFor(0.1);
+    CHECK(page.state() == State::comfort);
+    CHECK(device.plays == 0);
+    page.control(editor::Control::play);
+    REQUIRE(pumpUntil([&] { return device.plays == 1; }));
+    page.control(editor::Control::next);
+    CHECK(pumpUntil([&] { return page.state() == State::trial; }));
+}
 
 TEST_CASE("A game controller goes through a study from its welcome to its end")
 {
@@ -84,7 +139,8 @@ TEST_CASE("A game controller goes through a study from its welcome to its end")
     REQUIRE(page.state() == State::setUp);
     REQUIRE(goesTo(editor::Control::next, State::welcome));
     REQUIRE(goesTo(editor::Control::next, State::consent));
-    REQUIRE(goesTo(editor::Control::next, State::trial));
+    agree(page);
+    REQUIRE(pumpUntil([&] { return page.state() == State::trial; }));
     // Nothing is answered before it was felt.
     page.control(editor::Control::next);
     pumpFor(0.1);

@@ -62,6 +62,7 @@ StudyPage::StudyPage(StudyPlace wanted, StudyServices around)
     if (!actuator.empty() && profile() == nullptr)
         if (auto read = readProfile(place.folder / actuator))
             services.profiles.push_back({actuator, std::make_shared<const Profile>(std::move(*read)), true});
+    look.setDark(systemIsDark());
     setLookAndFeel(&look);
     setWantsKeyboardFocus(true);
     setTitle(tr("Study"));
@@ -454,7 +455,14 @@ void StudyPage::buildComfort()
 {
     buildText(tr("Is this comfortable?"), tr("Play it, and say if it should be weaker."));
     const std::size_t stimulus = study::stimulusNamed(study(), study().comfort[comfortNext]);
-    playButton = &addButton(tr("Play"), [this, stimulus] { tell(running->tryOut(stimulus)); });
+    // Nobody has found comfortable what was not felt.
+    const auto tryOut = [this, stimulus]
+    {
+        const auto refusal = running->tryOut(stimulus);
+        nextButton->setEnabled(nextButton->isEnabled() || refusal == study::PlayRefusal::none);
+        tell(refusal);
+    };
+    playButton = &addButton(tr("Play"), tryOut);
     nextButton =
         &addButton(tr("Comfortable"),
                    [this]
@@ -463,11 +471,12 @@ void StudyPage::buildComfort()
                        ++comfortNext;
                        show(State::comfort);
                    });
+    nextButton->setEnabled(false);
     addButton(tr("Weaker"),
-              [this, stimulus]
+              [this, tryOut]
               {
                   running->lowerTouch(quieterStep);
-                  tell(running->tryOut(stimulus));
+                  tryOut();
               });
 }
 
@@ -573,10 +582,20 @@ void StudyPage::answer()
         status.setText(tr("It was: {0}", {right}));
 }
 
+/// Nobody agrees by a key that says "go on" everywhere else: an answer is clicked, or has the keyboard's focus.
+bool StudyPage::isConsentFocused() const
+{
+    const auto* focused = getCurrentlyFocusedComponent();
+    return now == State::consent &&
+           std::any_of(buttons.begin(), buttons.end(), [&](const auto& button) { return button.get() == focused; });
+}
+
 void StudyPage::goOn()
 {
     if (now == State::trial)
         answer();
+    else if (now == State::consent)
+        status.setText(tr("Please choose one of the two: click it, or go to it and press it."));
     else if (nextButton != nullptr && nextButton->isEnabled())
         nextButton->triggerClick();
 }
@@ -598,6 +617,8 @@ bool StudyPage::keyPressed(const juce::KeyPress& key)
         return stop(), true;
     if (key == juce::KeyPress::returnKey)
         return goOn(), true;
+    if (key == juce::KeyPress::spaceKey && isConsentFocused())
+        return dynamic_cast<juce::Button*>(getCurrentlyFocusedComponent())->triggerClick(), true;
     if (key == juce::KeyPress::spaceKey && playButton != nullptr)
         return playButton->triggerClick(), true;
     const auto character = key.getTextCharacter();
@@ -614,8 +635,8 @@ void StudyPage::control(Control pressed)
     switch (pressed)
     {
     case Control::next:
-        // A choice of the pane is taken by its button, as a page's stimulus is played.
-        if (pane && button != nullptr && pane->isParentOf(button))
+        // A choice of the pane is taken by its button, as a page's stimulus is played; so is consent.
+        if ((pane && button != nullptr && pane->isParentOf(button)) || isConsentFocused())
             button->triggerClick();
         else
             goOn();

@@ -101,6 +101,7 @@ private:
     void buildTrial();
     void begin(const std::filesystem::path& log);
     void play(std::size_t part);
+    [[nodiscard]] bool isConsentFocused() const;
     void goOn();
     void answer();
     void tell(study::PlayRefusal refusal);
