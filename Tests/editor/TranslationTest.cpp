@@ -164,3 +164,16 @@ TEST_CASE("The manual is in the language where there is one")
     REQUIRE(topics != nullptr);
     CHECK(topics->getModel()->getNameForRow(0) == "Erste Schritte");
 }
+
+TEST_CASE("Ticks of a time axis have two digits of seconds before any decimal mark")
+{
+    using editor::timeText;
+    CHECK(timeText(0.25, 0.05) == "0.25 s");
+    CHECK(timeText(65.5, 0.5) == "1:05.5");
+    CHECK(timeText(600.0, 60.0) == "10:00");
+    const Language german("de");
+    CHECK(timeText(0.25, 0.05) == "0,25 s");
+    CHECK(timeText(65.5, 0.5) == "1:05,5");
+    CHECK(timeText(75.5, 0.5) == "1:15,5");
+    CHECK(timeText(62.0, 2.0) == "1:02");
+}

@@ -6,6 +6,7 @@
 
 #include <pacini/foundation/Units.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
@@ -31,6 +32,19 @@ juce::String hertzText(double frequency)
     if (frequency >= 1000.0)
         return numberText(frequency / 1000.0, 2) + " kHz";
     return (frequency < 100.0 ? numberText(frequency, 1) : juce::String(juce::roundToInt(frequency))) + " Hz";
+}
+
+juce::String timeText(double time, double step)
+{
+    const int decimals = step >= 1.0 ? 0 : static_cast<int>(std::ceil(-std::log10(step) - 1e-9));
+    if (time < 60.0)
+        return numberText(time, decimals) + " s";
+    const int minutes = static_cast<int>(time / 60.0 + 1e-9);
+    const double seconds = std::max(0.0, time - 60.0 * minutes);
+    // Two digits before the decimal mark, whatever that is.
+    const juce::String text = numberText(seconds, decimals);
+    const bool one = text.length() == (decimals > 0 ? decimals + 2 : 1);
+    return juce::String(minutes) + (one ? ":0" : ":") + text;
 }
 
 juce::String rangeText(double low, double high)

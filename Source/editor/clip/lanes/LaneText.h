@@ -15,6 +15,8 @@ namespace pacini::editor
 
 /// "62 Hz", "1.2 kHz".
 [[nodiscard]] juce::String hertzText(double frequency);
+/// A tick of a time axis whose ticks are `step` apart: "0.5 s", "1:05".
+[[nodiscard]] juce::String timeText(double time, double step);
 /// "60–125 Hz", "0.50–2.0 kHz".
 [[nodiscard]] juce::String rangeText(double low, double high);
 /// "-12.3 dB", "silent".

@@ -5,6 +5,7 @@
 #include "editor/Text.h"
 #include "editor/Theme.h"
 #include "editor/Translation.h"
+#include "editor/clip/lanes/LaneText.h"
 #include "editor/clip/lanes/PlotLane.h"
 #include "editor/clip/session/Snapping.h"
 
@@ -17,16 +18,6 @@ namespace pacini::editor
 namespace
 {
 constexpr float edgeReach = 6.0f; // pixels
-
-juce::String timeText(double time, double step)
-{
-    const int decimals = step >= 1.0 ? 0 : static_cast<int>(std::ceil(-std::log10(step) - 1e-9));
-    if (time < 60.0)
-        return numberText(time, decimals) + " s";
-    const int minutes = static_cast<int>(time / 60.0 + 1e-9);
-    const auto seconds = numberText(std::max(0.0, time - 60.0 * minutes), decimals);
-    return juce::String(minutes) + ":" + (seconds.indexOfChar('.') == 1 || seconds.length() == 1 ? "0" : "") + seconds;
-}
 } // namespace
 
 TimeRuler::TimeRuler(const EditorModel& project, ClipSelection& selected, const ViewState& sight, Transport& playing)

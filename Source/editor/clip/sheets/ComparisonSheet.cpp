@@ -2,9 +2,12 @@
 #include "editor/clip/sheets/ComparisonSheet.h"
 
 #include "document/view/ColourMap.h"
+#include "document/view/TimeTicks.h"
+#include "document/view/ValueTicks.h"
 #include "editor/Text.h"
 #include "editor/Theme.h"
 #include "editor/Translation.h"
+#include "editor/clip/lanes/LaneText.h"
 
 #include <algorithm>
 #include <array>
@@ -17,7 +20,9 @@ namespace pacini::editor
 namespace
 {
 constexpr int summaryHeight = 3 * grid, placeHeight = 3 * grid, headingHeight = 20;
-constexpr float fullDifference = 20.0f; // dB: the strongest colour
+constexpr int frequencyWidth = 7 * grid, timeHeight = 2 * grid + 4; // of the axes
+constexpr double leastTickGap = 18.0;                               // pixels
+constexpr float fullDifference = 20.0f;                             // dB: the strongest colour
 
 /// Softer than the sound is blue, stronger is orange, alike is the ground: told apart with any eyes.
 juce::Colour differenceColour(float decibels, juce::Colour ground)
@@ -94,9 +99,59 @@ void ComparisonSheet::showResult(Result<SoundComparison> result)
 
 juce::Rectangle<int> ComparisonSheet::rowArea(int row) const
 {
-    auto area = inside().withTrimmedTop(summaryHeight).withTrimmedBottom(placeHeight);
+    auto area = inside().withTrimmedTop(summaryHeight).withTrimmedBottom(placeHeight + timeHeight);
     const int height = area.getHeight() / 3;
     return area.withY(area.getY() + row * height).withHeight(height);
+}
+
+juce::Rectangle<int> ComparisonSheet::pictureArea(int row) const
+{
+    return rowArea(row).withTrimmedTop(headingHeight).withTrimmedBottom(4).withTrimmedLeft(frequencyWidth);
+}
+
+/// Frequencies beside each picture, and times below the last.
+void ComparisonSheet::paintAxes(juce::Graphics& g) const
+{
+    const Palette& p = paletteFor(*this);
+    g.setFont(captionFont());
+    for (int row = 0; row < 3; ++row)
+    {
+        const auto area = pictureArea(row);
+        const ValueAxis axis{ValueScale::logarithmic, found->rows.low, found->rows.high,
+                             static_cast<double>(area.getHeight())};
+        for (const double frequency : valueTicks(axis, leastTickGap))
+        {
+            const int y = area.getY() + juce::roundToInt(axis.yOf(frequency));
+            g.setColour(p.line);
+            g.fillRect(area.getX() - 4, y, 4, 1);
+            g.setColour(p.dim);
+            g.drawText(frequency >= 1000.0 ? numberText(frequency / 1000.0, 0) + " kHz"
+                                           : juce::String(juce::roundToInt(frequency)) + " Hz",
+                       area.getX() - frequencyWidth, y - grid, frequencyWidth - 6, 2 * grid,
+                       juce::Justification::centredRight, false);
+        }
+    }
+    const auto area = pictureArea(2);
+    const double step = tickStep(found->duration / std::max(1, area.getWidth()));
+    for (int i = 0; i * step <= found->duration * (1.0 + 1e-9); ++i)
+    {
+        const int x = area.getX() + juce::roundToInt(i * step / found->duration * area.getWidth());
+        g.setColour(p.line);
+        g.fillRect(std::min(x, area.getRight() - 1), area.getBottom(), 1, 4);
+        g.setColour(p.dim);
+        constexpr int width = 80;
+        // The ends stay within the picture.
+        const auto label = juce::Rectangle<int>(x - width / 2, area.getBottom() + 4, width, timeHeight - 4);
+        const bool ends = label.getRight() > area.getRight();
+        g.drawText(timeText(i * step, step),
+                   i == 0 ? label.withX(x)
+                   : ends ? label.withRightX(area.getRight())
+                          : label,
+                   i == 0 ? juce::Justification::centredLeft
+                   : ends ? juce::Justification::centredRight
+                          : juce::Justification::centred,
+                   false);
+    }
 }
 
 void ComparisonSheet::paint(juce::Graphics& g)
@@ -115,15 +170,15 @@ void ComparisonSheet::paint(juce::Graphics& g)
          {&difference, tr("Difference: blue is too weak, orange too strong, up to 20 dB")}}};
     for (int i = 0; i < 3; ++i)
     {
-        auto area = rowArea(i);
         g.setColour(p.dim);
         g.setFont(smallFont());
-        g.drawText(rows[static_cast<std::size_t>(i)].second, area.removeFromTop(headingHeight),
+        g.drawText(rows[static_cast<std::size_t>(i)].second, rowArea(i).removeFromTop(headingHeight),
                    juce::Justification::centredLeft, true);
         g.setImageResamplingQuality(juce::Graphics::lowResamplingQuality);
-        g.drawImage(*rows[static_cast<std::size_t>(i)].first, area.withTrimmedBottom(4).toFloat(),
+        g.drawImage(*rows[static_cast<std::size_t>(i)].first, pictureArea(i).toFloat(),
                     juce::RectanglePlacement::stretchToFit);
     }
+    paintAxes(g);
 }
 
 void ComparisonSheet::mouseMove(const juce::MouseEvent& event)
@@ -131,7 +186,7 @@ void ComparisonSheet::mouseMove(const juce::MouseEvent& event)
     juce::String text;
     for (int i = 0; found && i < 3; ++i)
     {
-        const auto area = rowArea(i).withTrimmedTop(headingHeight).withTrimmedBottom(4);
+        const auto area = pictureArea(i);
         if (!area.contains(event.getPosition()))
             continue;
         const double x = static_cast<double>(event.x - area.getX()) / area.getWidth();

@@ -29,6 +29,8 @@ public:
 private:
     void showResult(Result<SoundComparison> result);
     [[nodiscard]] juce::Rectangle<int> rowArea(int row) const;
+    [[nodiscard]] juce::Rectangle<int> pictureArea(int row) const;
+    void paintAxes(juce::Graphics& g) const;
 
     std::optional<SoundComparison> found;
     juce::String summary;
