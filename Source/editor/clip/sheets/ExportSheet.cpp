@@ -8,6 +8,7 @@
 #include "editor/clip/sheets/OverwriteQuestion.h"
 
 #include <algorithm>
+#include <optional>
 
 namespace pacini::editor
 {
@@ -27,6 +28,14 @@ int itemOf(EventExport events)
 juce::String nameOf(const ClipFormat& format)
 {
     return toText(format.extension) + "  " + tr(toText(format.title));
+}
+
+/// With the format in front where there are several.
+Error ofFormat(Error error, const ExportChoice& choice, bool several)
+{
+    if (several)
+        error.where = choice.format + (error.where.empty() ? "" : ": " + error.where);
+    return error;
 }
 } // namespace
 
@@ -277,9 +286,7 @@ void ExportSheet::showLosses()
             {
                 auto lost = exportLosses(*clip, one);
                 if (!lost)
-                    return Error{lost.error().code,
-                                 wanted.size() > 1 && lost.error().where.empty() ? one.format : lost.error().where,
-                                 lost.error().message};
+                    return ofFormat(lost.error(), one, wanted.size() > 1);
                 found.emplace_back(one.format, std::move(*lost));
             }
             return found;
@@ -356,7 +363,7 @@ void ExportSheet::run()
             {
                 auto found = filesInTheWay(clips, one);
                 if (!found)
-                    return found.error();
+                    return ofFormat(found.error(), one, wanted.size() > 1);
                 standing.insert(standing.end(), found->begin(), found->end());
             }
             return standing;
@@ -385,9 +392,12 @@ void ExportSheet::sayBusy()
     losses.setText(tr(toText("Exporting…")), false);
 }
 
-void ExportSheet::fail(const Error& error)
+void ExportSheet::fail(const Error& error, std::size_t written)
 {
-    losses.setText(tr("Not exported: {0}", {translateMessage(toText(error.text()))}), false);
+    juce::String text = tr("Not exported: {0}", {translateMessage(toText(error.text()))});
+    if (written > 0)
+        text << "\n" << counted(written, "{0} file was written before.", "{0} files were written before.");
+    losses.setText(text, false);
     losses.applyColourToAllText(paletteFor(*this).danger, false);
 }
 
@@ -403,31 +413,39 @@ void ExportSheet::write(const Clips& clips, const std::vector<ExportChoice>& wan
 {
     remember();
     sayBusy();
-    using Reports = std::vector<ExportReport>;
+    struct Done
+    {
+        std::vector<std::filesystem::path> files;
+        std::optional<Error> failed; ///< what came after `files`
+    };
     jobs.run(
-        [clips, wanted]() -> Result<Reports>
+        [clips, wanted]() -> Done
         {
-            Reports reports;
+            Done result;
             for (const ExportChoice& one : wanted)
             {
-                auto done = pacini::exportClips(clips, one);
-                if (!done)
-                    return done.error();
-                reports.insert(reports.end(), done->begin(), done->end());
+                const auto reports = pacini::exportClips(clips, one);
+                if (!reports)
+                {
+                    result.failed = ofFormat(reports.error(), one, wanted.size() > 1);
+                    break;
+                }
+                for (const ExportReport& report : *reports)
+                    result.files.insert(result.files.end(), report.files.begin(), report.files.end());
             }
-            return reports;
+            return result;
         },
-        [this](const Result<Reports>& done)
+        [this](const Done& done)
         {
             setAnswerEnabled(true);
-            if (!done)
-                return fail(done.error());
-            std::vector<std::filesystem::path> files;
-            for (const ExportReport& report : *done)
-                files.insert(files.end(), report.files.begin(), report.files.end());
-            memory.written = true;
-            if (model.onWritten)
-                model.onWritten(files);
+            if (!done.files.empty())
+            {
+                memory.written = true;
+                if (model.onWritten)
+                    model.onWritten(done.files);
+            }
+            if (done.failed)
+                return fail(*done.failed, done.files.size());
             close();
         });
 }

@@ -59,7 +59,8 @@ private:
     [[nodiscard]] bool anySamples() const;
     [[nodiscard]] std::vector<ExportChoice> choices() const;
     void sayBusy();
-    void fail(const Error& error);
+    /// `written`: files that were before.
+    void fail(const Error& error, std::size_t written = 0);
     [[nodiscard]] const ClipFormat& chosenFormat() const;
     [[nodiscard]] ExportChoice choice() const;
 
