@@ -147,11 +147,14 @@ void ParameterSlider::resized()
         title.setBounds(area.removeFromTop(2 * grid + 2));
     else
         title.setBounds(area.removeFromLeft(title.getText().isEmpty() ? 0 : 11 * grid - 2));
-    // Names that are too long in a language are a size smaller before they are cut.
-    const bool fits =
-        smallFont().getStringWidth(title.getText()) <= title.getWidth() - title.getBorderSize().getLeftAndRight();
-    title.setFont(fits ? smallFont() : captionFont());
+    // Names that have no room in a language are a size smaller before they are cut.
+    title.setFont(nameWidth() - grid / 2 <= title.getWidth() ? smallFont() : captionFont());
     slider.setBounds(area);
+}
+
+int ParameterSlider::nameWidth() const
+{
+    return smallFont().getStringWidth(title.getText()) + title.getBorderSize().getLeftAndRight() + grid / 2;
 }
 
 void ParameterSlider::enablementChanged()

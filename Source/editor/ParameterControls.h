@@ -27,6 +27,9 @@ public:
     ParameterSlider(juce::AudioProcessorParameter& shown, Shape wanted, const juce::String& label,
                     const juce::String& name, const juce::String& help);
 
+    /// What the name needs in the usual type, with a little room.
+    [[nodiscard]] int nameWidth() const;
+
     void refresh() override;
     void resized() override;
     void enablementChanged() override;

@@ -594,11 +594,36 @@ void PluginWindow::placeHeader(juce::Rectangle<int> area)
     loadButton.setBounds(area.removeFromLeft(load));
 }
 
+/// Beside each other, as wide as each other where all names fit; those with long names take what they need from the
+/// rest, so that all are of one size of type.
 void PluginWindow::placeKnobs(juce::Rectangle<int> area, std::initializer_list<editor::ParameterSlider*> knobs)
 {
-    int left = static_cast<int>(knobs.size());
-    for (editor::ParameterSlider* knob : knobs)
-        knob->setBounds(area.removeFromLeft(area.getWidth() / left--));
+    constexpr int shared = -1; // an equal share of the rest
+    std::vector<int> widths(knobs.size(), shared);
+    int rest = std::max(area.getWidth(), 0), sharing = static_cast<int>(knobs.size());
+    for (bool changed = true; changed;)
+    {
+        changed = false;
+        for (std::size_t i = 0; i < knobs.size() && sharing > 1; ++i)
+            if (const int needed = knobs.begin()[i]->nameWidth(); widths[i] == shared && needed > rest / sharing)
+            {
+                widths[i] = std::min(needed, rest);
+                rest -= widths[i];
+                --sharing;
+                changed = true;
+            }
+    }
+    for (std::size_t i = 0; i < knobs.size(); ++i)
+    {
+        const bool shares = widths[i] == shared;
+        const int width = shares ? rest / sharing : widths[i];
+        if (shares)
+        {
+            rest -= width;
+            --sharing;
+        }
+        knobs.begin()[i]->setBounds(area.removeFromLeft(width));
+    }
 }
 
 } // namespace pacini::plugin

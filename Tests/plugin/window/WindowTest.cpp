@@ -110,6 +110,45 @@ TEST_CASE("Knobs stay between their names and their values, however tall the win
     }
 }
 
+TEST_CASE("Names of controls are of one size of type, also where one is long in a language")
+{
+    const juce::ScopedJuceInitialiser_GUI gui;
+    WindowRig rig;
+    for (const char* language : {"en", "de", "ja"})
+    {
+        editor::useLanguage(language);
+        plugin::PluginWindow window(rig.plugin);
+        editor::useLanguage("en");
+        for (const auto size : {juce::Point<int>(936, 608), juce::Point<int>(1280, 800)})
+        {
+            window.setSize(size.x, size.y);
+            forEachChild(window,
+                         [&](juce::Component& child)
+                         {
+                             if (dynamic_cast<editor::ParameterSlider*>(&child) == nullptr)
+                                 return;
+                             const auto* name = dynamic_cast<juce::Label*>(child.getChildComponent(0));
+                             REQUIRE(name != nullptr);
+                             CAPTURE(language, size.toString(), name->getText());
+                             CHECK(name->getFont().getHeight() == editor::smallFont().getHeight());
+                         });
+        }
+    }
+}
+
+TEST_CASE("A window is laid out at every size that a host gives it, also none")
+{
+    const juce::ScopedJuceInitialiser_GUI gui;
+    WindowRig rig;
+    plugin::PluginWindow window(rig.plugin);
+    for (const int width : {0, 1, 7, 40, 150, 400, 936, 5000})
+        for (const int height : {0, 1, 30, 200, 608, 3000})
+        {
+            window.setSize(width, height);
+            CHECK(window.getWidth() == width);
+        }
+}
+
 TEST_CASE("Text that is no value leaves a control as it is, and its text comes back")
 {
     const juce::ScopedJuceInitialiser_GUI gui;
