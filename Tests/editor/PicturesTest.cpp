@@ -244,7 +244,8 @@ TEST_CASE("Pictures of the windows in all sizes, themes and languages", "[.look]
     for (const auto& [name, command] :
          {std::pair("new-study", editor::newStudy), std::pair("scene", editor::editScene),
           std::pair("gain", editor::changeGain), std::pair("humanise", editor::humanise),
-          std::pair("about", editor::about), std::pair("palette", editor::searchCommands)})
+          std::pair("about", editor::about), std::pair("palette", editor::searchCommands),
+          std::pair("comparison", editor::compareWithTheSound), std::pair("history", editor::showHistory)})
         all.push_back({name, [command = command](EditorBench& bench)
                        {
                            openSheet(bench, command);
@@ -254,7 +255,8 @@ TEST_CASE("Pictures of the windows in all sizes, themes and languages", "[.look]
                        openPage(bench, 2);
                    }});
     for (const char* language : {"en", "de", "ja"})
-        for (const Size& size : {Size{1024, 700, 1.0}, Size{1280, 800, 1.0}, Size{2560, 1440, 2.0}})
+        for (const Size& size :
+             {Size{1024, 700, 1.0}, Size{1280, 800, 1.0}, Size{1920, 1080, 1.0}, Size{2560, 1440, 2.0}})
             for (const bool dark : {true, false})
                 for (const State& state : all)
                 {
