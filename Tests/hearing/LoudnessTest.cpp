@@ -156,6 +156,81 @@ TEST_CASE("Loudness fades slower after a long sound than after a short one", "[l
     CHECK(loudest(0.1) < loudest(1.0));
 }
 
+TEST_CASE("The total of a pattern is the same where nothing else of it is asked for", "[loudness]")
+{
+    for (int seed = 0; seed < 300; ++seed)
+    {
+        CoreLoudness core{};
+        for (std::size_t band = 0; band + 1 < core.size(); ++band)
+            core[band] =
+                std::max(0.0, std::pow(10.0, std::sin(1.7 * seed + 2.3 * static_cast<double>(band * band))) - 0.5);
+        CAPTURE(seed);
+        CHECK(totalLoudness(core) == Approx(loudnessPattern(core).total).epsilon(1e-12));
+    }
+    CHECK(totalLoudness({}) == 0.0);
+}
+
+TEST_CASE("Loudness falls and rises between two sets as step after step of the circuit would", "[loudness]")
+{
+    // The circuit of ISO 532-1, 6.4, as two capacitors that every substep charges or discharges.
+    for (const double rate : {1000.0, 2000.0})
+    {
+        const int substeps = rate < 2000.0 ? 12 : 24;
+        const double step = 1.0 / (rate * substeps);
+        const double p = (0.075 + 0.015) / (0.075 * 0.005);
+        const double q = 1.0 / (0.075 * 0.005);
+        const double l1 = -0.5 * p + std::sqrt(0.25 * p * p - q);
+        const double l2 = -0.5 * p - std::sqrt(0.25 * p * p - q);
+        const double den = 0.075 * (l1 - l2);
+        const double e1 = std::exp(l1 * step);
+        const double e2 = std::exp(l2 * step);
+        const double b[] = {(e1 - e2) / den,
+                            ((0.075 * l2 + 1.0) * e1 - (0.075 * l1 + 1.0) * e2) / den,
+                            ((0.075 * l1 + 1.0) * e1 - (0.075 * l2 + 1.0) * e2) / den,
+                            (0.075 * l1 + 1.0) * (0.075 * l2 + 1.0) * (e1 - e2) / den,
+                            std::exp(-step / 0.015),
+                            std::exp(-step / 0.075)};
+        double output = 0.0;
+        double memory = 0.0;
+        const auto substep = [&](double input)
+        {
+            const double last = output;
+            if (input < last && last > memory)
+            {
+                output = std::max(input, last * b[2] - memory * b[3]);
+                memory = std::min(output, last * b[0] - memory * b[1]);
+            }
+            else if (input < last)
+                memory = output = std::max(input, last * b[4]);
+            else
+            {
+                output = input;
+                memory = input - last < 1e-5 && input <= memory ? input : (memory - input) * b[5] + input;
+            }
+        };
+        LoudnessDecay decay(rate);
+        std::vector<double> values;
+        for (int i = 0; i < 400; ++i) // rises, falls, level pieces, silence, and rises below what is left of before
+            values.push_back(i % 90 > 70  ? 0.0
+                             : i % 13 > 9 ? 2.0
+                                          : std::abs(3.0 * std::sin(0.9 * i) * std::sin(0.013 * i * i)));
+        for (std::size_t i = 0; i + 1 < values.size(); ++i)
+        {
+            CoreLoudness now{};
+            CoreLoudness next{};
+            now[7] = values[i];
+            next[7] = values[i + 1];
+            const double found = decay.step(now, next)[7];
+            for (int m = 0; m < substeps; ++m)
+            {
+                substep(values[i] + (values[i + 1] - values[i]) * m / substeps);
+                if (m == 0)
+                    CHECK(found == Approx(output).epsilon(1e-12).margin(1e-15));
+            }
+        }
+    }
+}
+
 TEST_CASE("Straight lines are smoothed as a fine grid of steps would be", "[loudness]")
 {
     const std::vector<double> values{1.0, 3.0, 0.0, 0.5, 7.0, 7.0, 7.0, 0.0};

@@ -71,11 +71,16 @@ private:
     {
         if (waiting)
         {
-            const auto pattern = loudnessPattern(decay.step(*waiting, core));
-            const double total = memory.next(pattern.total);
-            if (sets++ % spacing == 0)
+            const CoreLoudness heard = decay.step(*waiting, core);
+            if (sets++ % spacing != 0)
+                memory.next(totalLoudness(heard)); // no one asks for the pattern between two values
+            else
+            {
+                const auto pattern = loudnessPattern(heard);
+                const double total = memory.next(pattern.total);
                 for (std::size_t i = 0; i < copies; ++i)
                     sink(total, pattern);
+            }
         }
         waiting = core;
     }

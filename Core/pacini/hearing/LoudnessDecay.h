@@ -85,14 +85,19 @@ public:
         for (std::size_t band = 0; band < states.size(); ++band)
         {
             State& state = states[band];
-            double value = input[band];
+            const double value = input[band];
             const double rise = (next[band] - value) / substeps;
             tick(state, value);
             result[band] = state.output;
             if (value == 0.0 && next[band] == 0.0 && state.output == 0.0)
                 continue; // silence after silence: the memory alone falls, and no output shows it before a rise
-            for (int m = 1; m < substeps; ++m)
-                tick(state, value += rise);
+            if (rise < 0.0)
+                fall(state, value, rise);
+            else if (state.output == value)
+                follow(state, value, rise);
+            else
+                for (int m = 1; m < substeps; ++m)
+                    tick(state, value + m * rise);
         }
         return result;
     }
@@ -104,25 +109,46 @@ private:
         double memory = 0.0;
     };
 
+    /// The memory is never above the output.
     void tick(State& state, double input) const noexcept
     {
+        if (input < state.output)
+            return tickDown(state, input);
+        state.output = input;
+        state.memory = (state.memory - input) * rising + input;
+    }
+
+    /// For an input below the last output.
+    void tickDown(State& state, double input) const noexcept
+    {
         const State last = state;
-        if (input < last.output && last.output > last.memory)
+        if (last.output > last.memory)
         {
             state.output = std::max(input, last.output * falling - last.memory * fallingByMemory);
             state.memory = std::min(state.output, last.output * filling - last.memory * fillingByMemory);
         }
-        else if (input < last.output)
+        else
         {
             state.output = std::max(input, last.output * together);
             state.memory = state.output;
         }
-        else
-        {
-            state.output = input;
-            const bool same = input - last.output < 1e-5 && input <= last.memory;
-            state.memory = same ? input : (last.memory - input) * rising + input;
-        }
+    }
+
+    /// All substeps but the first of a falling input: none of them reaches the output before it.
+    void fall(State& state, double value, double rise) const noexcept
+    {
+        State s = state;
+        for (int m = 1; m < substeps; ++m)
+            tickDown(s, value + m * rise);
+        state = s;
+    }
+
+    /// All substeps but the first of an input that does not fall, from where the output follows it: the memory is then
+    /// a one-pole filter of a straight line.
+    void follow(State& state, double value, double rise) const noexcept
+    {
+        state.output = value + (substeps - 1) * rise;
+        state.memory = (state.memory - value) * memoryKept + value + memoryRisen * rise;
     }
 
     std::array<State, std::tuple_size_v<CoreLoudness> - 1> states{};
@@ -147,6 +173,9 @@ private:
     const double fallingByMemory = (memoryTau * lambda1 + 1.0) * (memoryTau * lambda2 + 1.0) * (e1 - e2) / den;
     const double together = std::exp(-substep / longTau);
     const double rising = std::exp(-substep / memoryTau);
+    // Of n = substeps - 1 steps: rising^n, and the sum of (1 - rising) rising^(n - m) m over the steps m.
+    const double memoryKept = std::pow(rising, substeps - 1);
+    const double memoryRisen = substeps - 1 - rising * (1.0 - memoryKept) / (1.0 - rising);
 };
 
 } // namespace pacini

@@ -160,6 +160,18 @@ private:
     double weighted = 0.0;
 };
 
+/// The whole area of the pattern.
+struct LoudnessSum
+{
+    double total = 0.0; ///< sone
+
+    void add(double from, double to, double height, double slope) noexcept
+    {
+        const double width = to - from;
+        total += width * (height - 0.5 * slope * width);
+    }
+};
+
 } // namespace detail
 
 /// The core loudness of `powers` in a free field (ISO 532-1:2017, 5.4 and 5.5). Levels above 120 dB are outside of the
@@ -192,46 +204,65 @@ private:
     return core;
 }
 
-/// Core loudness with what it masks above itself (ISO 532-1:2017, 5.6 and 5.7), summed to loudness, and to sharpness by
-/// DIN 45692:2009. The standard rounds the sum to three digits; this does not.
-[[nodiscard]] inline LoudnessPattern loudnessPattern(const CoreLoudness& core) noexcept
+namespace detail
 {
-    detail::PatternSum sum;
+/// Calls sum.add(from, to, height, slope) for each falling or level piece of core loudness with what it masks above
+/// itself (ISO 532-1:2017, 5.6 and 5.7).
+template <typename Sum>
+void addPieces(const CoreLoudness& core, Sum& sum) noexcept
+{
     double from = 0.0;
     double height = 0.0;
     std::size_t row = 0;
     for (std::size_t band = 0; band < core.size(); ++band)
     {
-        const double limit = band < detail::criticalBands.size() ? detail::criticalBands[band].limit : 24.0;
+        const double limit = band < criticalBands.size() ? criticalBands[band].limit : 24.0;
         const std::size_t column = std::min<std::size_t>(7, band > 0 ? band - 1 : 0);
         while (from < limit)
         {
             if (height <= core[band])
             {
                 if (height < core[band])
-                    row = static_cast<std::size_t>(
-                        std::find_if(detail::upperSlopes.begin(), detail::upperSlopes.end() - 1,
-                                     [&](const detail::UpperSlope& entry) { return entry.above < core[band]; }) -
-                        detail::upperSlopes.begin());
+                    row = static_cast<std::size_t>(std::find_if(upperSlopes.begin(), upperSlopes.end() - 1,
+                                                                [&](const UpperSlope& entry)
+                                                                { return entry.above < core[band]; }) -
+                                                   upperSlopes.begin());
                 height = core[band];
                 sum.add(from, limit, height, 0.0);
                 from = limit;
             }
             else
             {
-                const double slope = detail::upperSlopes[row].slope[column];
-                const double floor = std::max(detail::upperSlopes[row].above, core[band]);
+                const double slope = upperSlopes[row].slope[column];
+                const double floor = std::max(upperSlopes[row].above, core[band]);
                 const double reach = (height - floor) / slope;
                 const double to = std::min(limit, from + reach);
                 sum.add(from, to, height, slope);
                 height = from + reach <= limit ? floor : height - slope * (limit - from);
                 from = to;
             }
-            while (row + 1 < detail::upperSlopes.size() && height <= detail::upperSlopes[row].above)
+            while (row + 1 < upperSlopes.size() && height <= upperSlopes[row].above)
                 ++row;
         }
     }
+}
+} // namespace detail
+
+/// Core loudness with what it masks above itself, summed to loudness, and to sharpness by DIN 45692:2009. The standard
+/// rounds the sum to three digits; this does not.
+[[nodiscard]] inline LoudnessPattern loudnessPattern(const CoreLoudness& core) noexcept
+{
+    detail::PatternSum sum;
+    detail::addPieces(core, sum);
     return sum.result();
+}
+
+/// The total of loudnessPattern() alone, in sone.
+[[nodiscard]] inline double totalLoudness(const CoreLoudness& core) noexcept
+{
+    detail::LoudnessSum sum;
+    detail::addPieces(core, sum);
+    return sum.total;
 }
 
 } // namespace pacini

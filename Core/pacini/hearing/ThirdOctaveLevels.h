@@ -2,6 +2,7 @@
 
 // Powers of 28 third-octave bands over time, the input of the loudness model of ISO 532-1.
 
+#include <pacini/foundation/DotProduct.h>
 #include <pacini/foundation/DspBlock.h>
 #include <pacini/foundation/Pair.h>
 #include <pacini/hearing/ThirdOctaveTables.h>
@@ -28,8 +29,8 @@ namespace detail
 /// Bands `First` to `First` + `Count` - 1 at 48 kHz / `Factor`: filters of sixth order, squared and smoothed by three
 /// equal one-pole filters (ISO 532-1:2017, 6.2 and 6.3). The poles are those of the standard, z^Factor at the lower
 /// rate. At 48 kHz the filters have the standard's three zeros at half the rate; lower rates leave these out, as they
-/// would lie within the spectrum there. The bands lie side by side in memory, so that one step of all becomes vector
-/// code.
+/// would lie within the spectrum there. All bands have the same zeros, which are therefore computed once; two bands
+/// share a vector register.
 template <std::size_t First, std::size_t Count, int Factor>
 class ThirdOctaveGroup
 {
@@ -45,76 +46,106 @@ public:
             Two& two = twos[k / 2];
             for (std::size_t s = 0; s < 3; ++s)
             {
-                two.a1[s] = Pair(one.a1[s], other.a1[s]);
-                two.a2[s] = Pair(one.a2[s], other.a2[s]);
+                two.sections[s].a1 = Pair(one.a1[s], other.a1[s]);
+                two.sections[s].a2 = Pair(one.a2[s], other.a2[s]);
             }
-            two.gain = Pair(one.gain, other.gain);
+            two.gain = Pair(one.gain * one.gain / together, other.gain * other.gain / together);
             two.smoothing = Pair(one.smoothing, other.smoothing);
         }
     }
 
-    void tick(double x) noexcept
+    /// The next samples, which change to what the zeros leave of them. Writes the powers after the first `ends[i]`
+    /// samples to `sets[i]`, ascending.
+    void process(std::span<double> x, std::span<const std::size_t> ends, std::span<BandPowers> sets) noexcept
     {
-        const bool due = ++squared == together;
-        if (due)
-            squared = 0;
-        for (Two& two : twos)
-        {
-            Pair y = Pair(x) * two.gain;
-            for (std::size_t s = 0; s < 3; ++s)
+        for (double& v : x)
+            for (auto& stage : past)
             {
-                // Transposed direct form II.
-                const Pair in = y;
-                y = in + two.first[s];
-                two.first[s] = Pair(b1[s]) * in - two.a1[s] * y + two.second[s];
-                two.second[s] = Pair(b2[s]) * in - two.a2[s] * y;
+                // One zero at 0 Hz, and at 48 kHz one at half the rate.
+                const double earlier = stage.back();
+                stage.back() = stage.front();
+                stage.front() = v;
+                v -= earlier;
             }
-            two.power = two.power + y * y;
-            if (!due)
-                continue;
-            Pair power = two.power * Pair(1.0 / together);
-            two.power = Pair();
-            for (Pair& stage : two.smooth)
-                power = stage = stage + two.smoothing * (power - stage);
-        }
-    }
-
-    void write(BandPowers& powers) const noexcept
-    {
         for (std::size_t k = 0; k < Count; k += 2)
-        {
-            powers[First + k] = (twos[k / 2].smooth[2].first() + 1e-12) / 4e-10;
-            powers[First + k + 1] = (twos[k / 2].smooth[2].second() + 1e-12) / 4e-10;
-        }
+            run(twos[k / 2], x, ends, sets, First + k);
+        squared = static_cast<int>((static_cast<std::size_t>(squared) + x.size()) % together);
     }
 
     void flush() noexcept
     {
         for (Two& two : twos)
-            for (auto* states : {&two.first, &two.second, &two.smooth})
-                for (Pair& state : *states)
-                    state = cleared(state, 1e-100);
+        {
+            for (Section& section : two.sections)
+                for (Pair* state : {&section.first, &section.second})
+                    *state = cleared(*state, 1e-100);
+            for (Pair& state : two.smooth)
+                state = cleared(state, 1e-100);
+        }
     }
 
 private:
     static_assert(Count % 2 == 0);
 
+    /// Two poles: y[n] = x[n] - a1 y[n - 1] - a2 y[n - 2].
+    struct Section
+    {
+        Pair a1, a2, first, second;
+    };
+
     /// Two bands, side by side in vector registers.
     struct Two
     {
-        std::array<Pair, 3> a1, a2, first, second, smooth;
-        Pair gain, smoothing, power;
+        std::array<Section, 3> sections;
+        std::array<Pair, 3> smooth;
+        Pair gain; ///< of the mean power
+        Pair smoothing, power;
     };
+
+    void run(Two& two, std::span<const double> x, std::span<const std::size_t> ends, std::span<BandPowers> sets,
+             std::size_t band) const noexcept
+    {
+        Two state = two; // a copy, so that the compiler can keep it in registers
+        int summed = squared;
+        const auto advance = [&](std::size_t from, std::size_t to)
+        {
+            for (std::size_t i = from; i < to; ++i)
+            {
+                Pair y(x[i]);
+                for (Section& section : state.sections)
+                {
+                    y = y - section.a2 * section.second - section.a1 * section.first;
+                    section.second = section.first;
+                    section.first = y;
+                }
+                state.power = state.power + y * y;
+                if (++summed < together)
+                    continue;
+                summed = 0;
+                Pair power = state.power;
+                state.power = Pair();
+                for (Pair& stage : state.smooth)
+                    power = stage = stage + state.smoothing * (power - stage);
+            }
+        };
+        std::size_t done = 0;
+        for (std::size_t i = 0; i < ends.size(); ++i)
+        {
+            advance(done, ends[i]);
+            done = ends[i];
+            const Pair power = state.gain * state.smooth[2];
+            sets[i][band] = (power.first() + 1e-12) / 4e-10;
+            sets[i][band + 1] = (power.second() + 1e-12) / 4e-10;
+        }
+        advance(done, x.size());
+        two = state;
+    }
 
     struct Design
     {
         std::array<double, 3> a1, a2;
         double gain, smoothing;
     };
-
-    // (z+1)^2, (z+1)(z-1), (z-1)^2, or 1, z-1 and (z-1)^2.
-    static constexpr std::array<double, 3> b1 = Factor == 1 ? std::array{2.0, 0.0, -2.0} : std::array{0.0, -1.0, -2.0};
-    static constexpr std::array<double, 3> b2 = Factor == 1 ? std::array{1.0, -1.0, 1.0} : std::array{0.0, 0.0, 1.0};
 
     static Design design(std::size_t k)
     {
@@ -150,7 +181,8 @@ private:
     }
 
     std::array<Two, Count / 2> twos;
-    int squared = Factor == 1 ? 1 : 0; // the third sample is due there, as sets are
+    std::array<std::array<double, Factor == 1 ? 2 : 1>, 3> past{}; // inputs of the three stages of zeros
+    int squared = Factor == 1 ? 1 : 0;                             // the third sample is due there, as sets are
 };
 
 /// Every fourth sample of what a low-pass leaves, `delay` samples late. Flat within .01 dB to a twentieth of its rate,
@@ -188,10 +220,7 @@ public:
         phase = (phase + 1) % 4;
         if (!due)
             return false;
-        double sum = 0.0;
-        for (std::size_t i = 0; i < taps; ++i)
-            sum += coefficients[i] * history[at + i];
-        output = sum;
+        output = dotProduct(coefficients.data(), history.data() + at, taps);
         return true;
     }
 
@@ -238,15 +267,15 @@ public:
     /// of any length. What is not finite counts as 0. The last `latency` samples are heard by finish().
     void process(std::span<const float> pressure, std::vector<BandPowers>& powers)
     {
-        for (const float p : pressure)
-            tick(finiteOrZero(p), powers);
+        for (std::size_t done = 0; done < pressure.size(); done += piece)
+            processPiece(pressure.subspan(done, std::min(piece, pressure.size() - done)), powers);
     }
 
     /// The sets that process() still owes.
     void finish(std::vector<BandPowers>& powers)
     {
-        for (std::size_t n = 0; n < latency; ++n)
-            tick(0.0, powers);
+        constexpr std::array<float, latency> silence{};
+        processPiece(silence, powers);
     }
 
 private:
@@ -254,39 +283,49 @@ private:
     // (by 1.5 steps of three filters) and so do the zeros that they lack: by these delays all bands meet within 4
     // samples.
     static constexpr std::size_t latency = 38;
+    static constexpr std::size_t piece = flushInterval;
+    static_assert(latency <= piece);
 
-    void tick(double x, std::vector<BandPowers>& powers)
+    /// At most `piece` samples; each group of bands runs through them at its own rate.
+    void processPiece(std::span<const float> pressure, std::vector<BandPowers>& powers)
     {
-        high.tick(highDelay.tick(x));
-        double quarter = 0.0;
-        if (toMiddle.tick(x, quarter))
+        for (auto* ends : {&highEnds, &middleEnds, &lowEnds})
+            ends->clear();
+        std::size_t middles = 0;
+        std::size_t lows = 0;
+        for (std::size_t n = 0; n < pressure.size(); ++n)
         {
-            middle.tick(middleDelay.tick(quarter));
-            double sixteenth = 0.0;
-            if (toLow.tick(lowDelay.tick(quarter), sixteenth))
-                low.tick(sixteenth);
+            const double x = finiteOrZero(pressure[n]);
+            atHigh[n] = highDelay.tick(x);
+            double quarter = 0.0;
+            if (toMiddle.tick(x, quarter))
+            {
+                atMiddle[middles++] = middleDelay.tick(quarter);
+                double sixteenth = 0.0;
+                if (toLow.tick(lowDelay.tick(quarter), sixteenth))
+                    atLow[lows++] = sixteenth;
+            }
+            if (untilSet == 0)
+            {
+                untilSet = hop;
+                highEnds.push_back(n + 1);
+                middleEnds.push_back(middles);
+                lowEnds.push_back(lows);
+            }
+            --untilSet;
         }
-        if (untilSet == 0)
-        {
-            untilSet = hop;
-            powers.emplace_back();
-            low.write(powers.back());
-            middle.write(powers.back());
-            high.write(powers.back());
-        }
-        --untilSet;
-        if (--untilFlush == 0)
-        {
-            untilFlush = flushInterval;
-            low.flush();
-            middle.flush();
-            high.flush();
-        }
+        powers.resize(powers.size() + highEnds.size());
+        const auto sets = std::span(powers).last(highEnds.size());
+        high.process(std::span(atHigh).first(pressure.size()), highEnds, sets);
+        middle.process(std::span(atMiddle).first(middles), middleEnds, sets);
+        low.process(std::span(atLow).first(lows), lowEnds, sets);
+        low.flush();
+        middle.flush();
+        high.flush();
     }
 
     std::size_t hop;
     std::size_t untilSet = latency; // samples
-    std::size_t untilFlush = flushInterval;
     detail::FixedDelay<41> highDelay;
     detail::FixedDelay<9> middleDelay;
     detail::FixedDelay<5> lowDelay;
@@ -295,6 +334,11 @@ private:
     detail::ThirdOctaveGroup<0, 12, 16> low;
     detail::ThirdOctaveGroup<12, 8, 4> middle;
     detail::ThirdOctaveGroup<20, 8, 1> high;
+
+    std::array<double, piece> atHigh; // samples of a piece at the rate of each group
+    std::array<double, piece / 4 + 1> atMiddle;
+    std::array<double, piece / 16 + 1> atLow;
+    std::vector<std::size_t> highEnds, middleEnds, lowEnds; // samples before each set
 };
 
 } // namespace pacini
