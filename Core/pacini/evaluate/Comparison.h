@@ -146,7 +146,7 @@ public:
         const std::span<const float> mono = *checked;
         found.duration = durationOf(mono, sampleRate);
         judge.emplace(signalAnalysisLength(mono.size(), sampleRate));
-        if (auto judged = analyze(mono, sampleRate, source, source.itself); !judged)
+        if (auto judged = analyze(mono, sampleRate, source, source.itself, HtsRole::sourceItself); !judged)
             return judged;
         auto wanted = htsSourceFeatures(hts, mono, sampleRate);
         if (!wanted)
@@ -169,7 +169,7 @@ public:
             return checked.error();
         const std::span<const float> mono = *checked;
         found.candidateDuration = durationOf(mono, sampleRate);
-        return analyze(mono, sampleRate, target, target.hts);
+        return analyze(mono, sampleRate, target, target.hts, HtsRole::candidate);
     }
 
     /// Times of the events in the candidate, s.
@@ -191,8 +191,9 @@ public:
             const int late = matchLag(source.heard, target.felt);
             found.aligned = late != 0 && std::abs(found.duration - found.candidateDuration) > 0.005;
             found.matchLag = 1000.0 * late / TouchTrack::rate;
-            found.match = matchParts(source.heard, earlier(target.felt, found.aligned ? late : 0));
-            found.matchOfSound = predictedMatch(matchParts(source.heard, source.felt));
+            const HeardCourse heard(source.heard);
+            found.match = heard.with(found.aligned ? earlier(target.felt, late) : target.felt);
+            found.matchOfSound = predictedMatch(heard.with(source.felt));
         }
         return found;
     }
@@ -236,21 +237,18 @@ private:
     }
 
     [[nodiscard]] Result<void> analyze(std::span<const float> mono, int sampleRate, Features& features,
-                                       HtsFeatures& asCandidate)
+                                       HtsFeatures& asCandidate, HtsRole role)
     {
         features = {};
         auto judged = signalFeatures(*judge, mono, sampleRate);
         if (!judged)
             return judged.error();
         features.judge = std::move(*judged);
-        auto candidate = htsCandidateFeatures(hts, mono, sampleRate);
-        if (!candidate)
-            return candidate.error();
-        asCandidate = std::move(*candidate);
-        auto felt = touchTrack(touch, mono, sampleRate);
-        if (!felt)
-            return felt.error();
-        features.felt = std::move(*felt);
+        const auto low = resampleFinite(mono, sampleRate, HtsFeatures::sampleRate);
+        if (!low)
+            return low.error();
+        asCandidate = hts.analyze(std::span<const float>(*low), role);
+        features.felt = touch.analyze(*low);
         return {};
     }
 

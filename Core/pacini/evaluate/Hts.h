@@ -46,6 +46,8 @@ inline constexpr double sensationRange = 35.0; // dB between threshold and the s
 /// Sensation level in dB, 0 and above: the strongest value of the reference lies at sensationRange.
 [[nodiscard]] inline double sensationLevel(double value, double strongest) noexcept
 {
+    if (std::max(value, 1e-12) < 0.01 * strongest)
+        return 0.0; // -40 dB: below threshold without a logarithm
     return std::max(0.0, sensationRange + Decibels::fromGain(std::max(value, 1e-12) / strongest).value);
 }
 

@@ -21,11 +21,13 @@
 namespace pacini
 {
 
-/// Side of a signal in the comparison. The audible envelope and the events are only computed for a source.
+/// Side of a signal in the comparison. The audible envelope and the events are only computed for a source, the low
+/// envelopes not for a source as its own candidate.
 enum class HtsRole
 {
     source,
     candidate,
+    sourceItself,
 };
 
 /// Computes HtsFeatures; plans new transforms only if the length of the signals changes.
@@ -53,7 +55,8 @@ public:
             features.audible = std::move(audible.envelope);
             features.audibleEvents = std::move(audible.events);
         }
-        features.low = lowEnvelopes(x);
+        if (role != HtsRole::sourceItself)
+            features.low = lowEnvelopes(x);
         const auto lowpass = designBiquad({BiquadType::lowpass, Hertz(300.0)}, fs);
         SectionCascade<2>({lowpass, lowpass}).process(std::span(x));
         auto felt = powerEnvelopes.analyze(x);

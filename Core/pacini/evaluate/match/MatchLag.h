@@ -5,6 +5,7 @@
 #include <pacini/evaluate/match/HeardTrack.h>
 #include <pacini/evaluate/match/TouchTrack.h>
 #include <pacini/evaluate/match/TrackStatistics.h>
+#include <pacini/foundation/DotProduct.h>
 
 #include <algorithm>
 #include <cmath>
@@ -61,7 +62,9 @@ namespace detail
     {
         const std::ptrdiff_t first = std::max<std::ptrdiff_t>(0, -lag);
         const std::ptrdiff_t end = std::min(std::ssize(a), std::ssize(b) - lag);
-        return end > first ? std::inner_product(a.begin() + first, a.begin() + end, b.begin() + first + lag, 0.0) : 0.0;
+        return end > first ? dotProductIn<double>(a.data() + first, b.data() + first + lag,
+                                                  static_cast<std::size_t>(end - first))
+                           : 0.0;
     };
     std::ptrdiff_t best = 0;
     double most = std::max(certain, correlationAt(0) + better);

@@ -106,43 +106,65 @@ inline void addFrequencyParts(const HeardTrack& heard, const TouchTrack& felt, M
     parts.brightness = std::max(0.0, correlation(sharpness, octave, weight, justFelt, justFelt));
     parts.movement = std::min(1.0, deviation(octave, weight));
 }
+
+/// Square roots of the first `frames` values; zeros follow a shorter track.
+[[nodiscard]] inline std::vector<float> compressed(std::span<const float> x, std::size_t frames)
+{
+    std::vector<float> y(frames);
+    std::transform(x.begin(), x.begin() + static_cast<std::ptrdiff_t>(std::min(frames, x.size())), y.begin(),
+                   [](float v) { return std::sqrt(v); });
+    return y;
+}
 } // namespace detail
 
-/// The parts of a sound and a vibration, over the length of the sound; a shorter vibration is followed by silence. All
-/// 0 when either is silent.
+/// What matchParts() needs of a sound, for several vibrations. Keeps a reference to the track.
+class HeardCourse
+{
+public:
+    explicit HeardCourse(const HeardTrack& heard) : track(heard)
+    {
+        using namespace detail;
+        if (heard.loudness.size() <= loudnessDelay)
+            return;
+        loudness = compressed(std::span(heard.loudness).subspan(loudnessDelay), heard.loudness.size() - loudnessDelay);
+        quick = smoothed(loudness, attack);
+        slow = smoothed(loudness, course);
+        risesOfQuick = rises(quick);
+        depth = fluctuationDepth(loudness, slow, loudness);
+    }
+
+    /// The parts over the length of the sound; a shorter vibration is followed by silence. All 0 when either is silent.
+    [[nodiscard]] MatchParts with(const TouchTrack& felt) const
+    {
+        using namespace detail;
+        MatchParts parts;
+        if (loudness.empty() || felt.strength.empty())
+            return parts;
+        const auto strength = compressed(felt.strength, loudness.size());
+        if (std::all_of(strength.begin(), strength.end(), [](float v) { return v == 0.0f; }))
+            return parts;
+        const auto quickStrength = smoothed(strength, attack);
+        const auto slowStrength = smoothed(strength, course);
+        parts.attacks = std::max(0.0, correlation(risesOfQuick, rises(quickStrength)));
+        parts.envelope = std::max(0.0, correlation(slow, slowStrength, {}, unnoticed(slow), unnoticed(slowStrength)));
+        parts.roughness = roughnessAgreement(depth, fluctuationDepth(strength, slowStrength, loudness));
+        parts.silence = silenceAgreement(quick, quickStrength);
+        addFrequencyParts(track, felt, parts);
+        return parts;
+    }
+
+private:
+    const HeardTrack& track;
+    HannKernel attack = detail::trackKernel(0.010);
+    HannKernel course = detail::trackKernel(0.050);
+    std::vector<float> loudness, quick, slow, risesOfQuick; // square roots
+    double depth = 0.0;                                     // of the fluctuations
+};
+
+/// The parts of a sound and a vibration: see HeardCourse::with().
 [[nodiscard]] inline MatchParts matchParts(const HeardTrack& heard, const TouchTrack& felt)
 {
-    using namespace detail;
-    MatchParts parts;
-    if (heard.loudness.size() <= loudnessDelay || felt.strength.empty())
-        return parts;
-    const std::size_t frames = heard.loudness.size() - loudnessDelay;
-    const auto compressed = [frames](std::span<const float> x)
-    {
-        std::vector<float> y(frames);
-        std::transform(x.begin(), x.begin() + static_cast<std::ptrdiff_t>(std::min(frames, x.size())), y.begin(),
-                       [](float v) { return std::sqrt(v); });
-        return y;
-    };
-    const auto loudness = compressed(std::span(heard.loudness).subspan(loudnessDelay));
-    const auto strength = compressed(felt.strength);
-    if (std::all_of(strength.begin(), strength.end(), [](float v) { return v == 0.0f; }))
-        return parts;
-
-    const HannKernel attack = trackKernel(0.010);
-    const auto quickLoudness = smoothed(loudness, attack);
-    const auto quickStrength = smoothed(strength, attack);
-    parts.attacks = std::max(0.0, correlation(rises(quickLoudness), rises(quickStrength)));
-    const HannKernel course = trackKernel(0.050);
-    const auto slowLoudness = smoothed(loudness, course);
-    const auto slowStrength = smoothed(strength, course);
-    parts.envelope =
-        std::max(0.0, correlation(slowLoudness, slowStrength, {}, unnoticed(slowLoudness), unnoticed(slowStrength)));
-    parts.roughness = roughnessAgreement(fluctuationDepth(loudness, slowLoudness, loudness),
-                                         fluctuationDepth(strength, slowStrength, loudness));
-    parts.silence = silenceAgreement(quickLoudness, quickStrength);
-    addFrequencyParts(heard, felt, parts);
-    return parts;
+    return HeardCourse(heard).with(felt);
 }
 
 /// predictedMatch() of a vibration that is never felt: the least that a match is read against.
