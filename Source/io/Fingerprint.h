@@ -6,6 +6,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <span>
 #include <string>
 #include <string_view>
@@ -83,8 +84,11 @@ private:
     static std::uint64_t word(std::span<const std::byte> bytes) noexcept
     {
         std::uint64_t number = 0;
-        for (std::size_t i = 0; i < 8; ++i)
-            number |= static_cast<std::uint64_t>(bytes[i]) << (8 * i);
+        if constexpr (std::endian::native == std::endian::little)
+            std::memcpy(&number, bytes.data(), sizeof(number)); // one load; compilers leave the loop a loop
+        else
+            for (std::size_t i = 0; i < 8; ++i)
+                number |= static_cast<std::uint64_t>(bytes[i]) << (8 * i);
         return number;
     }
 
