@@ -8,6 +8,7 @@
 #include "io/formats/json/ClipJson.h"
 
 #include <pacini/actuator/ProtectionParams.h>
+#include <pacini/foundation/LargestMagnitude.h>
 #include <pacini/synthesis/RenderScene.h>
 #include <pacini/synthesis/Transparency.h>
 
@@ -74,19 +75,13 @@ public:
 
     Result<void> take(const RenderBlock& block) override
     {
-        const std::size_t width = block.channels.size();
-        interleaved.resize(block.frames() * width);
-        for (std::size_t a = 0; a < width; ++a)
-            for (std::size_t n = 0; n < block.frames(); ++n)
-            {
-                const float sample = block.channels[a][n];
-                interleaved[n * width + a] = sample;
-                peak = std::max(peak, std::abs(static_cast<double>(sample)));
-            }
+        for (const std::span<const float> channel : block.channels)
+            peak = std::max(peak, static_cast<double>(largestMagnitude(channel)));
+        const auto frames = interleavedFrames(block);
         return timed(
             [&]() -> Result<void>
             {
-                if (auto written = writer->write(interleaved); !written)
+                if (auto written = writer->write(frames); !written)
                     return atOutput(output, written.error());
                 return {};
             });
@@ -109,6 +104,19 @@ public:
     Stopwatch access; ///< to the file
 
 private:
+    /// One channel as it is. Valid until the next call, as the block is.
+    std::span<const float> interleavedFrames(const RenderBlock& block)
+    {
+        const std::size_t width = block.channels.size();
+        if (width == 1)
+            return block.channels.front();
+        interleaved.resize(block.frames() * width);
+        for (std::size_t a = 0; a < width; ++a)
+            for (std::size_t n = 0; n < block.frames(); ++n)
+                interleaved[n * width + a] = block.channels[a][n];
+        return interleaved;
+    }
+
     template <typename Work>
     Result<void> timed(Work&& work)
     {
