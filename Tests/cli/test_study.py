@@ -1,4 +1,5 @@
 """End to end: pacini study, from a template to a report, and what people do wrong with it."""
+import html
 import json
 import math
 import random
@@ -321,6 +322,39 @@ class People(StudyTest):
         self.assertEqual(ratings("P002 (copy).jsonl: is a copy of P002.jsonl and left out"), wanted["ratings"])
         (sessions / "P002 (copy).jsonl").write_text(re.sub(r'"started":"[^"]*"', '"started":"2020-01-01T00:00:00Z"', log))
         self.warns("study", "report", "simulated", says="P002.jsonl: is another session of P002")
+
+    def test_all_that_is_warned_of_is_in_the_report(self):
+        def warned(name, where):
+            # Each warning is a sentence of the page, of its Markdown and of its JSON.
+            done = self.run_command("study", "report", name, "--json", "-y")
+            said = [line.split(": warning: ", 1)[1]
+                    for line in done.stderr.decode().splitlines() if ": warning: " in line]
+            self.assertGreater(len(said), 0)
+            report = json.loads(done.stdout)
+            for page in ("report.md", "report.html"):
+                text = html.unescape((self.folder / where / page).read_text(encoding="utf-8"))
+                section = text[text.index("What was left out or assumed"):]
+                for one in [*said, *report["leftOut"]]:
+                    self.assertIn(one, section)
+            return report["leftOut"]
+        # A table: Latin-1, a line without a rating, and who has not rated all.
+        self.put("old.csv", "stimulus,participant,rating\nT\u00fcr,1,2\nT\u00fcr,2,3\nz,1,4\nz,2,NA\n".encode("cp1252"))
+        self.assertEqual(len(warned("old.csv", "old.report")), 3)
+        # A study: a session that breaks off, one that is none, one of another version, one copied, an age that is none.
+        self.new("ranking", "--ask", "demographics")
+        self.succeeds("study", "simulate", "mine", "-o", "simulated", "--runs", "10")
+        self.assertEqual(self.report("study", "report", "simulated")["leftOut"], [])
+        self.assertIn("Nothing.", (self.folder / "simulated/report/report.md").read_text())
+        sessions = self.folder / "simulated/sessions"
+        logs = sorted(sessions.glob("*.jsonl"))
+        (sessions / "P000.jsonl").write_text(logs[0].read_text())
+        logs[1].write_text("".join(logs[1].read_text().splitlines(True)[:-1]))
+        logs[2].write_text("none\n")
+        logs[3].write_text(re.sub(r'"studySha256":"[^"]*"', '"studySha256":"0"', logs[3].read_text()))
+        logs[4].write_text(re.sub(r'"age":"[^"]*"', '"age":"old"', logs[4].read_text()))
+        found = warned("simulated", "simulated/report")
+        for part in ("is a copy of", "is not finished", logs[2].name, "another version", "'old'"):
+            self.assertTrue(any(part in one for one in found), part)
 
     def test_two_sessions_of_one_person_are_one_threshold(self):
         self.succeeds("study", "new", "felt", "--template", "threshold", "-g", "all:3")

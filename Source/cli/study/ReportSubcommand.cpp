@@ -140,12 +140,13 @@ struct ReportSubcommand : Command
     static Result<StudyReport> ofTable(Console& console, const fs::path& path, const study::RatingColumns& names,
                                        const StudyReportParams& params)
     {
-        std::vector<std::string> warnings;
-        const auto ratings = study::readRatings(path, names, &warnings);
+        RatedTable table;
+        auto ratings = study::readRatings(path, names, &table.warnings);
         if (!ratings)
             return ratings.error();
-        console.warnings(path.string(), warnings);
-        return reportOfRatings(*ratings, path.stem().string(), params);
+        console.warnings(path.string(), table.warnings);
+        table.ratings = std::move(*ratings);
+        return reportOfRatings(table, path.stem().string(), params);
     }
 
     [[nodiscard]] Result<StudyReport> ofStudy(Console& console, const fs::path& path,
@@ -166,6 +167,8 @@ struct ReportSubcommand : Command
                                        : fmt::format("'{}' is no class of the stimuli; there are {}", only,
                                                      fmt::join(known, ", "))};
         }
+        if (!only.empty())
+            results->warnings.push_back(fmt::format("only stimuli of the class {} are reported", only));
         return reportOfStudy(*results, params);
     }
 

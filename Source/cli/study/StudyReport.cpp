@@ -770,11 +770,25 @@ Result<void> writeMap(ReportWriter& writer, Json& json, const std::vector<PairRa
     writer.table(std::move(table));
     return {};
 }
+
+/// All that does not count, and what was taken for granted: what was said when the answers were read, then the doubts
+/// about the sample. Nothing is said, too.
+void writeLeftOut(ReportWriter& writer, StudyReport& report, const std::vector<std::string>& said)
+{
+    std::vector<std::string> all = said;
+    all.insert(all.end(), report.warnings.begin(), report.warnings.end());
+    writer.heading(2, "What was left out or assumed");
+    for (const std::string& one : all)
+        writer.paragraph(one + ".");
+    if (all.empty())
+        writer.paragraph("Nothing.");
+    report.json["leftOut"] = std::move(all);
+}
 } // namespace
 
-Result<StudyReport> reportOfRatings(const std::vector<Rating>& ratings, const std::string& title,
-                                    const StudyReportParams& params)
+Result<StudyReport> reportOfRatings(const RatedTable& rated, const std::string& title, const StudyReportParams& params)
 {
+    const std::vector<Rating>& ratings = rated.ratings;
     StudyReport report;
     report.page.title = title;
     ReportWriter writer(report);
@@ -785,6 +799,10 @@ Result<StudyReport> reportOfRatings(const std::vector<Rating>& ratings, const st
                                         AnswerKind::ratings, params);
             !written)
             return written.error();
+    std::vector<std::string> said;
+    for (const std::string& one : rated.warnings)
+        said.push_back(title + ": " + one);
+    writeLeftOut(writer, report, said);
     return report;
 }
 
@@ -849,6 +867,11 @@ Result<StudyReport> reportOfStudy(const StudyResults& results, const StudyReport
         return written.error();
     if (auto written = writeMap(writer, report.json["maps"], results.together, "Sorting"); !written)
         return written.error();
+    std::vector<std::string> said = results.warnings;
+    if (results.dropouts > 0)
+        said.push_back(fmt::format("{} where sound or touch dropped out {} left out and repeated",
+                                   counted(results.dropouts, "trial", "trials"), results.dropouts == 1 ? "is" : "are"));
+    writeLeftOut(writer, report, said);
     return report;
 }
 

@@ -24,16 +24,22 @@ struct StudyReportParams
     bool pairStimuli = true;                              ///< as in RatingAnalysisParams
 };
 
-/// Results from ratings alone, as exported by other programs.
+/// Ratings of another program's table, and what was said when they were read.
+struct RatedTable
+{
+    std::vector<study::Rating> ratings;
+    std::vector<std::string> warnings;
+};
+
 struct StudyReport
 {
     Page page;
     nlohmann::ordered_json json;
-    std::vector<std::string> warnings; ///< about the sample of people
+    std::vector<std::string> warnings; ///< about the sample of people; those of reading are not among them
 };
 
 /// Errors: those of drawing pictures and of fitMixedModel().
-[[nodiscard]] Result<StudyReport> reportOfRatings(const std::vector<study::Rating>& ratings, const std::string& title,
+[[nodiscard]] Result<StudyReport> reportOfRatings(const RatedTable& table, const std::string& title,
                                                   const StudyReportParams& params);
 
 /// Of everything in a study's folder.
