@@ -210,7 +210,7 @@ bool isTooLong(const std::vector<std::string>& fields, std::size_t columns)
 } // namespace
 
 Result<std::vector<Rating>> ratingsOfCsv(std::string_view bytes, const RatingColumns& columns,
-                                         std::vector<std::string>* warnings)
+                                         std::vector<std::string>* warnings, bool* isWebMushra)
 {
     const auto unmarked = utf8Text(bytes);
     if (!unmarked)
@@ -229,6 +229,9 @@ Result<std::vector<Rating>> ratingsOfCsv(std::string_view bytes, const RatingCol
     const auto places = placesIn(heading, columns);
     if (!places)
         return places.error();
+    constexpr std::size_t stimulusRole = 3;
+    if (isWebMushra != nullptr)
+        *isWebMushra = inSmallLetters(heading[*(*places)[stimulusRole]]) == "rating_stimulus";
     std::vector<Rating> ratings;
     std::size_t missing = 0;
     std::string firstMissing;
@@ -271,12 +274,12 @@ Result<std::vector<Rating>> ratingsOfCsv(std::string_view bytes, const RatingCol
 }
 
 Result<std::vector<Rating>> readRatings(const std::filesystem::path& path, const RatingColumns& columns,
-                                        std::vector<std::string>* warnings)
+                                        std::vector<std::string>* warnings, bool* isWebMushra)
 {
     const auto text = readWholeFile(path, largestTable);
     if (!text)
         return text.error();
-    return ratingsOfCsv(*text, columns, warnings);
+    return ratingsOfCsv(*text, columns, warnings, isWebMushra);
 }
 
 std::string ratingsCsv(const std::vector<Rating>& ratings)

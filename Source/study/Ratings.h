@@ -36,16 +36,19 @@ struct RatingColumns
 /// block; or those of webMUSHRA (session_uuid, trial_id, rating_stimulus, rating_score), of jsPsych (stimulus,
 /// response) and the like. Fields are apart by tabs, semicolons or commas, as the first line has them; texts may stand
 /// in quotes (RFC 4180), and numbers may have a decimal comma. What is not UTF-8 is Latin-1, which `warnings` says.
-/// Lines without a rating (empty, NA, NaN, null) are left out and counted in `warnings`. Errors (invalidData) at a line
+/// Lines without a rating (empty, NA, NaN, null) are left out and counted in `warnings`. `isWebMushra` becomes whether
+/// the stimuli are in a column of webMUSHRA. Errors (invalidData) at a line
 /// such as `line 3`: UTF-16, a column that is missing or of which there are several, a line that is too long, a rating
 /// that is no finite number, no rating at all.
 [[nodiscard]] Result<std::vector<Rating>> ratingsOfCsv(std::string_view bytes, const RatingColumns& columns = {},
-                                                       std::vector<std::string>* warnings = nullptr);
+                                                       std::vector<std::string>* warnings = nullptr,
+                                                       bool* isWebMushra = nullptr);
 
 /// The same of a file. Errors also as in readWholeFile.
 [[nodiscard]] Result<std::vector<Rating>> readRatings(const std::filesystem::path& path,
                                                       const RatingColumns& columns = {},
-                                                      std::vector<std::string>* warnings = nullptr);
+                                                      std::vector<std::string>* warnings = nullptr,
+                                                      bool* isWebMushra = nullptr);
 
 /// The table of `ratings` as ratingsOfCsv() reads it.
 [[nodiscard]] std::string ratingsCsv(const std::vector<Rating>& ratings);

@@ -3,6 +3,7 @@
 // Results of a study: the answers of all sessions in its folder, by kind.
 
 #include "study/Ratings.h"
+#include "study/Screening.h"
 #include "study/SessionLog.h"
 #include "study/Study.h"
 #include "study/Words.h"
@@ -10,6 +11,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -86,6 +88,7 @@ struct StudyResults
     std::vector<PlaceAnswer> places;
     std::vector<EventAnswer> events; ///< of count and which
     std::size_t dropouts = 0;        ///< trials that were repeated
+    std::optional<Screening> screening; ///< of listeners, if that was done; whom it leaves out is not in `ratings`
 };
 
 /// The name of a study's file in its folder.

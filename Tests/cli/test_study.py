@@ -356,6 +356,65 @@ class People(StudyTest):
         for part in ("is a copy of", "is not finished", logs[2].name, "another version", "'old'"):
             self.assertTrue(any(part in one for one in found), part)
 
+    def test_who_does_not_hear_the_hidden_reference_is_left_out(self):
+        # Twenty trials of each: 3 below 90 are 15 %, which is not more; 4 are 20 %.
+        heading = "session_test_id,session_uuid,trial_id,rating_stimulus,rating_score"
+        def rows(below):
+            return [f"t,{name},page{page},{stimulus},{score}" for name, misses in below.items() for page in range(20)
+                    for stimulus, score in (("reference", 89 if page < misses else 90), ("C1", 50 + 3 * page % 7),
+                                            ("anchor35", 10 + page % 3))]
+        self.put("mushra.csv", "\n".join([heading, *rows({"ann": 0, "bob": 3, "cid": 4, "dot": 20})]))
+        found = json.loads(self.warns("study", "report", "mushra.csv", "--json",
+                                      says="2 of 4 listeners rated the hidden reference below 90 in more than 15 %"))
+        screening = found["screening"]
+        self.assertEqual((screening["hiddenReferences"], screening["leftOut"]), (["reference"], 2))
+        self.assertEqual([(one["participant"], one["trials"], one["below90"]) for one in screening["failed"]],
+                         [("cid", 20, 4), ("dot", 20, 20)])
+        self.assertEqual([one["share"] for one in screening["listeners"]], [0, 0.15, 0.2, 1])
+        self.assertTrue(all(one["everybody"]["participants"] == 2 for one in found["ratings"].values()))
+        self.assertIn("cid (4 of 20 trials), dot (20 of 20 trials)", " ".join(found["leftOut"]))
+        for page in ("report.md", "report.html"):
+            text = (self.folder / "mushra.report" / page).read_text()
+            self.assertIn("Of 4 listeners 2 rated it below 90 in more than 15 % of the trials and are left out", text)
+            self.assertIn("cid (4 of 20 trials)", text)
+        kept = self.report("study", "report", "mushra.csv", "--keep-everybody")
+        self.assertEqual((kept["screening"]["leftOut"], len(kept["screening"]["failed"])), (0, 2))
+        self.assertTrue(all(one["everybody"]["participants"] == 4 for one in kept["ratings"].values()))
+        # Other tables say which stimulus it is; without that nobody is screened.
+        self.put("plain.csv", "\n".join(["a,participant,block,stimulus,rating", *rows({"ann": 0, "bob": 20})]))
+        self.assertNotIn("screening", self.report("study", "report", "plain.csv"))
+        self.warns("study", "report", "plain.csv", "--reference", "reference", says="1 of 2 listeners")
+        self.fails(1, ["study", "report", "plain.csv", "--reference", "Reference"],
+                   "--reference: 'Reference' is no stimulus of the table; there are C1, anchor35, reference")
+        self.put("ten.csv", "stimulus,participant,rating\nr,1,90\ns,1,101\n")
+        self.fails(1, ["study", "report", "ten.csv", "--reference", "r"], "needs ratings from 0 to 100")
+        # Nobody would remain.
+        self.put("none.csv", "\n".join([heading, *rows({"ann": 9, "bob": 9})]))
+        found = json.loads(self.warns("study", "report", "none.csv", "--json", says="as nobody would remain, all count"))
+        self.assertTrue(all(one["everybody"]["participants"] == 2 for one in found["ratings"].values()))
+
+    def test_listeners_of_a_study_are_screened_by_the_reference_of_each_page(self):
+        made = self.new("mushra", "-g", "all:5")
+        for block in made["blocks"]:
+            block["scale"].update(low=10, high=20, step=0)
+        self.put("mine/study.json", json.dumps(made))
+        self.succeeds("study", "simulate", "mine", "-o", "simulated", "--runs", "10")
+        whole = self.report("study", "report", "simulated")
+        self.assertEqual((whole["screening"]["hiddenReferences"], whole["screening"]["leftOut"]), (["a", "b", "c"], 0))
+        log = self.folder / "simulated/sessions/P003.jsonl"
+        lines = []
+        for line in log.read_text().splitlines():
+            record = json.loads(line)
+            if record.get("task") == "multiStimulus" and record["block"] == "b":
+                record["values"][record["stimuli"].index("b")] = 18.9
+            lines.append(json.dumps(record))
+        log.write_text("\n".join(lines) + "\n")
+        found = json.loads(self.warns("study", "report", "simulated", "--json", "-y", says="1 of 5 listeners"))
+        [failed] = found["screening"]["failed"]
+        self.assertEqual((failed["participant"], failed["trials"], failed["below90"]), ("P003", 3, 1))
+        self.assertEqual({one["everybody"]["participants"] for one in found["ratings"].values()}, {4})
+        self.fails(1, ["study", "report", "simulated", "--reference", "a"], "name theirs in study.json")
+
     def test_two_sessions_of_one_person_are_one_threshold(self):
         self.succeeds("study", "new", "felt", "--template", "threshold", "-g", "all:3")
         self.succeeds("study", "simulate", "felt", "-o", "simulated", "--runs", "10")

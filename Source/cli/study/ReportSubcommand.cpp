@@ -1,4 +1,5 @@
 #include "cli/Command.h"
+#include "cli/Counted.h"
 #include "cli/Options.h"
 #include "cli/Overwrite.h"
 #include "cli/study/StudyReport.h"
@@ -7,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <set>
@@ -50,6 +52,14 @@ struct ReportSubcommand : Command
             "--unpaired", unpaired,
             "Compare groups by a mean for each stimulus as independent samples, also where both rated the "
             "same stimuli (as Weber 2020 does)");
+        addOption(*command, "--reference", references,
+                  "Stimulus of a table that is the hidden reference of a MUSHRA test, by which listeners are screened; "
+                  "repeat for several [of webMUSHRA: reference]",
+                  "STIMULUS")
+            ->allow_extra_args(false);
+        command->add_flag("--keep-everybody", keepsEverybody,
+                          "Also count listeners who rated the hidden reference of a MUSHRA test below 90 in more than "
+                          "15 % of the trials");
         command->add_flag("--mixed", mixed, "Also fit mixed models of the ratings, with Python's statsmodels");
         overwriting.declare(*command);
         return command->footer(
@@ -137,16 +147,42 @@ struct ReportSubcommand : Command
         return std::nullopt;
     }
 
-    static Result<StudyReport> ofTable(Console& console, const fs::path& path, const study::RatingColumns& names,
-                                       const StudyReportParams& params)
+    [[nodiscard]] Result<StudyReport> ofTable(Console& console, const fs::path& path,
+                                              const study::RatingColumns& names, const StudyReportParams& params) const
     {
         RatedTable table;
-        auto ratings = study::readRatings(path, names, &table.warnings);
+        bool isWebMushra = false;
+        auto ratings = study::readRatings(path, names, &table.warnings, &isWebMushra);
         if (!ratings)
             return ratings.error();
         console.warnings(path.string(), table.warnings);
         table.ratings = std::move(*ratings);
+        std::vector<std::string> hidden = references;
+        constexpr const char* usual = "reference"; // as webMUSHRA calls it
+        if (hidden.empty() && isWebMushra &&
+            std::any_of(table.ratings.begin(), table.ratings.end(),
+                        [](const study::Rating& one) { return one.stimulus == usual; }))
+            hidden.emplace_back(usual);
+        auto screening = study::screenListeners(table.ratings, hidden, keepsEverybody);
+        if (!screening)
+            return screening.error();
+        table.screening = std::move(*screening);
+        warnOf(console, path, table.screening);
         return reportOfRatings(table, path.stem().string(), params);
+    }
+
+    /// That somebody is left out must not be found in the report alone.
+    static void warnOf(Console& console, const fs::path& path, const std::optional<study::Screening>& screening)
+    {
+        if (!screening || screening->failed.empty() || (screening->kept && !screening->nobodyPassed))
+            return;
+        console.warning(path.string(),
+                        fmt::format("{} of {} rated the hidden reference below 90 in more than 15 % of the trials{}",
+                                    screening->failed.size(),
+                                    counted(screening->everyone.size(), "listener", "listeners"),
+                                    screening->nobodyPassed
+                                        ? "; as nobody would remain, all count"
+                                        : " and are left out; --keep-everybody counts them, too"));
     }
 
     [[nodiscard]] Result<StudyReport> ofStudy(Console& console, const fs::path& path,
@@ -156,6 +192,11 @@ struct ReportSubcommand : Command
         if (!results)
             return results.error();
         console.warnings(path.string(), results->warnings);
+        if (!references.empty())
+            return Error{ErrorCode::invalidArgument, "--reference",
+                         "is for tables of ratings; the blocks of a study name theirs in study.json"};
+        results->screening = study::screenListeners(results->ratings, results->study, keepsEverybody);
+        warnOf(console, path, results->screening);
         if (!only.empty() && !study::keepClass(*results, only))
         {
             std::set<std::string> known;
@@ -205,8 +246,8 @@ struct ReportSubcommand : Command
     }
 
     std::string named, output, only;
-    std::vector<std::string> combined, columns, categories;
-    bool mixed = false, unpaired = false;
+    std::vector<std::string> combined, columns, categories, references;
+    bool mixed = false, unpaired = false, keepsEverybody = false;
     OverwriteOptions overwriting;
 };
 } // namespace

@@ -771,6 +771,61 @@ Result<void> writeMap(ReportWriter& writer, Json& json, const std::vector<PairRa
     return {};
 }
 
+/// Who rated the hidden reference too low, and whether that leaves them out.
+void writeScreening(ReportWriter& writer, Json& json, std::vector<std::string>& said,
+                    const std::optional<Screening>& screening)
+{
+    if (!screening)
+        return;
+    const auto row = [](const ScreenedListener& one)
+    {
+        return Json{{"group", one.group},
+                    {"participant", one.participant},
+                    {"trials", one.trials},
+                    {"below90", one.below},
+                    {"share", one.share()}};
+    };
+    json = {{"rule", "ITU-R BS.1534-3"},
+            {"hiddenReferences", screening->references},
+            {"listeners", Json::array()},
+            {"failed", Json::array()},
+            {"leftOut", screening->kept ? std::size_t(0) : screening->failed.size()}};
+    for (const ScreenedListener& one : screening->everyone)
+        json["listeners"].push_back(row(one));
+    PageTable table{"Listeners who rated the hidden reference below 90 in more than 15 % of the trials",
+                    {"Listener", "Group", "Trials", "Below 90", "%"},
+                    {}};
+    std::vector<std::string> names;
+    for (const ScreenedListener& one : screening->failed)
+    {
+        json["failed"].push_back(row(one));
+        table.rows.push_back({one.participant, groupTitle(one.group), fmt::to_string(one.trials),
+                              fmt::to_string(one.below), decimalText(100.0 * one.share(), 0)});
+        const std::string name =
+            one.group.empty() ? one.participant : fmt::format("{} of {}", one.participant, one.group);
+        names.push_back(fmt::format("{} ({} of {} trials)", name, one.below, one.trials));
+    }
+    writer.heading(2, "Screening of listeners");
+    std::string text = fmt::format("Hidden reference: {}. Of {} {} rated it below 90 in more than 15 % of the trials",
+                                   fmt::join(screening->references, ", "),
+                                   counted(screening->everyone.size(), "listener", "listeners"), names.size());
+    if (screening->nobodyPassed)
+        text += ". As nobody would remain, all count: is the hidden reference the right one?";
+    else if (names.empty())
+        text += ": all count.";
+    else
+        text += screening->kept ? "; they count, as was requested." : " and are left out (ITU-R BS.1534-3).";
+    writer.paragraph(text);
+    writer.table(std::move(table));
+    if (!names.empty())
+        said.push_back(fmt::format(
+            "By the hidden reference {} fail of {} (ITU-R BS.1534-3) and {}: {}", names.size(),
+            counted(screening->everyone.size(), "listener", "listeners"),
+            !screening->kept ? "are left out" : screening->nobodyPassed ? "count, as nobody would remain"
+                                                                        : "count, as was requested",
+            fmt::join(names, ", ")));
+}
+
 /// All that does not count, and what was taken for granted: what was said when the answers were read, then the doubts
 /// about the sample. Nothing is said, too.
 void writeLeftOut(ReportWriter& writer, StudyReport& report, const std::vector<std::string>& said)
@@ -794,14 +849,16 @@ Result<StudyReport> reportOfRatings(const RatedTable& rated, const std::string& 
     ReportWriter writer(report);
     writer.heading(1, title);
     writer.paragraph(counted(ratings.size(), "rating.", "ratings."));
+    std::vector<std::string> said;
+    for (const std::string& one : rated.warnings)
+        said.push_back(title + ": " + one);
+    if (rated.screening)
+        writeScreening(writer, report.json["screening"], said, rated.screening);
     for (const auto& [block, ofBlock] : byBlock(ratings))
         if (auto written = writeRatings(writer, report.json["ratings"], ofBlock, block.empty() ? "Ratings" : block,
                                         AnswerKind::ratings, params);
             !written)
             return written.error();
-    std::vector<std::string> said;
-    for (const std::string& one : rated.warnings)
-        said.push_back(title + ": " + one);
     writeLeftOut(writer, report, said);
     return report;
 }
@@ -839,6 +896,12 @@ Result<StudyReport> reportOfStudy(const StudyResults& results, const StudyReport
                                      decimalText(largest, 3), decimalText(results.study.limits.daily, 2),
                                      study::standardOf(results.study.limits.part)));
     report.json["dropouts"] = results.dropouts;
+    std::vector<std::string> said = results.warnings;
+    if (results.dropouts > 0)
+        said.push_back(fmt::format("{} where sound or touch dropped out {} left out and repeated",
+                                   counted(results.dropouts, "trial", "trials"), results.dropouts == 1 ? "is" : "are"));
+    if (results.screening)
+        writeScreening(writer, report.json["screening"], said, results.screening);
     writeQuestionnaires(writer, report.json, results);
     for (const auto& [title, ratings] : questionsOf(results))
     {
@@ -867,10 +930,6 @@ Result<StudyReport> reportOfStudy(const StudyResults& results, const StudyReport
         return written.error();
     if (auto written = writeMap(writer, report.json["maps"], results.together, "Sorting"); !written)
         return written.error();
-    std::vector<std::string> said = results.warnings;
-    if (results.dropouts > 0)
-        said.push_back(fmt::format("{} where sound or touch dropped out {} left out and repeated",
-                                   counted(results.dropouts, "trial", "trials"), results.dropouts == 1 ? "is" : "are"));
     writeLeftOut(writer, report, said);
     return report;
 }

@@ -29,6 +29,7 @@ struct RatedTable
 {
     std::vector<study::Rating> ratings;
     std::vector<std::string> warnings;
+    std::optional<study::Screening> screening; ///< as in StudyResults
 };
 
 struct StudyReport
