@@ -205,17 +205,89 @@ Result<void> simulateSession(const Study& study, Session& session, const Observe
     return {};
 }
 
+namespace
+{
+/// Ratings of one stimulus each that a member of the group gives.
+std::size_t ratingsBy(const Study& study, const Group& group)
+{
+    std::size_t count = 0;
+    for (const Block& block : study.blocks)
+        if (block.task == Task::rating && isFor(block, group.name))
+            count += stimuliOf(study, block).size() * static_cast<std::size_t>(block.repeats);
+    return count;
+}
+
+/// Variance of a participant's mean of so many ratings: of the leaning and of the noise.
+double meanVariance(const ObserverParams& params, std::size_t count)
+{
+    return params.biasSd * params.biasSd + params.noiseSd * params.noiseSd / static_cast<double>(count);
+}
+
+/// Two-sided power at 5 %.
+double powerAtFivePercent(double degrees, double noncentrality)
+{
+    return powerOfT(quantileT(0.975, degrees), degrees, noncentrality);
+}
+
+/// The effects of a comparison whose standardised effect of 1 is `sd` points, and shifts t by `shift`.
+std::vector<EffectPower> effectsOf(double sd, double degrees, double shift, const std::optional<double>& points)
+{
+    std::vector<EffectPower> effects;
+    const auto add = [&](double effect)
+    {
+        effects.push_back({effect, effect * sd, powerAtFivePercent(degrees, effect * shift)});
+    };
+    if (points)
+    {
+        if (sd > 0.0)
+            add(*points / sd);
+    }
+    else
+        for (const double effect : tabulatedEffects)
+            add(effect);
+    return effects;
+}
+} // namespace
+
+std::vector<DesignPower> powerOfDesign(const Study& study, const ObserverParams& params, std::optional<double> points)
+{
+    std::vector<DesignPower> designs;
+    for (std::size_t g = 0; g + 1 < study.groups.size(); ++g)
+    {
+        const Group &first = study.groups[g], &last = study.groups.back();
+        const std::size_t ofFirst = ratingsBy(study, first), ofLast = ratingsBy(study, last);
+        if (ofFirst == 0 || ofLast == 0 || first.size < 2 || last.size < 2)
+            continue;
+        DesignPower one{first.name, last.name, "", first.size, last.size, ofFirst, {}};
+        const auto n1 = static_cast<double>(first.size), n2 = static_cast<double>(last.size);
+        const double v1 = meanVariance(params, ofFirst), v2 = meanVariance(params, ofLast);
+        const double sd = std::sqrt(((n1 - 1.0) * v1 + (n2 - 1.0) * v2) / (n1 + n2 - 2.0));
+        one.effects = effectsOf(sd, n1 + n2 - 2.0, sd > 0.0 ? sd / std::sqrt(v1 / n1 + v2 / n2) : 0.0, points);
+        designs.push_back(std::move(one));
+    }
+    for (const Block& block : study.blocks)
+    {
+        const bool isPage = block.task == Task::multiStimulus;
+        if (block.task != Task::rating && !isPage)
+            continue;
+        int people = 0;
+        for (const Group& group : study.groups)
+            people += isFor(block, group.name) ? group.size : 0;
+        if (people < 2 || stimuliOf(study, block).size() + (isPage ? block.anchors.size() + 1 : 0) < 2)
+            continue;
+        const auto trials = static_cast<std::size_t>(block.repeats);
+        DesignPower one{"", "", block.name, people, people, trials, {}};
+        // The leaning of a person is in both ratings and goes.
+        const double sd = params.noiseSd * std::sqrt(2.0 / static_cast<double>(trials));
+        one.effects = effectsOf(sd, people - 1.0, std::sqrt(static_cast<double>(people)), points);
+        designs.push_back(std::move(one));
+    }
+    return designs;
+}
+
 std::vector<PowerEstimate> estimatePower(const Study& study, const ObserverParams& params, std::size_t runs)
 {
     std::vector<PowerEstimate> estimates;
-    const auto ratingsOf = [&](const Group& group)
-    {
-        std::size_t count = 0;
-        for (const Block& block : study.blocks)
-            if (block.task == Task::rating && isFor(block, group.name))
-                count += stimuliOf(study, block).size() * static_cast<std::size_t>(block.repeats);
-        return count;
-    };
     const auto scaleOf = [&](const Group& group)
     {
         for (const Block& block : study.blocks)
@@ -229,7 +301,7 @@ std::vector<PowerEstimate> estimatePower(const Study& study, const ObserverParam
     for (std::size_t g = 0; g + 1 < study.groups.size(); ++g)
     {
         const Group& other = study.groups[g];
-        const std::size_t ofOther = ratingsOf(other), ofLast = ratingsOf(last);
+        const std::size_t ofOther = ratingsBy(study, other), ofLast = ratingsBy(study, last);
         if (ofOther == 0 || ofLast == 0 || other.size < 2 || last.size < 2)
             continue;
         Random random(params.seed ^ seedOf(study, g, forPower));
@@ -266,15 +338,10 @@ std::vector<PowerEstimate> estimatePower(const Study& study, const ObserverParam
         estimate.byParticipant = static_cast<double>(found) / static_cast<double>(runs);
         estimate.standardError =
             std::sqrt(estimate.byParticipant * (1.0 - estimate.byParticipant) / static_cast<double>(runs));
-        // A participant's mean varies by the leaning and the noise of so many ratings.
-        const auto varianceOf = [&](std::size_t count)
-        {
-            return params.biasSd * params.biasSd + params.noiseSd * params.noiseSd / static_cast<double>(count);
-        };
         const auto n1 = static_cast<double>(other.size), n2 = static_cast<double>(last.size);
-        const double error = std::sqrt(varianceOf(ofOther) / n1 + varianceOf(ofLast) / n2);
+        const double error = std::sqrt(meanVariance(params, ofOther) / n1 + meanVariance(params, ofLast) / n2);
         const double degrees = n1 + n2 - 2.0;
-        estimate.analytic = error > 0.0 ? powerOfT(quantileT(0.975, degrees), degrees, params.effect / error) : 1.0;
+        estimate.analytic = error > 0.0 ? powerAtFivePercent(degrees, params.effect / error) : 1.0;
         estimates.push_back(std::move(estimate));
     }
     return estimates;

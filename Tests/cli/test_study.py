@@ -528,6 +528,26 @@ class Plans(StudyTest):
         [group] = self.report("study", "check", "mine")["groups"]
         self.assertEqual(said, ["eight", "nine", "ten"][round(group["minutes"]) - 8])
 
+    def test_the_check_tells_the_power_of_the_design(self):
+        self.new("coherence", "-g", "A:12", "-g", "C:8")
+        told = self.succeeds("study", "check", "mine")
+        self.assertEqual(told, self.succeeds("study", "check", "mine"))
+        groups, *stimuli = self.report("study", "check", "mine")["power"]
+        self.assertEqual((groups["first"], groups["second"], groups["people"], groups["trials"]), ("A", "C", [12, 8], 3))
+        self.assertEqual([one["d"] for one in groups["effects"]], [0.2, 0.4, 0.6, 0.8, 1, 1.2])
+        self.assertEqual([one["people"] for one in stimuli], [12, 8])
+        for design in (groups, *stimuli):
+            power = [one["power"] for one in design["effects"]]
+            self.assertEqual(power, sorted(power))
+        self.assertIn("Power of A against C (12 and 8 people, 3 ratings each): d 0.2 (", told)
+        self.assertIn('Power of two stimuli of "coherence, at once" (8 people, 1 rating of each): d 0.2 (', told)
+        one = self.report("study", "check", "mine", "--effect", "1")["power"][0]["effects"]
+        predicted = self.report("study", "simulate", "mine", "--effect", "1", "--runs", "10")["power"][0]["analytic"]
+        self.assertEqual([effect["points"] for effect in one], [1])
+        self.assertAlmostEqual(one[0]["power"], predicted, places=12)
+        self.new("threshold", "-y")
+        self.assertEqual(self.report("study", "check", "mine")["power"], [])
+
     def test_half_an_hour_without_a_break_is_told(self):
         made = self.new("abx")
         made["blocks"][0]["repeats"] = 500
