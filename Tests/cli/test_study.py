@@ -246,6 +246,73 @@ class Steps(StudyTest):
         self.assertLess(page.index("| 2 |"), page.index("| 10 |"))
 
 
+class Methods(StudyTest):
+    """The report's section to cite."""
+
+    TESTS = ("Mann-Whitney", "Welch", "Wilcoxon", "Hedges", "Bonferroni", "Holm", "ICC(2,1)", "Kendall", "Friedman", "Korn",
+             "Pearson", "stress-1")
+
+    def methods(self, name, folder, *more):
+        """The methods of a report; each test that its page names is among them, and no other."""
+        said = self.report("study", "report", name, "-y", *more)["methods"]
+        page = (self.folder / folder / "report.md").read_text()
+        results, section = page[:page.index("## What was left out")], page[page.index("## Methods"):]
+        for paragraph in said:
+            self.assertIn(paragraph, section)
+        for test in self.TESTS:
+            self.assertEqual(test in results, test in section, test)
+        cited = (SOURCE / "CITATION.cff").read_text()
+        for key in ("title", "version", "- name", "license"):
+            self.assertIn(re.search(rf'{key}: "?([^"\n]+)', cited)[1], said[-1])
+        return said
+
+    def test_every_template_has_methods_that_name_its_tests(self):
+        for template in ("coherence", "mushra", "abx", "jnd", "threshold", "similarity", "ranking", "place", "events",
+                         "questionnaire"):
+            with self.subTest(template):
+                groups = () if template == "coherence" else ("-g", "all:5")
+                self.succeeds("study", "new", template, "--template", template, "sounds/", *groups, "--ask", "music")\
+                    if template != "questionnaire" else self.succeeds("study", "new", template, "--template", template)
+                self.succeeds("study", "simulate", template, "-o", f"{template}-simulated", "--runs", "10")
+                said = " ".join(self.methods(f"{template}-simulated", f"{template}-simulated/report"))
+                self.assertNotIn("{}", said)
+                for word in ("will be", "are rated", "is rated"):
+                    self.assertNotIn(word, said)
+
+    def test_the_methods_tell_people_tasks_and_trials(self):
+        made = self.new("coherence", "-g", "A:4", "-g", "C:3", "--profile", "l5-wristband")
+        for block in made["blocks"]:
+            if block["name"] == "coherence, at once":
+                block.update(repeats=2, order="latinSquare", replays=1, training=["a"])
+        self.put("mine/study.json", json.dumps(made))
+        self.succeeds("study", "simulate", "mine", "-o", "simulated", "--runs", "10")
+        next((self.folder / "simulated/sessions").glob("P005*")).unlink()
+        people, setting, tasks, tests, _ = self.methods("simulated", "simulated/report")
+        self.assertRegex(people, r"^6 people took part \(\d in group A and \d in group C; assigned at random\); 6 finished\. 7 were planned\.$")
+        self.assertEqual(setting, "There were 3 stimuli, made for the actuator profile l5-wristband. Sessions were run with "
+                                  "Pacini, simulated; orders followed from the seed 1.")
+        self.assertIn('In the part "coherence, at once", group C rated 3 stimuli on a scale from 0 (not at all) to 10 (perfectly), '
+                      "heard and felt at once, in orders balanced for carry-over (Williams 1949): 6 trials for each person, "
+                      "after 1 trial of practice. A presentation could be repeated 1 time.", tasks)
+        self.assertIn("felt alone", tasks)
+        self.assertIn("Groups were compared by a mean for each person", tests)
+        self.assertIn("in pairs of the same stimulus", tests)
+        self.assertIn("as independent samples", " ".join(self.methods("simulated", "simulated/report", "--unpaired")))
+
+    def test_parts_that_are_alike_and_screening_are_told_once(self):
+        rows = [f"{p},page{b},{s},{v}" for p in "abc" for b in "12" for s, v in (("r", 60 if p == "c" else 95), ("s", 40 + ord(p) % 7))]
+        self.put("table.csv", "\n".join(["participant,block,stimulus,rating", *rows]))
+        said = json.loads(self.warns("study", "report", "table.csv", "--reference", "r", "--json", says="1 of 3"))["methods"]
+        self.assertEqual(said[0], "8 ratings of 2 stimuli by 2 people were analysed.")
+        self.assertIn("were left out (ITU-R BS.1534-3): 1 of 3.", said[1])
+        self.new("mushra", "-g", "all:3")
+        self.succeeds("study", "simulate", "mine", "-o", "simulated", "--runs", "10")
+        said = " ".join(self.methods("simulated", "simulated/report"))
+        self.assertIn('In each of the parts "a", "b" and "c", everybody rated 3 stimuli beside each other with a hidden reference '
+                      "and 1 anchor on a scale from 0 (bad) to 100 (excellent) in steps of 1 (MUSHRA)", said)
+        self.assertEqual(said.count("beside each other"), 1)
+
+
 class People(StudyTest):
     """People are the sample."""
 

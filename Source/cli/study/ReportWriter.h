@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -72,6 +73,12 @@ public:
 
     void heading(int level, std::string text) { report.page.parts.emplace_back(PageHeading{level, std::move(text)}); }
     void warning(std::string text) { report.warnings.push_back(std::move(text)); }
+    /// A sentence of the methods: how something in the report was computed. Said once.
+    void method(std::string text)
+    {
+        if (std::find(report.methods.begin(), report.methods.end(), text) == report.methods.end())
+            report.methods.push_back(std::move(text));
+    }
     void paragraph(std::string text) { report.page.parts.emplace_back(PageParagraph{std::move(text)}); }
     void table(PageTable made)
     {

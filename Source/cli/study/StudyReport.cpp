@@ -2,6 +2,7 @@
 
 #include "cli/Console.h"
 #include "cli/Counted.h"
+#include "cli/study/MethodsSection.h"
 #include "cli/study/MixedModel.h"
 #include "cli/study/ReportWriter.h"
 #include "cli/study/StudyFigures.h"
@@ -375,6 +376,9 @@ Result<void> writeMixedModel(ReportWriter& writer, Json& json, const std::vector
                                  decimalText(model->participantVariance, 2), decimalText(model->stimulusVariance, 2),
                                  decimalText(model->residualVariance, 2), model->program,
                                  model->converged ? "" : " It did NOT converge: trust none of it."));
+    writer.method(fmt::format("Mixed models (restricted maximum likelihood, Wald tests) were fitted by {}: groups over "
+                              "people and stimuli, both random and crossed, and stimuli over people.",
+                              model->program));
     return {};
 }
 
@@ -393,6 +397,44 @@ std::string agreementText(const RatingAnalysis& analysis)
                               decimalText(analysis.order.chiSquared, 2), pSaid(analysis.order.p));
 }
 
+/// How the answers of a block were held against each other, as far as they were.
+void tellMethods(ReportWriter& writer, const RatingAnalysis& analysis)
+{
+    const bool places = analysis.kind == AnswerKind::places;
+    const auto any = [&](auto has)
+    {
+        return std::any_of(analysis.comparisons.begin(), analysis.comparisons.end(), has);
+    };
+    writer.method("People were the sample: several answers of one person to one stimulus counted as their mean. Tests "
+                  "were two-sided.");
+    if (!places)
+        writer.method("Intervals of means were Student's, at 95 %.");
+    if (any([](const GroupComparison& one) { return one.byParticipant.has_value(); }))
+        writer.method("Groups were compared by a mean for each person (Student's t-test with pooled variance; also "
+                      "Welch's t-test and the Mann-Whitney test; Hedges' g), with Holm's correction over all "
+                      "comparisons of a question.");
+    if (any([](const GroupComparison& one) { return one.byStimulus && one.stimuliArePaired; }))
+        writer.method("Groups were also compared by a mean for each stimulus, in pairs of the same stimulus (paired "
+                      "t-test).");
+    if (any([](const GroupComparison& one) { return one.byStimulus && !one.stimuliArePaired; }))
+        writer.method("Groups were also compared by a mean for each stimulus as independent samples (Student's t-test "
+                      "with pooled variance).");
+    if (any([](const GroupComparison& one) { return !one.stimuli.empty(); }))
+        writer.method(fmt::format("Groups were compared for each stimulus ({}), with Holm's and Bonferroni's "
+                                  "corrections over all of these tests of a question.",
+                                  places ? "Mann-Whitney test"
+                                         : "Student's t-test with pooled variance; also Welch's t-test, the "
+                                           "Mann-Whitney test and Hedges' g"));
+    if (!analysis.pairs.empty())
+        writer.method(fmt::format("Stimuli were compared in pairs over the people who answered for both ({}), with "
+                                  "Holm's correction over all pairs of a question.",
+                                  places ? "Wilcoxon's signed ranks" : "paired t-test; also Wilcoxon's signed ranks"));
+    if (analysis.everybody.complete.size() > 1 && analysis.stimuli.size() > 1)
+        writer.method(fmt::format("Agreement of the people who answered for every stimulus was measured by {}Kendall's "
+                                  "W, and tested by Friedman's test.",
+                                  places ? "" : "ICC(2,1) and ICC(2,k) (Shrout and Fleiss 1979) and "));
+}
+
 /// All about the answers of one block.
 Result<void> writeRatings(ReportWriter& writer, Json& json, const std::vector<Rating>& ratings,
                           const std::string& title, AnswerKind kind, const StudyReportParams& params)
@@ -400,6 +442,7 @@ Result<void> writeRatings(ReportWriter& writer, Json& json, const std::vector<Ra
     const RatingAnalysis analysis = analyseRatings(ratings, {params.unions, kind, params.pairStimuli});
     writer.heading(2, title);
     writeFindings(writer, analysis);
+    tellMethods(writer, analysis);
     for (const std::string& doubt : analysis.doubts)
         writer.warning(title + ": " + doubt);
     if (auto drawn = writer.picture(fileNameOf(title) + ".svg", "Box plots of " + title,
@@ -507,6 +550,8 @@ void writeCoders(ReportWriter& writer, Json& json, const std::set<std::string>& 
             unlike.rows.push_back({word, first.empty() ? "(none)" : first, second.empty() ? "(none)" : second});
     }
     const CohensKappa found = cohensKappa(codes);
+    writer.method("Agreement of the two coders was measured by Cohen's kappa (1960) with its 95 % interval (Fleiss, Cohen "
+                  "and Everitt 1969).");
     json["coders"]["words"] = codes.size();
     json["coders"]["agreement"] = found.agreement;
     json["coders"]["kappa"] = found.kappa;
@@ -679,6 +724,11 @@ Result<void> writeThresholds(ReportWriter& writer, Json& json, const StudyResult
             !drawn)
             return drawn;
         writer.table(std::move(table));
+        writer.method(block.adaptive.procedure == Procedure::questPlus
+                          ? "A person's threshold was the mean of the posterior of QUEST+ (Watson 2017)."
+                          : "A person's threshold was the mean of all reversals but the first two (Levitt 1971).");
+        writer.method("Thresholds were averaged over people in dB, with Student's interval at 95 %; psychometric "
+                      "functions were fitted to the answers of all.");
         json[block.name] = std::move(ofBlock);
     }
     return {};
@@ -719,6 +769,8 @@ void writeChoices(ReportWriter& writer, Json& json, const StudyResults& results)
     }
     if (table.rows.empty())
         return;
+    writer.method("Shares of right answers had Wilson's (1927) interval for the effective number of answers (Korn and "
+                  "Graubard 1998), at 95 %.");
     writer.heading(2, "Choices");
     writer.table(std::move(table));
 }
@@ -748,6 +800,8 @@ Result<void> writeMap(ReportWriter& writer, Json& json, const std::vector<PairRa
     for (std::size_t i = 0; i < names.size(); ++i)
         for (std::size_t k = 0; k < names.size(); ++k)
             sums[i][k] = counts[i][k] > 0.0 ? sums[i][k] / counts[i][k] : 0.0;
+    writer.method("Maps of similarity were made from mean dissimilarities by multidimensional scaling in two dimensions "
+                  "(SMACOF from classical scaling; Kruskal's stress-1).");
     const Scaling scaling = scaleDissimilarities(sums);
     writer.heading(2, title);
     writer.paragraph(fmt::format(
@@ -860,6 +914,7 @@ Result<StudyReport> reportOfRatings(const RatedTable& rated, const std::string& 
             !written)
             return written.error();
     writeLeftOut(writer, report, said);
+    writeMethods(writer, report, rated);
     return report;
 }
 
@@ -931,6 +986,7 @@ Result<StudyReport> reportOfStudy(const StudyResults& results, const StudyReport
     if (auto written = writeMap(writer, report.json["maps"], results.together, "Sorting"); !written)
         return written.error();
     writeLeftOut(writer, report, said);
+    writeMethods(writer, report, results);
     return report;
 }
 

@@ -37,6 +37,7 @@ struct StudyReport
     Page page;
     nlohmann::ordered_json json;
     std::vector<std::string> warnings; ///< about the sample of people; those of reading are not among them
+    std::vector<std::string> methods;  ///< sentences about the tests that were used, each once
 };
 
 /// Errors: those of drawing pictures and of fitMixedModel().

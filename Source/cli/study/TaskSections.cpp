@@ -269,6 +269,8 @@ void writeCovariates(ReportWriter& writer, nlohmann::ordered_json& json, const S
                                       {"p", found.p},
                                       {"holm", corrected[i]}});
     }
+    writer.method("Numbers in questionnaires were correlated with results over people (Pearson, with Fisher's interval), "
+                  "with Holm's correction over all correlations.");
     writer.heading(2, "Questionnaires and results");
     writer.table(std::move(table));
 }
@@ -349,6 +351,9 @@ void writeLaws(ReportWriter& writer, TaskJson& json, const std::map<PanLaw, std:
                                        {"holm", corrected[i]},
                                        {"wilcoxonP", ranks[i]}});
     }
+    if (!tests.empty())
+        writer.method("Ways of placing were compared by the mean absolute error of each person (paired t-test; also "
+                      "Wilcoxon's signed ranks), with Holm's correction over all pairs of them.");
     writer.table(std::move(compared));
 }
 } // namespace
@@ -585,6 +590,8 @@ void writeEvents(ReportWriter& writer, nlohmann::ordered_json& json, const Study
             continue;
         writer.heading(2, block.name);
         TaskJson& entry = json[block.name];
+        writer.method("Shares of right answers had Wilson's (1927) interval for the effective number of answers (Korn and "
+                      "Graubard 1998), at 95 %.");
         writeByNumber(writer, entry, results, block);
         if (block.task == Task::count)
             writeCounts(writer, entry, results, block);
