@@ -1,0 +1,11 @@
+#include <pacini/foundation/SnakeCase.h>
+
+#include "support/Catch.h"
+
+TEST_CASE("Plain names get snake case, paths in files stay as they are")
+{
+    CHECK(pacini::snakeCase("maxPlays") == "max_plays");
+    CHECK(pacini::snakeCase("fadeIn") == "fade_in");
+    for (const char* same : {"", "gain", "pan_law", "actuators[1].gain", "bands[2].lowFrequency", "budget.perFrame"})
+        CHECK(pacini::snakeCase(same) == same);
+}
