@@ -15,6 +15,7 @@
 #include "library/Handles.h"
 #include "library/RenderEngine.h"
 
+#include <pacini/foundation/SnakeCase.h>
 #include <pacini/runtime/Engine.h>
 
 #include <algorithm>
@@ -124,7 +125,9 @@ pacini_result codeOf(ErrorCode code)
 pacini_result fail(const Error& error, std::string_view what = {})
 {
     std::string text(what);
-    for (const std::string& part : {error.where, error.message})
+    // An argument is called as in pacini.h; what is in a file, as the file has it.
+    const std::string where = error.code == ErrorCode::invalidArgument ? snakeCase(error.where) : error.where;
+    for (const std::string& part : {where, error.message})
         if (!part.empty())
             text += (text.empty() ? "" : ": ") + part;
     return fail(codeOf(error.code), std::move(text));
@@ -780,6 +783,64 @@ extern "C"
                 const auto loaded = read->format == &packedFormat() ? LoadedClip::ofPacked(bytesOf(read->bytes))
                                                                     : LoadedClip::ofClip(read->clip);
                 return loaded ? addClip(*loaded, clip) : fail(loaded.error(), path);
+            });
+    }
+
+    pacini_result pacini_clips_load(const void* const* bytes, const size_t* sizes, size_t count, pacini_clip* clips)
+    {
+        return guarded(
+            [&]
+            {
+                if (count == 0)
+                    return PACINI_OK;
+                if (bytes == nullptr || sizes == nullptr || clips == nullptr)
+                    return fail(PACINI_INVALID, bytes == nullptr   ? "bytes: is NULL"
+                                                : sizes == nullptr ? "sizes: is NULL"
+                                                                   : "clips: is NULL");
+                if (count > mostClips)
+                    return fail(PACINI_TOO_MANY, "count: must be a million at most");
+                const auto at = [](const char* what, std::size_t i)
+                {
+                    return std::string(what) + "[" + std::to_string(i) + "]";
+                };
+                std::vector<std::shared_ptr<const LoadedClip>> loaded;
+                for (std::size_t i = 0; i < count; ++i)
+                {
+                    if (bytes[i] == nullptr || sizes[i] == 0)
+                        return fail(PACINI_INVALID, at("bytes", i) + ": there are none");
+                    auto one = loadClip({static_cast<const char*>(bytes[i]), sizes[i]}, "");
+                    if (!one)
+                        return fail(one.error(), at("bytes", i));
+                    loaded.push_back(std::move(one).value());
+                }
+                std::vector<pacini_clip> added;
+                added.reserve(count);
+                const std::lock_guard lock(all().control);
+                const auto takeBack = [&]
+                {
+                    for (const pacini_clip one : added)
+                        all().clips.remove(one);
+                };
+                try
+                {
+                    for (auto& one : loaded)
+                    {
+                        const pacini_clip handle = all().clips.add(std::move(one));
+                        if (handle == 0)
+                        {
+                            takeBack();
+                            return fail(PACINI_TOO_MANY, "a million clips are loaded: release some");
+                        }
+                        added.push_back(handle);
+                    }
+                }
+                catch (...)
+                {
+                    takeBack();
+                    throw;
+                }
+                std::copy(added.begin(), added.end(), clips);
+                return PACINI_OK;
             });
     }
 

@@ -60,7 +60,7 @@ extern "C"
 
 /* Version of this header. It works with a library of the same major version and at least this minor version. */
 #define PACINI_API_MAJOR 1
-#define PACINI_API_MINOR 3
+#define PACINI_API_MINOR 4
 
     /* Version of the library: major * 1000 + minor. [any thread] */
     PACINI_API uint32_t pacini_api_version(void);
@@ -111,6 +111,12 @@ extern "C"
 
     /* Loads a clip from a file; the path is UTF-8. [any thread but audio] */
     PACINI_API pacini_result pacini_clip_load_file(const char* path, pacini_clip* clip);
+
+    /* Loads `count` clips from memory, each as pacini_clip_load() does: `bytes[i]` has `sizes[i]` bytes, and its handle
+     * becomes `clips[i]`. All or none: when one cannot be loaded, no clip is, `clips` is left as it was, and the message
+     * names the first such one, as in "bytes[3]: is not a clip that Pacini reads". Since 1.4. [any thread but audio] */
+    PACINI_API pacini_result pacini_clips_load(const void* const* bytes, const size_t* sizes, size_t count,
+                                               pacini_clip* clips);
 
     /* Replaces the content of a clip. Active plays of the clip fade over to the new content. [any thread but
      * audio] */

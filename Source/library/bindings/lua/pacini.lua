@@ -38,6 +38,7 @@ pacini_result pacini_texture_load(const void* bytes, size_t size, pacini_texture
 pacini_result pacini_texture_load_file(const char* path, pacini_texture* texture);
 pacini_result pacini_texture_release(pacini_texture texture);
 pacini_result pacini_clip_load(const void* bytes, size_t size, pacini_clip* clip);
+pacini_result pacini_clips_load(const void* const* bytes, const size_t* sizes, size_t count, pacini_clip* clips);
 pacini_result pacini_clip_load_file(const char* path, pacini_clip* clip);
 pacini_result pacini_clip_reload(pacini_clip clip, const void* bytes, size_t size);
 void pacini_clip_info_init(pacini_clip_info* info);
@@ -178,7 +179,7 @@ end
 
 local library = loadLibrary()
 local version = library.pacini_api_version()
-if version < 1003 or version >= 2000 then
+if version < 1004 or version >= 2000 then
     error("pacini: libpacini has the interface " .. version / 1000 .. ", this file is for 1.3 or a newer 1.x", 0)
 end
 
@@ -205,7 +206,11 @@ local function check(result)
     local size = library.pacini_last_error(nil, 0)
     local text = ffi.new("char[?]", size)
     library.pacini_last_error(text, size)
-    error("pacini: " .. (size > 1 and ffi.string(text) or ffi.string(library.pacini_result_text(result))), 3)
+    -- What C calls max_plays is maxPlays here.
+    local said = ffi.string(text):gsub("^%l+_[%l_]+:", function(name)
+        return (name:gsub("_(%l)", string.upper))
+    end)
+    error("pacini: " .. (size > 1 and said or ffi.string(library.pacini_result_text(result))), 3)
 end
 
 local function fill(struct, fields, given, what)
@@ -250,6 +255,23 @@ function pacini.clipFromBytes(bytes)
     local out = ffi.new "pacini_clip[1]"
     check(library.pacini_clip_load(bytes, #bytes, out))
     return ownedClip(out)
+end
+
+--- Clips of the bytes of several such files, strings: all, or an error about the first that is none.
+function pacini.clipsFromBytes(all)
+    local bytes, sizes = ffi.new("const void*[?]", #all), ffi.new("size_t[?]", #all)
+    for i, one in ipairs(all) do
+        bytes[i - 1] = ffi.cast("const char*", one)
+        sizes[i - 1] = #one
+    end
+    local out, clips = ffi.new("pacini_clip[?]", #all), {}
+    check(library.pacini_clips_load(bytes, sizes, #all, out))
+    for i = 1, #all do
+        local one = ffi.new "pacini_clip[1]"
+        one[0] = out[i - 1]
+        clips[i] = ownedClip(one)
+    end
+    return clips
 end
 
 --- The same from a file: of the game in LÖVE, or of the system.

@@ -24,7 +24,7 @@ function loadLibrary() {
 
 const library = loadLibrary();
 const apiVersion = library.func('uint32_t pacini_api_version()');
-if (apiVersion() < 1003 || apiVersion() >= 2000) {
+if (apiVersion() < 1004 || apiVersion() >= 2000) {
   throw new Error(`libpacini has the interface ${apiVersion() / 1000}, this module is for 1.2 or a newer 1.x`);
 }
 
@@ -152,7 +152,10 @@ function check(result) {
   if (result === 0) return;
   const text = new Uint8Array(c.lastError(null, 0));
   c.lastError(text, text.length);
-  throw new PaciniError(codes[result], new TextDecoder().decode(text.subarray(0, -1)) || c.resultText(result));
+  // What C calls max_plays is maxPlays here.
+  const said = new TextDecoder().decode(text.subarray(0, -1))
+    .replace(/^[a-z]+(_[a-z]+)+(?=:)/, (name) => name.replace(/_([a-z])/g, (_, letter) => letter.toUpperCase()));
+  throw new PaciniError(codes[result], said || c.resultText(result));
 }
 
 function filled(init) {
@@ -232,6 +235,18 @@ export class Clip {
     const out = [0n];
     check(c.clipLoad(bytes, bytes.length, out));
     return new Clip(out[0]);
+  }
+
+  /** Clips of several such files' bytes, Uint8Arrays: all, or none and an error about the first that is none. */
+  static allFromBytes(all) {
+    const clips = [];
+    try {
+      for (const bytes of all) clips.push(Clip.fromBytes(bytes));
+    } catch (error) {
+      for (const clip of clips) clip.release();
+      throw new PaciniError(error.code, `bytes[${clips.length}]: ${error.message}`);
+    }
+    return clips;
   }
 
   get handle() { return this.#handle; }

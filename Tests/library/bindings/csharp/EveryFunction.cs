@@ -70,6 +70,10 @@ static class EveryFunction
         Check(Library.Version >= 1000, "version");
         byte[] hum = Encoding.UTF8.GetBytes(Hum);
         var clip = Clip.FromBytes(hum);
+        Clip[] two = Clip.AllFromBytes(hum, hum);
+        Check(two.Length == 2 && two[1].Name == "hüm", "several clips");
+        Throws(Result.BadData, "bytes[1]: ", () => Clip.AllFromBytes(hum, new byte[] { 1, 2 }));
+        Throws(Result.Invalid, "MaxPlays: must be", () => new Engine(new EngineConfig { MaxPlays = 1000000 }));
         Check(clip.Name == "hüm" && clip.Duration == 1.0 && clip.Events == 0 && clip.Bytes > 20, "info of the clip");
         var config = new EngineConfig { SampleRate = 8000, MaxPlays = 8 };
         Check(config.Protect && config.PanLaw == PanLaw.Power && config.BudgetFrames == 512, "defaults");

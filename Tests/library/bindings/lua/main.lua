@@ -35,6 +35,11 @@ local function everyFunction()
     local clip = pacini.clipFromBytes(hum)
     equal(clip:info().name, "hum")
     equal(clip:info().duration, 1)
+    local two = pacini.clipsFromBytes{hum, hum}
+    equal(#two, 2)
+    equal(two[2]:info().name, "hum")
+    fails("bytes[1]: ", pacini.clipsFromBytes, {hum, "none"})
+    fails("maxPlays: must be", pacini.engine, {maxPlays = 1000000})
     local engine = pacini.engine{sampleRate = 8000, actuators = {{}, {gain = 0.5}}, panLaw = "power", maxPlays = 8,
         protect = true}
     local play = engine:play(clip, {loop = -1, pan = 0, frame = 1000})

@@ -28,6 +28,9 @@ test('a clip plays and is changed; what is stale throws', () => {
   assert.equal(clip.info.name, 'hüm');
   assert.equal(clip.info.duration, 1);
   assert.ok(clip.info.bytes > 20);
+  assert.deepEqual(Clip.allFromBytes([bytes(hum), bytes(hum)]).map((one) => one.info.name), ['hüm', 'hüm']);
+  fails('bad data', 'bytes[1]: ', () => Clip.allFromBytes([bytes(hum), bytes('none')]));
+  fails('invalid', 'maxPlays: must be', () => new Engine({ maxPlays: 1e6 }));
   const engine = new Engine({ sampleRate: 8000, actuators: [{}, { gain: 0.5 }], maxPlays: 8, panLaw: 'power', protect: true });
   const play = engine.play(clip, { loop: -1, pan: 0, frame: 1000 });
   assert.equal(play.info.state, 'waiting');
@@ -78,7 +81,7 @@ test('a clip plays and is changed; what is stale throws', () => {
   fails('invalid', "a play has no 'lop'", () => engine.play(clip, { lop: 1 }));
   fails('invalid', 'loop', () => engine.play(clip, { loop: 5 }));
   fails('invalid', "'lra-176' is no profile", () => new Engine({ actuators: [{ profile: 'lra-176' }] }));
-  fails('invalid', 'actuator_count', () => new Engine({ actuators: new Array(17).fill({}) }));
+  fails('invalid', 'actuatorCount', () => new Engine({ actuators: new Array(17).fill({}) }));
   fails('io', 'dört/none', () => Clip.load('dört/none'));
   fails('bad data', 'is not a clip', () => Clip.fromBytes(bytes('nonsense')));
   clip.release();

@@ -120,6 +120,7 @@ namespace Pacini
         [DllImport(Library, CallingConvention = C)] private static extern UIntPtr pacini_last_error([Out] byte[] text, UIntPtr size);
 
         [DllImport(Library, CallingConvention = C)] internal static extern int pacini_clip_load(byte[] bytes, UIntPtr size, out ulong clip);
+        [DllImport(Library, CallingConvention = C)] internal static extern int pacini_clips_load(IntPtr[] bytes, UIntPtr[] sizes, UIntPtr count, [Out] ulong[] clips);
         [DllImport(Library, CallingConvention = C)] internal static extern int pacini_clip_load_file(byte[] path, out ulong clip);
         [DllImport(Library, CallingConvention = C)] internal static extern int pacini_texture_load(byte[] bytes, UIntPtr size, out ulong texture);
         [DllImport(Library, CallingConvention = C)] internal static extern int pacini_texture_load_file(byte[] path, out ulong texture);
@@ -175,13 +176,26 @@ namespace Pacini
         }
 
         /// <summary>Throws with what the library says of a call of this thread that failed.</summary>
+        /// <summary>What C calls max_plays at the beginning of a message is MaxPlays here.</summary>
+        private static string InPascalCase(string why)
+        {
+            int end = why.IndexOf(':');
+            if (end < 0 || why.IndexOf('_', 0, end) < 0 || why.IndexOfAny(new[] { ' ', '.', '[', '/' }, 0, end) >= 0)
+                return why;
+            var name = new StringBuilder();
+            foreach (string word in why.Substring(0, end).Split('_'))
+                if (word.Length > 0)
+                    name.Append(char.ToUpperInvariant(word[0])).Append(word.Substring(1));
+            return name + why.Substring(end);
+        }
+
         internal static void Check(int result)
         {
             if (result == 0)
                 return;
             var text = new byte[(int)pacini_last_error(null, UIntPtr.Zero)];
             pacini_last_error(text, (UIntPtr)(uint)text.Length);
-            string why = Text(text);
+            string why = InPascalCase(Text(text));
             if (why.Length == 0)
                 why = Marshal.PtrToStringAnsi(pacini_result_text(result));
             throw new PaciniException((Result)result, why);

@@ -76,7 +76,7 @@ namespace Pacini
         /// <summary>Throws when this binding is not for it.</summary>
         internal static void Check()
         {
-            if (Version < 1003 || Version >= 2000)
+            if (Version < 1004 || Version >= 2000)
                 throw new PaciniException(Result.Newer, "libpacini has the interface " + Version / 1000.0 + ", this binding is for 1.2 or a newer 1.x");
         }
     }
@@ -176,6 +176,32 @@ namespace Pacini
             ulong handle;
             Native.Check(Native.pacini_clip_load(bytes, (UIntPtr)(uint)bytes.Length, out handle));
             return new Clip(handle);
+        }
+
+        /// <summary>Of the bytes of several such files: all, or an exception about the first that is none.</summary>
+        public static Clip[] AllFromBytes(params byte[][] all)
+        {
+            var pinned = new GCHandle[all.Length];
+            try
+            {
+                var bytes = new IntPtr[all.Length];
+                var sizes = new UIntPtr[all.Length];
+                for (int i = 0; i < all.Length; i++)
+                {
+                    pinned[i] = GCHandle.Alloc(all[i], GCHandleType.Pinned);
+                    bytes[i] = pinned[i].AddrOfPinnedObject();
+                    sizes[i] = (UIntPtr)(uint)all[i].Length;
+                }
+                var handles = new ulong[all.Length];
+                Native.Check(Native.pacini_clips_load(bytes, sizes, (UIntPtr)(uint)all.Length, handles));
+                return Array.ConvertAll(handles, handle => new Clip(handle));
+            }
+            finally
+            {
+                foreach (GCHandle one in pinned)
+                    if (one.IsAllocated)
+                        one.Free();
+            }
         }
 
         /// <summary>Puts other content in its place; what plays of it fades over.</summary>

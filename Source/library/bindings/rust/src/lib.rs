@@ -152,6 +152,16 @@ impl Clip {
         Ok(Clip(handle))
     }
 
+    /// Of the bytes of several files: all, or an error about the first that is none.
+    pub fn all_from_bytes(all: &[&[u8]]) -> Result<Vec<Clip>, Error> {
+        let bytes: Vec<_> = all.iter().map(|one| one.as_ptr().cast()).collect();
+        let sizes: Vec<_> = all.iter().map(|one| one.len()).collect();
+        let mut handles = vec![0; all.len()];
+        // SAFETY: as many pointers, sizes and handles as it is told; the library copies the bytes.
+        check(unsafe { sys::pacini_clips_load(bytes.as_ptr(), sizes.as_ptr(), all.len(), handles.as_mut_ptr()) })?;
+        Ok(handles.into_iter().map(Clip).collect())
+    }
+
     /// From a file.
     pub fn load(file: impl AsRef<Path>) -> Result<Clip, Error> {
         let file = path(file.as_ref())?;
@@ -277,7 +287,7 @@ pub struct Config {
 
 impl Default for Config {
     fn default() -> Self {
-        assert!((1003..2000).contains(&library_version()), "libpacini has another interface than this crate");
+        assert!((1004..2000).contains(&library_version()), "libpacini has another interface than this crate");
         let usual = filled(sys::pacini_engine_config_init);
         Config {
             actuators: vec![Actuator::default()],

@@ -114,6 +114,12 @@ extern "C" {
     pub fn pacini_last_error(text: *mut c_char, size: usize) -> usize;
 
     pub fn pacini_clip_load(bytes: *const c_void, size: usize, clip: *mut pacini_clip) -> pacini_result;
+    pub fn pacini_clips_load(
+        bytes: *const *const c_void,
+        sizes: *const usize,
+        count: usize,
+        clips: *mut pacini_clip,
+    ) -> pacini_result;
     pub fn pacini_clip_load_file(path: *const c_char, clip: *mut pacini_clip) -> pacini_result;
     pub fn pacini_texture_load(bytes: *const c_void, size: usize, texture: *mut pacini_texture) -> pacini_result;
     pub fn pacini_texture_load_file(path: *const c_char, texture: *mut pacini_texture) -> pacini_result;

@@ -32,6 +32,10 @@ fn a_clip_plays_and_is_changed() {
     let info = clip.info().unwrap();
     assert_eq!((info.name.as_str(), info.duration, info.events), ("hüm", 1.0, 0));
     assert!(info.bytes > 20);
+    let two = Clip::all_from_bytes(&[HUM.as_bytes(), HUM.as_bytes()]).unwrap();
+    assert_eq!(two.len(), 2);
+    assert_eq!(two[1].info().unwrap().name, "hüm");
+    fails(Clip::all_from_bytes(&[HUM.as_bytes(), b"none"]), Code::BadData, "bytes[1]: ");
     let (engine, mut renderer) = Engine::new(&two_actuators()).unwrap();
     let play = engine.play(&clip, &Settings { looped: -1.0, pan: 0.0, frame: 1000, ..Settings::default() }).unwrap();
     assert_eq!(play.state().unwrap(), State::Waiting);
