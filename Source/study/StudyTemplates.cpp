@@ -119,8 +119,8 @@ Study coherence(const std::vector<std::string>& sounds)
 {
     Study study = begun("coherence");
     study.description =
-        "Sound and touch made of it: described in words, then rated for how well they belong together. A "
-        "hears and B feels before both rate one after the other; C perceives both at once.";
+        "Sound and touch made of it: described in words, then rated for how well they belong together. One "
+        "group hears and one feels before both rate one after the other; one perceives both at once.";
     study.groups = {{"A", 11}, {"B", 11}, {"C", 11}};
     addSounds(study, sounds);
     const auto add =
@@ -462,27 +462,28 @@ Result<Study> makeStudy(std::string_view name, const std::vector<std::string>& s
 
 Result<void> setGroups(Study& study, const std::vector<Group>& groups)
 {
-    const auto isAmong = [](const std::vector<Group>& some, const std::string& name)
-    {
-        return std::any_of(some.begin(), some.end(), [&](const Group& one) { return one.name == name; });
-    };
+    if (groups.empty())
+        return Error{ErrorCode::invalidArgument, "--group", "is missing: a study has one group at least"};
     const std::vector<Group> before = std::exchange(study.groups, groups);
+    // The group of the template whose blocks the group at this place does.
+    const auto roleOf = [&](std::size_t place) -> const std::string&
+    {
+        for (const Group& one : before)
+            if (one.name == groups[place].name)
+                return one.name;
+        return before[place % before.size()].name;
+    };
     std::erase_if(study.blocks,
                   [&](Block& block)
                   {
-                      const bool isForAll = block.groups.empty();
-                      std::erase_if(block.groups, [&](const std::string& name) { return !isAmong(groups, name); });
-                      return !isForAll && block.groups.empty();
+                      if (block.groups.empty())
+                          return false; // for all
+                      const std::vector<std::string> roles = std::exchange(block.groups, {});
+                      for (std::size_t i = 0; i < groups.size(); ++i)
+                          if (std::find(roles.begin(), roles.end(), roleOf(i)) != roles.end())
+                              block.groups.push_back(groups[i].name);
+                      return block.groups.empty();
                   });
-    std::vector<std::string> names;
-    for (const Group& one : before)
-        names.push_back(one.name);
-    for (const Group& one : groups)
-        if (std::none_of(study.blocks.begin(), study.blocks.end(),
-                         [&](const Block& block) { return isFor(block, one.name); }))
-            return Error{ErrorCode::invalidArgument, "--group",
-                         fmt::format("there is nothing to do for '{}'; groups of this template are {}", one.name,
-                                     fmt::join(names, ", "))};
     return {};
 }
 

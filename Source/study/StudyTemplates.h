@@ -30,8 +30,9 @@ struct StudyTemplate
 /// invalidArgument for another name or too few sounds.
 [[nodiscard]] Result<Study> makeStudy(std::string_view name, const std::vector<std::string>& sounds);
 
-/// Replaces the groups of a study; blocks for groups that are gone go, too. Errors: invalidArgument for a group without
-/// a block.
+/// Replaces the groups of a study by any number of others. A group with a name that the study has keeps its blocks; the
+/// others do those of the study's groups by their place, from the first again after the last. Blocks that nobody does
+/// go. Errors: invalidArgument for no group.
 [[nodiscard]] Result<void> setGroups(Study& study, const std::vector<Group>& groups);
 
 } // namespace pacini::study

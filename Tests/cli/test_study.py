@@ -584,8 +584,22 @@ class Plans(StudyTest):
         self.assertEqual([block["name"] for block in made["blocks"]],
                          ["words of sounds", "words of touches", "coherence, one after the other"])
         self.succeeds("study", "check", "mine")
-        self.fails(2, ["study", "new", "x", "--template", "coherence", "sounds/", "-g", "D:3"],
-                   "--group: there is nothing to do for 'D'; groups of this template are A, B, C")
+        # Others do the blocks by their place, and any number of them: the fourth does those of the first.
+        def blocks(*groups):
+            made = self.new("coherence", *(word for name in groups for word in ("-g", f"{name}:4")), "-y")
+            self.succeeds("study", "check", "mine")
+            self.assertEqual([group["name"] for group in made["groups"]], list(groups))
+            return {block["name"]: "".join(block["groups"]) for block in made["blocks"]}
+        one_after, at_once = "coherence, one after the other", "coherence, at once"
+        self.assertEqual(blocks("D"), {"words of sounds": "D", one_after: "D"})
+        self.assertEqual(blocks(*"XYZ"), {"words of sounds": "X", "words of touches": "Y", "words of both": "Z",
+                                          one_after: "XY", at_once: "Z"})
+        self.assertEqual(blocks(*"ABCDEFG"), {"words of sounds": "ADG", "words of touches": "BE", "words of both": "CF",
+                                              one_after: "ABDEG", at_once: "CF"})
+        self.assertEqual(blocks("C", "D")[at_once], "C")
+        self.succeeds("study", "simulate", "mine", "-o", "simulated", "--runs", "10")
+        found = self.report("study", "report", "simulated")
+        self.assertEqual(set(found["participants"]), {"C", "D"})
 
     def test_minutes_of_the_templates_are_those_of_the_check(self):
         self.new("threshold")
