@@ -159,9 +159,11 @@ def python(described):
             lines.append(f"    {one['option'][2:].replace('-', '_')}: Optional[{kinds.get(one['kind'], 'str')}]")
         return lines
 
-    lines = ['"""Types of options; made by Resources/docs/make_parameters.py."""', "", "from typing import Optional, TypedDict",
+    lines = ['"""Types of options; made by Resources/docs/make_parameters.py."""', "", "from typing import Optional, TypedDict", "",
+             "from ._profile import AnyProfile",
              *options("EncodeOptions", "Options of encoding; None is the method's own.", "encode"),
-             *options("ExportOptions", "Options of formats of other programs, beside the profile; None is the usual.", "export")]
+             *options("ExportOptions", "Options of formats of other programs; None is the usual.", "export"),
+             "    profile: Optional[AnyProfile]"]
     return "\n".join(lines) + "\n"
 
 

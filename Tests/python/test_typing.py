@@ -29,6 +29,9 @@ bands: tuple[pacini.Band, ...] = clip.bands
 clip.bands = [pacini.Band(90, 100, 110, amplitude=[(0, 1)], pitch=[[0, 100.5]]), bands[0]]
 clip.noise = [pacini.NoiseBand(90, 100, [(0, 0.5)])]
 strongest: float = pacini.Band(90, 100, 110, amplitude=[(0, 1)]).amplitude["amplitude"].max()
+clip.save("a.haptic", points=20, events="transients", profile="lra-175", overwrite=True)
+ahap: bytes = clip.to_bytes("ahap", split=False, quantise=None)
+losses: list[pacini.Loss] = pacini.convert("a.pacb", "a.hapt", format="tact", sample_rate=8000, overwrite=False)
 profile: pacini.Profile | None = pacini.measure.fit(pacini.Profile("lra-175")).profile
 """
 
@@ -39,6 +42,9 @@ pacini.encode("a.wav", bands="many")
 clip: int = pacini.encode("a.wav")
 clip2 = pacini.encode("a.wav")
 clip2.nothing
+clip2.save("a.haptic", points="many")
+clip2.to_bytes("ahap", splitt=True)
+pacini.convert("a.pacb", "a.haptic", strength="strong")
 """
 
 
@@ -67,6 +73,12 @@ def parameters_of(function):
     return names
 
 
+def page_lines():
+    """All code of the page."""
+    page = (SOURCE / "Resources/docs/python.md").read_text()
+    return textwrap.dedent("\n".join(re.findall(r"(?m)^    .*$|^$", page)))
+
+
 def mypy(*arguments, folder):
     return subprocess.run(
         [sys.executable, "-m", "mypy", "--cache-dir", str(folder / "cache"), *map(str, arguments)],
@@ -88,15 +100,13 @@ class Typing(FolderTest):
         (self.folder / "wrong.py").write_text(WRONG)
         done = mypy("--strict", "wrong.py", folder=self.folder)
         self.assertEqual(
-            [line.split(":")[1] for line in done.stdout.splitlines() if line.startswith("wrong.py:")],
-            ["4", "5", "7"],
+            [line.split(":")[1] for line in done.stdout.splitlines() if re.match(r"wrong\.py:\d+: error:", line)],
+            ["4", "5", "7", "8", "9", "10"],
             done.stdout,
         )
 
     def test_every_line_of_the_page_is_typed(self):
-        page = (SOURCE / "Resources/docs/python.md").read_text()
-        lines = re.findall(r"(?m)^    .*$|^$", page)
-        (self.folder / "page.py").write_text(textwrap.dedent("\n".join(lines)))
+        (self.folder / "page.py").write_text(page_lines())
         done = mypy("--strict", "page.py", folder=self.folder)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
@@ -107,6 +117,7 @@ class Typing(FolderTest):
             self.skipTest("pyright is missing: bash cmake/bootstrap.sh slow-tests installs it")
         (self.folder / "right.py").write_text(RIGHT)
         (self.folder / "wrong.py").write_text(WRONG)
+        (self.folder / "page.py").write_text(page_lines())
         (self.folder / "package").symlink_to(PACKAGE)
         settings = {"include": ["."], "extraPaths": [str(PACKAGE.parent)], "pythonVersion": "3.11"}
         (self.folder / "pyrightconfig.json").write_text(json.dumps(settings))
@@ -121,7 +132,7 @@ class Typing(FolderTest):
             for found in json.loads(done.stdout)["generalDiagnostics"]
             if found["severity"] == "error"
         ]
-        self.assertEqual(errors, [("wrong.py", 4), ("wrong.py", 5), ("wrong.py", 7)], done.stdout[-3000:])
+        self.assertEqual(errors, [("wrong.py", line) for line in (4, 5, 7, 8, 9, 10)], done.stdout[-3000:])
 
     def test_the_stubs_are_those_of_the_native_module(self):
         """By the names of everything and of all parameters."""

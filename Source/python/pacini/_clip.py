@@ -19,6 +19,9 @@ from ._formats import Loss, export_options, format_for, losses_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from typing_extensions import Unpack
+
+    from ._options import ExportOptions
 
 
 def _no_points(dtype: np.dtype[np.void]) -> Any:
@@ -454,7 +457,7 @@ class Clip(Document):
         format: Optional[str] = None,
         quantise: Optional[int] = None,
         overwrite: Optional[bool] = None,
-        **options: Any,
+        **options: Unpack[ExportOptions],
     ) -> list[Loss]:
         """Writes the clip; the file is complete or not there.
 
@@ -488,7 +491,9 @@ class Clip(Document):
         )
         return losses_of(losses)
 
-    def to_bytes(self, format: str = "packed", *, quantise: Optional[int] = None, **options: Any) -> bytes:
+    def to_bytes(
+        self, format: str = "packed", *, quantise: Optional[int] = None, **options: Unpack[ExportOptions]
+    ) -> bytes:
         """The bytes of a file.
 
         Parameters
@@ -526,7 +531,7 @@ class Clip(Document):
         """Returns the clip of a dictionary, as :meth:`to_dict` returns it."""
         return cls._of(_native.ClipHandle.from_json(json_of(content, "clip").encode()))
 
-    def lint(self, format: str, **options: Any) -> list[Loss]:
+    def lint(self, format: str, **options: Unpack[ExportOptions]) -> list[Loss]:
         """States what the clip would lose in a format; see :func:`pacini.lint`."""
         _, losses = self._handle.written(format, export_options("lint", options), 0)
         return losses_of(losses)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Optional
 
@@ -83,10 +83,10 @@ def format_for(path: PathLike, format: Optional[str]) -> str:
     return found
 
 
-def export_options(function: str, options: dict[str, Any]) -> _native.ExportOptions:
+def export_options(function: str, options: Mapping[str, Any]) -> _native.ExportOptions:
     """Options of formats, those of ``pacini convert``, and `profile`."""
-    check_names(function, options, EXPORT)
     given = dict(options)
+    check_names(function, given, EXPORT)
     profile = given.pop("profile", None)
     if profile is None:
         return _native.ExportOptions(given, None)

@@ -2,6 +2,8 @@
 
 from typing import Optional, TypedDict
 
+from ._profile import AnyProfile
+
 
 class EncodeOptions(TypedDict, total=False):
     """Options of encoding; None is the method's own."""
@@ -34,7 +36,7 @@ class EncodeOptions(TypedDict, total=False):
 
 
 class ExportOptions(TypedDict, total=False):
-    """Options of formats of other programs, beside the profile; None is the usual."""
+    """Options of formats of other programs; None is the usual."""
 
     points: Optional[float]
     frequency_points: Optional[float]
@@ -46,3 +48,4 @@ class ExportOptions(TypedDict, total=False):
     max_segment: Optional[int]
     sample_rate: Optional[int]
     strength: Optional[float]
+    profile: Optional[AnyProfile]

@@ -19,7 +19,7 @@ from ._clip import Clip
 from ._document import warn_of
 from ._errors import Error
 from ._files import text_of
-from ._formats import formats
+from ._formats import Loss, formats
 from ._parameters import ENCODE, check_names, unknown, with_keywords
 from ._profile import AnyProfile, as_profile
 from ._progress import Progress, shown
@@ -28,7 +28,7 @@ from ._scene import Scene
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
-    from ._options import EncodeOptions
+    from ._options import EncodeOptions, ExportOptions
 
 Sound = Union[PathLike, FloatArray, Sequence[float]]
 AnySettings = Union[PathLike, Mapping[str, Any]]
@@ -829,7 +829,15 @@ def write_audio(
     return _native.write_audio(os.fsdecode(path), as_sound(sound, axis), as_rate(sample_rate), encoding, overwrite)
 
 
-def convert(path: PathLike, output: PathLike, **options: Any) -> list[Any]:
+def convert(
+    path: PathLike,
+    output: PathLike,
+    *,
+    format: Optional[str] = None,
+    quantise: Optional[int] = None,
+    overwrite: Optional[bool] = None,
+    **options: Unpack[ExportOptions],
+) -> list[Loss]:
     """Converts a clip file to another format.
 
     Parameters
@@ -837,7 +845,9 @@ def convert(path: PathLike, output: PathLike, **options: Any) -> list[Any]:
     path : path
         A clip of any format that is read.
     output : path
-        Where; see :meth:`Clip.save`, whose options apply.
+        Where.
+    format, quantise, overwrite, **options
+        As of :meth:`Clip.save`.
 
     Returns
     -------
@@ -852,10 +862,10 @@ def convert(path: PathLike, output: PathLike, **options: Any) -> list[Any]:
     clip = Clip.load(path)
     if os.path.exists(output) and os.path.samefile(path, output):
         raise Error("is both input and output; name another output", os.fsdecode(output), "io")
-    return clip.save(output, **options)
+    return clip.save(output, format=format, quantise=quantise, overwrite=overwrite, **options)
 
 
-def lint(content: Union[Clip, PathLike], format: str, **options: Any) -> list[Any]:
+def lint(content: Union[Clip, PathLike], format: str, **options: Unpack[ExportOptions]) -> list[Loss]:
     """States what a clip would lose in a format, without writing it.
 
     Parameters
