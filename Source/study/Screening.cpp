@@ -42,8 +42,10 @@ std::optional<Screening> screenListeners(std::vector<Rating>& ratings, const Ref
     screening.nobodyPassed = failed.size() == listeners.size();
     screening.kept = keep || screening.nobodyPassed;
     if (!screening.kept)
-        std::erase_if(ratings, [&](const Rating& one)
-                      { return isScreened(one) && failed.contains({one.group, one.participant}); });
+        std::erase_if(ratings,
+                      [&](const Rating& one) {
+                          return isScreened(one) && failed.contains({one.group, one.participant});
+                      });
     return screening;
 }
 
@@ -61,7 +63,8 @@ std::optional<Screening> screenListeners(std::vector<Rating>& ratings, const Stu
         const RatingScale& scale = page->second->scale;
         return scale.low + screeningLevel * (scale.high - scale.low);
     };
-    return screenListeners(ratings, criterion, [&](const Rating& one) { return pages.contains(one.block); }, keep);
+    return screenListeners(
+        ratings, criterion, [&](const Rating& one) { return pages.contains(one.block); }, keep);
 }
 
 Result<std::optional<Screening>> screenListeners(std::vector<Rating>& ratings,
@@ -99,7 +102,8 @@ Result<std::optional<Screening>> screenListeners(std::vector<Rating>& ratings,
                                     [&](const std::string& name) { return isReference(one, name); });
         return is ? std::optional(screeningLevel * best) : std::nullopt;
     };
-    return screenListeners(ratings, criterion, [](const Rating&) { return true; }, keep);
+    return screenListeners(
+        ratings, criterion, [](const Rating&) { return true; }, keep);
 }
 
 } // namespace pacini::study

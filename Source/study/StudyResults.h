@@ -86,8 +86,8 @@ struct StudyResults
     std::vector<PairRating> together; ///< of sorting: 0 in one heap, 1 in two
     std::vector<ItemAnswer> items;    ///< of questionnaires; what was left empty is left out
     std::vector<PlaceAnswer> places;
-    std::vector<EventAnswer> events; ///< of count and which
-    std::size_t dropouts = 0;        ///< trials that were repeated
+    std::vector<EventAnswer> events;    ///< of count and which
+    std::size_t dropouts = 0;           ///< trials that were repeated
     std::optional<Screening> screening; ///< of listeners, if that was done; whom it leaves out is not in `ratings`
 };
 

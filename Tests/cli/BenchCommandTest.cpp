@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <map>
 #include <numbers>
 #include <sstream>
 #include <string>
@@ -124,10 +125,19 @@ TEST_CASE("pacini bench methods measures size, quality and speed of every method
     REQUIRE(bench(folder, "methods tone.wav -o . --repeat 1") == 0);
     CHECK(bytesOf(folder / "log").find("bytesPerSecond") != std::string::npos);
     const auto json = nlohmann::json::parse(bytesOf(folder / "methods.json"));
-    REQUIRE(json["rows"].size() == methodTable.size() + 2); // a2vt without what is heard, and with it instead
+    // a2vt without what is heard, and with it instead; the sound itself and silence
+    REQUIRE(json["rows"].size() == methodTable.size() + 4);
+    std::map<std::string, double> references;
     for (const auto& row : json["rows"])
     {
         INFO(row.dump());
+        CHECK(row["matchSd"].is_null()); // of one sound
+        if (row["method"] == "sound itself" || row["method"] == "silence")
+        {
+            CHECK(row["encodeSeconds"].is_null());
+            references[row["method"]] = row["hts"];
+            continue;
+        }
         const auto method = methodNamed(row["method"].get<std::string>());
         REQUIRE(method);
         const bool signal = methodInfo(*method).output == MethodOutput::signal;
@@ -146,6 +156,19 @@ TEST_CASE("pacini bench methods measures size, quality and speed of every method
         REQUIRE(row != rows.end());
         return (*row)["lsd"].template get<double>();
     };
+    REQUIRE(references.size() == 2);
+    CHECK(references["sound itself"] > 99.0);
+    CHECK(references["silence"] < 50.0);
+    // The best match comes first, and what the columns are is said.
+    double before = 1000.0;
+    for (const auto& row : json["means"])
+        if (row["match"].is_number())
+        {
+            CHECK(row["match"].get<double>() <= before);
+            before = row["match"].get<double>();
+        }
+    CHECK(bytesOf(folder / "log").find("'silence' are what") != std::string::npos);
+    CHECK(bytesOf(folder / "methods-match.svg").find("</svg>") != std::string::npos);
     CHECK(distance("lowpass") < 1.0);
     CHECK(distance("pitch-shift") > 5.0);
 }

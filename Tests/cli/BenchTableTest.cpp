@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <string>
+#include <tuple>
 #include <vector>
 
 using namespace pacini::cli;
@@ -77,6 +78,32 @@ TEST_CASE("Over the sounds, means skip empty cells, sums add up and ratios are t
     CHECK(means.number(0, "speed") == 10.0);
     CHECK(means.number(1, "speed") == 40.0);
     CHECK(means.number(1, "relative") == 0.25);
+}
+
+TEST_CASE("Spreads are the SD over the sounds, and a table is sorted by a column with the gaps last", "[cli][bench]")
+{
+    BenchTable table({{"clip", "", Reduction::sound},
+                      {"method", "", Reduction::key},
+                      {"match", "", Reduction::mean},
+                      {"sd", "", Reduction::spread, "match"}});
+    using Sound = std::tuple<const char*, double, double>;
+    for (const auto& [clip, first, second] : {Sound{"a", 40.0, 70.0}, Sound{"b", 44.0, 76.0}, Sound{"c", 48.0, 70.0}})
+    {
+        table.add({clip, "first", first});
+        table.add({clip, "none", {}});
+        table.add({clip, "second", second});
+    }
+    table.add({"a", "once", 50.0});
+    CHECK(std::isnan(table.number(0, "sd")));
+    const BenchTable means = table.overSounds().sortedBy("match");
+    REQUIRE(means.rows() == 4);
+    CHECK(means.text(0, "method") == "second");
+    CHECK(means.number(0, "sd") == Approx(std::sqrt(12.0)));
+    CHECK(means.text(1, "method") == "once");
+    CHECK(means.text(1, "sd") == "-");
+    CHECK(means.text(2, "method") == "first");
+    CHECK(means.number(2, "sd") == Approx(4.0));
+    CHECK(means.text(3, "method") == "none");
 }
 
 TEST_CASE("A bench table filters its rows by a text", "[cli][bench]")

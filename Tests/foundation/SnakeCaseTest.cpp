@@ -1,6 +1,6 @@
-#include <pacini/foundation/SnakeCase.h>
-
 #include "support/Catch.h"
+
+#include <pacini/foundation/SnakeCase.h>
 
 TEST_CASE("Plain names get snake case, paths in files stay as they are")
 {

@@ -57,6 +57,7 @@ struct Bench
     void (*measure)(const BenchSound& sound, const BenchSettings& settings, BenchTable& rows);
     bool usesSounds = true;     ///< false: makes its own signals, once
     bool needsProfiles = false; ///< measures on each shipped profile
+    std::string sortedBy = {};  ///< column whose largest means come first; empty: rows as they were measured
 };
 
 /// The RMS error that a signal-to-noise ratio (dB) means, in % of the signal.

@@ -147,7 +147,10 @@ Exit runBenches(const BenchOptions& options, Console& console)
     for (BenchReport& report : reports)
     {
         report.means = report.rows.overSounds();
-        console.print(fmt::format("{}, {}\n{}", report.bench.title, overText(report), report.means.aligned()));
+        if (!report.bench.sortedBy.empty())
+            report.means = report.means.sortedBy(report.bench.sortedBy);
+        console.print(fmt::format("{}, {}\n{}\n{}", report.bench.title, overText(report), report.means.aligned(),
+                                  report.bench.note));
         object["benches"].push_back(toJson(report));
         page += "\n" + toMarkdown(report);
         if (options.overwriting.keepsAll() && isOccupied(fs::path(options.output) / (report.bench.name + ".json")))

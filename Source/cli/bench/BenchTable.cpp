@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <utility>
 
 namespace pacini::cli
@@ -18,7 +19,8 @@ namespace
 {
 bool isComputed(const BenchColumn& column)
 {
-    return column.reduction == Reduction::ratio || column.reduction == Reduction::relative;
+    return column.reduction == Reduction::ratio || column.reduction == Reduction::relative ||
+           column.reduction == Reduction::spread;
 }
 
 /// Three digits that count, or all before the point.
@@ -83,6 +85,8 @@ std::size_t BenchTable::indexOf(std::string_view name) const
 BenchCell BenchTable::computed(std::size_t column, const std::vector<BenchCell>& row) const
 {
     const BenchColumn& wanted = columns[column];
+    if (wanted.reduction == Reduction::spread)
+        return row[column]; // as overSounds() has it
     const auto* above = std::get_if<double>(&row[indexOf(wanted.numerator)]);
     if (above == nullptr)
         return {};
@@ -181,8 +185,43 @@ BenchTable BenchTable::overSounds() const
             }
         }
         reduced.add(std::move(row));
+        for (std::size_t c = 0; c < kept.size(); ++c)
+            if (reduced.columns[c].reduction == Reduction::spread)
+                reduced.cells.back()[c] = spreadOf(group, indexOf(reduced.columns[c].numerator));
     }
     return reduced;
+}
+
+BenchCell BenchTable::spreadOf(const std::vector<std::size_t>& group, std::size_t column) const
+{
+    std::vector<double> values;
+    for (const std::size_t r : group)
+        if (const auto* value = std::get_if<double>(&cells[r][column]))
+            values.push_back(*value);
+    BenchCell cell;
+    if (values.size() < 2)
+        return cell;
+    const auto n = static_cast<double>(values.size());
+    const double mean = std::accumulate(values.begin(), values.end(), 0.0) / n;
+    double squares = 0.0;
+    for (const double value : values)
+        squares += (value - mean) * (value - mean);
+    cell = std::sqrt(squares / (n - 1.0));
+    return cell;
+}
+
+BenchTable BenchTable::sortedBy(std::string_view name) const
+{
+    BenchTable sorted = *this;
+    const std::size_t column = indexOf(name);
+    const auto numberIn = [column](const std::vector<BenchCell>& row)
+    {
+        const auto* value = std::get_if<double>(&row[column]);
+        return value != nullptr && !std::isnan(*value) ? *value : -std::numeric_limits<double>::infinity();
+    };
+    std::stable_sort(sorted.cells.begin(), sorted.cells.end(),
+                     [&](const auto& a, const auto& b) { return numberIn(a) > numberIn(b); });
+    return sorted;
 }
 
 BenchTable BenchTable::where(std::string_view name, std::string_view value) const

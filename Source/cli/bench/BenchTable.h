@@ -22,6 +22,7 @@ enum class Reduction
     mean,     ///< arithmetic mean of the cells that are not empty; empty when all are
     sum,      ///< sum of the cells that are not empty
     ratio,    ///< scale * numerator / denominator, both other columns of this row: computed, before and after
+    spread,   ///< SD of the numerator's column over the sounds, of two at least; empty in the rows of single sounds
     relative, ///< numerator over that of the first row, or of the first that agrees in the key `denominator`: computed
 };
 
@@ -67,6 +68,10 @@ public:
     /// One row for each combination of keys, in order of first appearance; the columns without the sounds' names.
     [[nodiscard]] BenchTable overSounds() const;
 
+    /// The same rows, those with the largest numbers in column `name` first and those without one last; the order of
+    /// rows that are alike stays.
+    [[nodiscard]] BenchTable sortedBy(std::string_view name) const;
+
     /// The rows whose text in column `name` is `value`.
     [[nodiscard]] BenchTable where(std::string_view name, std::string_view value) const;
 
@@ -98,6 +103,7 @@ private:
     [[nodiscard]] std::size_t indexOf(std::string_view name) const;
     [[nodiscard]] BenchCell computed(std::size_t column, const std::vector<BenchCell>& row) const;
     void compute(std::vector<BenchCell>& row) const;
+    [[nodiscard]] BenchCell spreadOf(const std::vector<std::size_t>& group, std::size_t column) const;
 
     std::vector<BenchColumn> columns;
     std::vector<std::vector<BenchCell>> cells;

@@ -143,9 +143,16 @@ public:
         add(method, "", {}, {}, translated.seconds, {}, judges.of(translated.result, sound.sampleRate), {});
     }
 
+    /// What the scores of methods are to be read against: it takes no time.
+    void reference(const std::string& name, const std::vector<float>& signal)
+    {
+        add(name, "", {}, {}, {}, {}, judges.of(signal, sound.sampleRate), {});
+    }
+
 private:
     void add(const std::string& method, const std::string& variant, BenchCell bytesPerSecond, BenchCell pointsPerSecond,
-             double encodeSeconds, BenchCell renderSeconds, const Judges::Verdict& verdict, const EventCounts& stated)
+             BenchCell encodeSeconds, BenchCell renderSeconds, const Judges::Verdict& verdict,
+             const EventCounts& stated)
     {
         const EventCounts detected = countEvents(sound, verdict.detected);
         const SignalMetrics& m = verdict.measures;
@@ -164,7 +171,7 @@ private:
                 cell = value;
             return cell;
         };
-        rows.add({sound.name, method, variant, sound.duration(), encodeSeconds, std::move(renderSeconds),
+        rows.add({sound.name, method, variant, sound.duration(), std::move(encodeSeconds), std::move(renderSeconds),
                   std::move(bytesPerSecond), std::move(pointsPerSecond), measure(verdict.match), verdict.hts,
                   cellOf(verdict.low.kept), cellOf(verdict.low.beat), measure(m.logSpectralDistance),
                   measure(m.wideSnr), measure(m.centroidError), stated.agreeing, stated.all, detected.agreeing,
@@ -220,6 +227,8 @@ void measureMethods(const BenchSound& sound, const BenchSettings& settings, Benc
             measurement.clip(name, "", info.method == Method::thesis || info.method == Method::decomposition,
                              [&] { return translateToClip(info.method, mix(), fs); });
     }
+    measurement.reference("sound itself", sound.mono);
+    measurement.reference("silence", std::vector<float>(sound.mono.size(), 0.0f));
     if (!settings.sweep)
         return;
     for (const double audible : {0.25, 0.5, 0.75})
@@ -263,7 +272,9 @@ Bench methodsBench()
         "of "
         "the sound. Events F1 (within 25 ms of the "
         "annotated onsets, pooled over the sounds) once for the events that a clip states and once for those that a "
-        "neutral detector finds in the rendered signal.",
+        "neutral detector finds in the rendered signal. The rows 'sound itself' (felt as it is) and 'silence' are what "
+        "the others are to be read against. Columns with Sd: standard deviation over the sounds. The best match comes "
+        "first.",
         columnsOf({"method", "variant"},
                   {summed("duration", "s"),
                    summed("encodeSeconds", "s"),
@@ -271,10 +282,13 @@ Bench methodsBench()
                    {"bytesPerSecond", "B/s"},
                    {"pointsPerSecond", "1/s"},
                    {"match", ""},
+                   {"matchSd", "", Reduction::spread, "match"},
                    {"hts", ""},
+                   {"htsSd", "", Reduction::spread, "hts"},
                    {"lowKept", ""},
                    {"beatKept", ""},
                    {"lsd", "dB"},
+                   {"lsdSd", "dB", Reduction::spread, "lsd"},
                    {"wideSnr", "dB"},
                    {"centroidError", "%"},
                    summed("statedAgreeing"),
@@ -288,9 +302,13 @@ Bench methodsBench()
                    {"encodeTime", "ms/s", Reduction::ratio, "encodeSeconds", "duration", 1000.0, false},
                    {"relativeTime", "", Reduction::relative, "encodeTime"}}),
         {figure("", "Log spectral distance against encoding time", "encodeTime", "lsd"),
-         figure("rate", "Log spectral distance against size", "bytesPerSecond", "lsd")},
+         figure("rate", "Log spectral distance against size", "bytesPerSecond", "lsd"),
+         figure("match", "Predicted match against size", "bytesPerSecond", "match")},
         {"method", "variant"},
-        measureMethods};
+        measureMethods,
+        true,
+        false,
+        "match"};
 }
 
 } // namespace pacini::cli

@@ -70,13 +70,13 @@ struct CheckSubcommand : Command
         for (const study::DesignPower& one : study::powerOfDesign(planned, {}, effect))
         {
             const bool isPair = !one.block.empty();
-            std::string line =
-                isPair ? fmt::format("Power of two stimuli of \"{}\" ({}, {} of each):", one.block,
-                                     counted(static_cast<std::size_t>(one.firstPeople), "person", "people"),
-                                     counted(one.trials, "rating", "ratings"))
-                       : fmt::format("Power of {} against {} ({} and {} people, {}):", one.first, one.second,
-                                     one.firstPeople, one.secondPeople,
-                                     counted(one.trials, "rating each", "ratings each"));
+            std::string line = isPair
+                                   ? fmt::format("Power of two stimuli of \"{}\" ({}, {} of each):", one.block,
+                                                 counted(static_cast<std::size_t>(one.firstPeople), "person", "people"),
+                                                 counted(one.trials, "rating", "ratings"))
+                                   : fmt::format("Power of {} against {} ({} and {} people, {}):", one.first,
+                                                 one.second, one.firstPeople, one.secondPeople,
+                                                 counted(one.trials, "rating each", "ratings each"));
             JsonReport::Json effects = JsonReport::Json::array();
             for (const study::EffectPower& found : one.effects)
             {
@@ -85,11 +85,10 @@ struct CheckSubcommand : Command
                 effects.push_back({{"d", found.effect}, {"points", found.points}, {"power", found.power}});
             }
             console.print(line);
-            JsonReport::Json entry =
-                isPair ? JsonReport::Json{{"block", one.block}, {"people", one.firstPeople}}
-                       : JsonReport::Json{{"first", one.first},
-                                          {"second", one.second},
-                                          {"people", {one.firstPeople, one.secondPeople}}};
+            JsonReport::Json entry = isPair ? JsonReport::Json{{"block", one.block}, {"people", one.firstPeople}}
+                                            : JsonReport::Json{{"first", one.first},
+                                                               {"second", one.second},
+                                                               {"people", {one.firstPeople, one.secondPeople}}};
             entry["trials"] = one.trials;
             entry["effects"] = std::move(effects);
             power.push_back(std::move(entry));

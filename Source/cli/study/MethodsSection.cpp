@@ -82,17 +82,17 @@ std::string orderText(const Block& block)
 std::string staircaseText(const Block& block, const std::string& stimuli)
 {
     constexpr std::array variables{
-        "the level", "the difference of level", "the difference of frequency", "the delay of the touch",
+        "the level",           "the difference of level",   "the difference of frequency", "the delay of the touch",
         "the number of bands", "the number of breakpoints", "the number of bits"};
     static_assert(variables.size() == fields::variables.size());
     const Adaptive& adaptive = block.adaptive;
-    return fmt::format("the threshold of {} by {} alternatives ({}, {} trials at most for each of {})",
-                       variables[static_cast<std::size_t>(adaptive.variable)], block.intervals,
-                       adaptive.procedure == Procedure::questPlus
-                           ? std::string("QUEST+, Watson 2017")
-                           : fmt::format("transformed up-down, {} down, {} reversals, Levitt 1971", adaptive.down,
-                                         adaptive.reversals),
-                       adaptive.trials, stimuli);
+    return fmt::format(
+        "the threshold of {} by {} alternatives ({}, {} trials at most for each of {})",
+        variables[static_cast<std::size_t>(adaptive.variable)], block.intervals,
+        adaptive.procedure == Procedure::questPlus
+            ? std::string("QUEST+, Watson 2017")
+            : fmt::format("transformed up-down, {} down, {} reversals, Levitt 1971", adaptive.down, adaptive.reversals),
+        adaptive.trials, stimuli);
 }
 
 /// What was done with the stimuli, as "rated ...".
@@ -235,8 +235,8 @@ std::string tasksText(const Study& study)
     }
     std::string all;
     for (const auto& [text, names] : alike)
-        all += fmt::format("{}In {} {}, {}", all.empty() ? "" : " ", names.size() == 1 ? "the part" : "each of the parts",
-                           listed(names), text);
+        all += fmt::format("{}In {} {}, {}", all.empty() ? "" : " ",
+                           names.size() == 1 ? "the part" : "each of the parts", listed(names), text);
     return all;
 }
 
@@ -250,7 +250,8 @@ void writeMethods(ReportWriter& writer, StudyReport& report, std::vector<std::st
             screening->failed.size(), screening->everyone.size()));
     if (!report.methods.empty())
         paragraphs.push_back(fmt::format("{}", fmt::join(report.methods, " ")));
-    paragraphs.push_back(fmt::format("Statistics were computed with Pacini " PACINI_VERSION ". To cite it: {}", citation));
+    paragraphs.push_back(
+        fmt::format("Statistics were computed with Pacini " PACINI_VERSION ". To cite it: {}", citation));
     writer.heading(2, "Methods");
     for (const std::string& one : paragraphs)
         writer.paragraph(one);
@@ -276,12 +277,12 @@ void writeMethods(ReportWriter& writer, StudyReport& report, const RatedTable& t
         stimuli.insert(one.stimulus);
         groups.insert(one.group);
     }
-    writeMethods(writer, report,
-                 {fmt::format("{} of {} by {}{} were analysed.", counted(table.ratings.size(), "rating", "ratings"),
-                              counted(stimuli.size(), "stimulus", "stimuli"),
-                              counted(people.size(), "person", "people"),
-                              groups.size() > 1 ? fmt::format(" in {} groups", groups.size()) : "")},
-                 table.screening);
+    writeMethods(
+        writer, report,
+        {fmt::format("{} of {} by {}{} were analysed.", counted(table.ratings.size(), "rating", "ratings"),
+                     counted(stimuli.size(), "stimulus", "stimuli"), counted(people.size(), "person", "people"),
+                     groups.size() > 1 ? fmt::format(" in {} groups", groups.size()) : "")},
+        table.screening);
 }
 
 } // namespace pacini::cli

@@ -147,8 +147,8 @@ struct ReportSubcommand : Command
         return std::nullopt;
     }
 
-    [[nodiscard]] Result<StudyReport> ofTable(Console& console, const fs::path& path,
-                                              const study::RatingColumns& names, const StudyReportParams& params) const
+    [[nodiscard]] Result<StudyReport> ofTable(Console& console, const fs::path& path, const study::RatingColumns& names,
+                                              const StudyReportParams& params) const
     {
         RatedTable table;
         bool isWebMushra = false;
@@ -180,9 +180,8 @@ struct ReportSubcommand : Command
                         fmt::format("{} of {} rated the hidden reference below 90 in more than 15 % of the trials{}",
                                     screening->failed.size(),
                                     counted(screening->everyone.size(), "listener", "listeners"),
-                                    screening->nobodyPassed
-                                        ? "; as nobody would remain, all count"
-                                        : " and are left out; --keep-everybody counts them, too"));
+                                    screening->nobodyPassed ? "; as nobody would remain, all count"
+                                                            : " and are left out; --keep-everybody counts them, too"));
     }
 
     [[nodiscard]] Result<StudyReport> ofStudy(Console& console, const fs::path& path,

@@ -550,8 +550,9 @@ void writeCoders(ReportWriter& writer, Json& json, const std::set<std::string>& 
             unlike.rows.push_back({word, first.empty() ? "(none)" : first, second.empty() ? "(none)" : second});
     }
     const CohensKappa found = cohensKappa(codes);
-    writer.method("Agreement of the two coders was measured by Cohen's kappa (1960) with its 95 % interval (Fleiss, Cohen "
-                  "and Everitt 1969).");
+    writer.method(
+        "Agreement of the two coders was measured by Cohen's kappa (1960) with its 95 % interval (Fleiss, Cohen "
+        "and Everitt 1969).");
     json["coders"]["words"] = codes.size();
     json["coders"]["agreement"] = found.agreement;
     json["coders"]["kappa"] = found.kappa;
@@ -800,8 +801,9 @@ Result<void> writeMap(ReportWriter& writer, Json& json, const std::vector<PairRa
     for (std::size_t i = 0; i < names.size(); ++i)
         for (std::size_t k = 0; k < names.size(); ++k)
             sums[i][k] = counts[i][k] > 0.0 ? sums[i][k] / counts[i][k] : 0.0;
-    writer.method("Maps of similarity were made from mean dissimilarities by multidimensional scaling in two dimensions "
-                  "(SMACOF from classical scaling; Kruskal's stress-1).");
+    writer.method(
+        "Maps of similarity were made from mean dissimilarities by multidimensional scaling in two dimensions "
+        "(SMACOF from classical scaling; Kruskal's stress-1).");
     const Scaling scaling = scaleDissimilarities(sums);
     writer.heading(2, title);
     writer.paragraph(fmt::format(
@@ -872,12 +874,12 @@ void writeScreening(ReportWriter& writer, Json& json, std::vector<std::string>& 
     writer.paragraph(text);
     writer.table(std::move(table));
     if (!names.empty())
-        said.push_back(fmt::format(
-            "By the hidden reference {} fail of {} (ITU-R BS.1534-3) and {}: {}", names.size(),
-            counted(screening->everyone.size(), "listener", "listeners"),
-            !screening->kept ? "are left out" : screening->nobodyPassed ? "count, as nobody would remain"
-                                                                        : "count, as was requested",
-            fmt::join(names, ", ")));
+        said.push_back(fmt::format("By the hidden reference {} fail of {} (ITU-R BS.1534-3) and {}: {}", names.size(),
+                                   counted(screening->everyone.size(), "listener", "listeners"),
+                                   !screening->kept          ? "are left out"
+                                   : screening->nobodyPassed ? "count, as nobody would remain"
+                                                             : "count, as was requested",
+                                   fmt::join(names, ", ")));
 }
 
 /// All that does not count, and what was taken for granted: what was said when the answers were read, then the doubts

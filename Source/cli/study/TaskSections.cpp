@@ -269,8 +269,9 @@ void writeCovariates(ReportWriter& writer, nlohmann::ordered_json& json, const S
                                       {"p", found.p},
                                       {"holm", corrected[i]}});
     }
-    writer.method("Numbers in questionnaires were correlated with results over people (Pearson, with Fisher's interval), "
-                  "with Holm's correction over all correlations.");
+    writer.method(
+        "Numbers in questionnaires were correlated with results over people (Pearson, with Fisher's interval), "
+        "with Holm's correction over all correlations.");
     writer.heading(2, "Questionnaires and results");
     writer.table(std::move(table));
 }
@@ -590,8 +591,9 @@ void writeEvents(ReportWriter& writer, nlohmann::ordered_json& json, const Study
             continue;
         writer.heading(2, block.name);
         TaskJson& entry = json[block.name];
-        writer.method("Shares of right answers had Wilson's (1927) interval for the effective number of answers (Korn and "
-                      "Graubard 1998), at 95 %.");
+        writer.method(
+            "Shares of right answers had Wilson's (1927) interval for the effective number of answers (Korn and "
+            "Graubard 1998), at 95 %.");
         writeByNumber(writer, entry, results, block);
         if (block.task == Task::count)
             writeCounts(writer, entry, results, block);

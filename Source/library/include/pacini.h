@@ -113,8 +113,9 @@ extern "C"
     PACINI_API pacini_result pacini_clip_load_file(const char* path, pacini_clip* clip);
 
     /* Loads `count` clips from memory, each as pacini_clip_load() does: `bytes[i]` has `sizes[i]` bytes, and its handle
-     * becomes `clips[i]`. All or none: when one cannot be loaded, no clip is, `clips` is left as it was, and the message
-     * names the first such one, as in "bytes[3]: is not a clip that Pacini reads". Since 1.4. [any thread but audio] */
+     * becomes `clips[i]`. All or none: when one cannot be loaded, no clip is, `clips` is left as it was, and the
+     * message names the first such one, as in "bytes[3]: is not a clip that Pacini reads". Since 1.4. [any thread but
+     * audio] */
     PACINI_API pacini_result pacini_clips_load(const void* const* bytes, const size_t* sizes, size_t count,
                                                pacini_clip* clips);
 
