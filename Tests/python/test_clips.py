@@ -109,7 +109,10 @@ class Clips(FolderTest):
         self.assertTrue(all(lane.max_error <= 0.05 + 1e-9 for lane in lanes if lane.kind == "amplitude"))
         self.assertEqual(sum(lane.after for lane in lanes), simpler.breakpoints)
         self.refuses("method", "invalidArgument", self.clip.simplified, 5, method="magic")
-        self.refuses("params", "invalidArgument", self.clip.simplified)
+        self.refuses("count", "invalidArgument", self.clip.simplified)
+        self.refuses("error", "invalidArgument", self.clip.simplified, error=-1)
+        self.refuses("count", "invalidArgument", pacini.simplify, [0, 1, 2], [0, 1, 0])
+        self.refuses("error", "invalidArgument", pacini.simplify, [0, 1, 2], [0, 1, 0], error=float("nan"))
         time = np.linspace(0, 1, 1000)
         for method in pacini.SIMPLIFIERS:
             x, y = pacini.simplify(time, np.sin(6 * time), error=0.01, method=method)

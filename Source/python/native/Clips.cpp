@@ -29,6 +29,7 @@
 #include <nanobind/stl/variant.h>
 #include <nanobind/stl/vector.h>
 
+#include <cmath>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -158,6 +159,11 @@ SimplifyParams simplifyParams(const std::string& method, std::optional<std::size
         {"optimal", SimplifyMethod::optimal},         {"streaming", SimplifyMethod::streaming},
         {"lagrangian", SimplifyMethod::lagrangian},
     };
+    // By the names that the arguments have in Python.
+    if (!count && !maxError)
+        raise({ErrorCode::invalidArgument, "count", "and error are both missing; give one of them"});
+    if (maxError && !(*maxError >= 0.0 && std::isfinite(*maxError)))
+        raise({ErrorCode::invalidArgument, "error", "must be 0 or more"});
     SimplifyParams params;
     params.count = count;
     params.maxError = maxError;

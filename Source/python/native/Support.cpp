@@ -4,6 +4,7 @@
 #include "io/ErrorCodeName.h"
 
 #include <pacini/foundation/DspBlock.h>
+#include <pacini/foundation/SnakeCase.h>
 
 #include <nanobind/stl/string.h>
 
@@ -52,7 +53,9 @@ void raise(const Error& error)
             PyUnicode_DecodeUTF8(bytes.data(), static_cast<Py_ssize_t>(bytes.size()), "surrogateescape"));
     };
     const nb::object type = nb::module_::import_("pacini._errors").attr("Error");
-    const nb::object value = type(text(error.message), text(error.where), std::string(errorCodeName(error.code)));
+    // An argument is called as in Python; what is in a file, as the file has it.
+    const std::string where = error.code == ErrorCode::invalidArgument ? snakeCase(error.where) : error.where;
+    const nb::object value = type(text(error.message), text(where), std::string(errorCodeName(error.code)));
     PyErr_SetObject(value.type().ptr(), value.ptr());
     throw nb::python_error();
 }
