@@ -7,6 +7,7 @@
 #include "app/Settings.h"
 #include "app/StandaloneWindow.h"
 #include "editor/Translation.h"
+#include "io/SoundHandle.h"
 
 #include <juce_audio_utils/juce_audio_utils.h>
 
@@ -25,6 +26,7 @@ public:
 
     void initialise(const juce::String&) override
     {
+        muteSoundLibraries();
         if (const auto code = readCommandLine(choices, getCommandLineParameterArray()))
         {
             setApplicationReturnValue(*code);

@@ -25,37 +25,6 @@
 namespace pacini::cli
 {
 
-#if defined(__GLIBC__)
-namespace
-{
-ssize_t writeUnlessFromSoundLibrary(void*, const char* bytes, size_t size)
-{
-    if (SoundLibraryCall::isActive())
-        return static_cast<ssize_t>(size);
-    for (size_t done = 0; done < size;)
-    {
-        const ssize_t written = ::write(STDERR_FILENO, bytes + done, size - done);
-        if (written <= 0)
-            return 0; // means failure to the C library
-        done += static_cast<size_t>(written);
-    }
-    return static_cast<ssize_t>(size);
-}
-
-/// Lets all of stderr through but what libsndfile's codecs say of files on which they choke: it names their own sources
-/// and nothing that would help, and the reader reports these files anyway. The calls that print run in the thread that
-/// reads, so no other thread's messages are held up.
-void leaveOutSoundLibraries() noexcept
-{
-    if (std::FILE* filtered = ::fopencookie(nullptr, "w", {nullptr, writeUnlessFromSoundLibrary, nullptr, nullptr}))
-    {
-        std::setvbuf(filtered, nullptr, _IONBF, 0);
-        stderr = filtered; // a variable in the GNU C library, as its manual says
-    }
-}
-} // namespace
-#endif
-
 #if defined(_WIN32)
 namespace
 {
@@ -80,9 +49,7 @@ void prepareProcess() noexcept
     ::signal(SIGXFSZ, SIG_IGN);
     ::signal(SIGPIPE, SIG_IGN);
 #endif
-#if defined(__GLIBC__)
-    leaveOutSoundLibraries();
-#endif
+    muteSoundLibraries();
     removeTemporariesOnSignals();
 }
 

@@ -10,8 +10,7 @@
 namespace pacini
 {
 
-/// While it lives, its thread is inside libsndfile, whose MP3 part prints on stderr; the owner of stderr can query this
-/// and drop the output.
+/// While it lives, its thread is inside libsndfile, whose MP3 part prints on stderr; muteSoundLibraries() drops that.
 class SoundLibraryCall
 {
 public:
@@ -25,6 +24,12 @@ public:
 private:
     static inline thread_local int depth = 0;
 };
+
+/// Lets all that the C library's stderr is given through but what libsndfile's codecs say of files on which they choke:
+/// they name their own sources and nothing that would help, and the reader reports these files anyway. For the start of
+/// programs and of modules that are never unloaded; the second call does nothing. No effect beside other C libraries
+/// than GNU's.
+void muteSoundLibraries() noexcept;
 
 struct SoundCloser
 {

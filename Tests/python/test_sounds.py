@@ -5,6 +5,7 @@ import inspect
 import json
 import multiprocessing
 import os
+import random
 import signal
 import struct
 import subprocess
@@ -202,6 +203,21 @@ class Arrays(FolderTest):
         self.assertEqual(pacini.write_audio(self.folder / "b.wav", loud, RATE, encoding="pcm16"), 1)
         self.refuses("encoding", "invalidArgument", pacini.write_audio, self.folder / "c.wav", loud, RATE, encoding="8")
         self.assertEqual(sorted(path.name for path in self.folder.iterdir()), ["a.wav", "b.wav", "text.wav"])
+
+    def test_nothing_is_printed_of_damaged_mp3_files(self):
+        whole = (SOURCE / "Tests/io/audio/tone.mp3").read_bytes()
+        source = random.Random(5)
+        for number in range(40):
+            content = bytearray(whole)
+            for _ in range(source.choice((1, 3, 10, 60))):
+                content[source.randrange(len(content))] = source.randrange(256)
+            (self.folder / f"{number}.mp3").write_bytes(bytes(content[source.choice((0, source.randrange(900))):]))
+        program = ("import pacini, pathlib, sys\nprint('before', file=sys.stderr)\n"
+                   "for path in sorted(pathlib.Path(sys.argv[1]).glob('*.mp3')):\n"
+                   "    try:\n        pacini.encode(path)\n    except pacini.Error:\n        pass\n")
+        done = subprocess.run([sys.executable, "-W", "ignore", "-c", program, self.folder], capture_output=True,
+                              text=True)
+        self.assertEqual((done.returncode, done.stderr), (0, "before\n"))
 
     def test_samples_that_are_no_sound_are_no_silence_for_comparisons(self):
         sound = knocks(0.5)

@@ -66,6 +66,7 @@ public:
 
     void initialise(const juce::String&) override
     {
+        muteSoundLibraries();
         Options options;
         if (const auto code = readOptions(options))
         {

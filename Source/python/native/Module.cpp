@@ -1,5 +1,6 @@
 // The module pacini._native: implementation of the package behind its public interface.
 
+#include "io/SoundHandle.h"
 #include "python/native/Support.h"
 
 namespace pacini::python
@@ -8,6 +9,7 @@ namespace pacini::python
 NB_MODULE(_native, module)
 {
     module.doc() = "Pacini's core. Use the package pacini, which is made of it; this changes without notice.";
+    muteSoundLibraries();
     bindProfile(module);
     bindClip(module);
     bindEncode(module);
