@@ -173,13 +173,14 @@ struct AudioReader::State
     std::optional<FilmSound> film; // instead of parts, view and sound
 
     /// Opens a sound that ffmpeg decodes. `parts` are those of a file of chunks, or empty.
-    Result<void> openFilm(const fs::path& path)
+    Result<void> openFilm(const fs::path& path, std::uint64_t begin = 0)
     {
         const SoundPart* const chunked = parts.empty() ? nullptr : &parts.front();
         const bool isCut = chunked && chunked->promisedBytes && !chunked->isWhole;
         if (isCut && !options.allowTruncated)
             return truncated(chunked->presentBytes, *chunked->promisedBytes, "bytes of audio");
-        auto opened = FilmSound::open(path, file.get(), {options.allowTruncated, chunked && chunked->promisedBytes});
+        auto opened =
+            FilmSound::open(path, file.get(), {options.allowTruncated, chunked && chunked->promisedBytes, begin});
         if (!opened)
             return opened.error();
         film.emplace(std::move(*opened));
@@ -559,14 +560,16 @@ Result<AudioReader> AudioReader::open(const fs::path& path, AudioReadOptions opt
     bool film = isFilm(state->file.get(), 0);
     if (!film)
     {
+    std::uint64_t filmBegin = 0;
         state->parts = soundParts(state->file.get());
         if (state->parts.empty())
             return invalid("is empty; choose a file with audio");
-        film = isFilm(state->file.get(), state->parts.front().begin); // behind a tag
+        filmBegin = state->parts.front().begin; // behind a tag
+        film = isFilm(state->file.get(), filmBegin);
         if (film)
             state->parts.clear();
     }
-    auto opened = film ? state->openFilm(path) : state->openPart();
+    auto opened = film ? state->openFilm(path, filmBegin) : state->openPart();
     if (!opened && !film && !state->sound && state->isForeign())
     {
         film = true;

@@ -83,7 +83,7 @@ Error notInstalled(std::string_view program)
 /// How the programs are to open the film: nothing that it names elsewhere, and no more memory than a block needs.
 std::vector<std::string> safely(const char* level)
 {
-    return {"-v", level, "-protocol_whitelist", "file,pipe", "-max_alloc", "134217728"};
+    return {"-v", level, "-protocol_whitelist", "file,pipe,subfile", "-max_alloc", "134217728"};
 }
 
 std::string textOf(const Json& object, const char* name)
@@ -196,6 +196,14 @@ std::uint64_t missingBytesOfFlv(std::FILE* opened)
     return offset > file.size() ? offset - file.size() : 0;
 }
 
+/// Whether a box of an MP4 or MOV begins there that may be the first.
+bool isMp4(std::FILE* opened, std::uint64_t begin)
+{
+    ByteWindow file(opened);
+    const auto boxes = {"ftyp"sv, "moov"sv, "mdat"sv, "wide"sv, "free"sv, "skip"sv, "pnot"sv};
+    return std::any_of(boxes.begin(), boxes.end(), [&](std::string_view box) { return file.has(begin + 4, box); });
+}
+
 /// What a person calls a track: `2 (eng, 5.1)`.
 std::string trackText(std::size_t number, const Json& stream)
 {
@@ -215,9 +223,8 @@ bool isFilm(std::FILE* opened, std::uint64_t begin)
     {
         return file.has(begin + offset, text);
     };
-    for (const std::string_view box : {"ftyp"sv, "moov"sv, "mdat"sv, "wide"sv, "free"sv, "skip"sv, "pnot"sv})
-        if (at(4, box))
-            return true;
+    if (isMp4(opened, begin))
+        return true;
     for (const std::string_view id : {"FLV\1"sv, "\x30\x26\xB2\x75\x8E\x66\xCF\x11"sv, "wvpk"sv, "MAC "sv, "TTA1"sv,
                                       "#!AMR"sv, "\x7F\xFE\x80\x01"sv, "\xFE\x7F\x01\x80"sv})
         if (at(0, id))
@@ -238,7 +245,11 @@ Result<FilmSound> FilmSound::open(const fs::path& path, std::FILE* file, const O
     std::FILE* const input = named ? nullptr : file;
     const auto place = fs::absolute(path, unknown).u8string();
     // With its protocol, so that no name is taken for an option or an address.
-    const std::string name = "file:" + (named ? std::string(place.begin(), place.end()) : "/dev/fd/0");
+    std::string name = "file:" + (named ? std::string(place.begin(), place.end()) : "/dev/fd/0");
+    // An MP4 counts its offsets from its own start.
+    const bool isBehindTag = options.begin > 0 && isMp4(file, options.begin);
+    if (isBehindTag)
+        name = fmt::format("subfile,,start,{},end,0,,:{}", options.begin, name);
 
     constexpr const char* entries =
         "stream=index,codec_type,codec_name,sample_rate,channels,channel_layout,start_time,duration:"
@@ -343,7 +354,7 @@ Result<FilmSound> FilmSound::open(const fs::path& path, std::FILE* file, const O
     if (const auto whole = sound.checkCut(file, kind); !whole)
         return whole.error();
     const double index = numberOf(track, "index").value_or(0.0);
-    sound.checkTables(file, index);
+    sound.checkTables(file, isBehindTag ? options.begin : 0, index);
 
     std::size_t number = 0;
     for (const Json* chapter : listOf(found, "chapters"))
@@ -443,9 +454,9 @@ Result<void> FilmSound::checkCut(std::FILE* file, const std::string& kind)
 }
 
 /// What the tables of an MP4 state beside what ffmpeg believes of them.
-void FilmSound::checkTables(std::FILE* file, double index)
+void FilmSound::checkTables(std::FILE* file, std::uint64_t begin, double index)
 {
-    auto tracks = mp4Tracks(file);
+    auto tracks = mp4Tracks(file, begin);
     if (!(index >= 0.0 && index < static_cast<double>(tracks.size())))
         return;
     Mp4Track& track = tracks[static_cast<std::size_t>(index)];

@@ -37,7 +37,8 @@ public:
     struct Options
     {
         bool allowTruncated = false;
-        bool toTheEnd = false; ///< whatever size a WAV states for its sound
+        bool toTheEnd = false;   ///< whatever size a WAV states for its sound
+        std::uint64_t begin = 0; ///< byte at which the film begins, behind a tag
     };
 
     /// `file` is what was opened at `path`; the programs open the path themselves unless it is a pipe. Errors:
@@ -75,7 +76,7 @@ private:
     [[nodiscard]] std::size_t readFrames(std::span<float> interleaved);
     [[nodiscard]] Result<void> explainEnd();
     [[nodiscard]] Result<void> checkCut(std::FILE* file, const std::string& kind);
-    void checkTables(std::FILE* file, double index);
+    void checkTables(std::FILE* file, std::uint64_t begin, double index);
 
     int rate = 0;
     int width = 0;

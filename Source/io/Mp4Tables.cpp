@@ -9,7 +9,9 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <string_view>
+#include <utility>
 
 namespace pacini
 {
@@ -31,25 +33,25 @@ constexpr std::uint64_t mostRows = 1u << 24u; // of a table
 class Mp4Reader
 {
 public:
-    explicit Mp4Reader(std::FILE* opened) : file(opened) {}
+    Mp4Reader(std::FILE* opened, std::uint64_t start) : file(opened), begin(start) {}
 
     std::vector<Mp4Track> tracks()
     {
-        const Mp4Box whole{0, file.size()};
+        const Mp4Box whole{begin, std::max(begin, file.size())};
         const auto movie = child(whole, "moov");
         if (!movie)
             return {};
         const auto fragments = children(whole, "moof");
         const bool isWhole = stopped + 8 > whole.end || areZeros(file, stopped, whole.end);
         const bool isFragmented = !fragments.empty() || child(*movie, "mvex");
-        if (isFragmented && (fragments.empty() || fragments.size() * 2 >= mostBoxes))
+        if (isFragmented && fragments.size() * 2 >= mostBoxes)
             return {};
         const auto header = child(*movie, "mvhd");
         movieScale = header ? timeScale(*header) : 0;
         std::vector<Mp4Track> all;
         for (const Mp4Box& box : children(*movie, "trak"))
             all.push_back(isFragmented ? fragmentedTrack(box, *movie, fragments, isWhole) : track(box));
-        if (children({0, file.size()}, "moov").size() > 1)
+        if (children(whole, "moov").size() > 1)
             for (Mp4Track& one : all)
                 one.doubts.emplace_back("has another film behind it, which is left out; save it as a file of its own");
         return all;
@@ -155,7 +157,7 @@ private:
             const double tolerance = areAlike ? 0.006 : 0.011 + 1.0 / static_cast<double>(timed);
             checkBlocks(found, descriptions, each / static_cast<double>(scale), tolerance);
         }
-        checkEdits(found, inner(box, {"edts", "elst"}));
+        checkEdits(found, inner(box, {"edts", "elst"}), scale);
         return found;
     }
 
@@ -166,39 +168,108 @@ private:
         const Mp4Box handler = inner(box, {"mdia", "hdlr"});
         if (handler.bytes() < 12 || !file.has(handler.begin + 8, "soun"))
             return found;
-        const Mp4Box header = inner(box, {"tkhd"});
-        const auto id = at(header, at(header, 0, 1) == 1 ? 20 : 12, 4);
+        const auto id = idOf(box);
         const auto scale = timeScale(inner(box, {"mdia", "mdhd"}));
-        const Mp4Box times = inner(box, {"mdia", "minf", "stbl", "stts"});
-        double ticks = 0.0;
+        const Mp4Box tables = inner(box, {"mdia", "minf", "stbl"});
+        const Mp4Box times = inner(tables, {"stts"});
+        Run all;
         for (std::uint64_t i = 0; i < rows(times, 4, 8); ++i)
-            ticks += static_cast<double>(at(times, 8 + 8 * i, 4)) * static_cast<double>(at(times, 12 + 8 * i, 4));
-        std::uint64_t usual = 0; // ticks of a block, where nothing else is stated
-        for (const Mp4Box& defaults : children(inner(movie, {"mvex"}), "trex"))
-            if (at(defaults, 4, 4) == id)
-                usual = at(defaults, 12, 4);
-        for (const Mp4Box& fragment : fragments)
-            for (const Mp4Box& piece : children(fragment, "traf"))
-                ticks += ticksOf(piece, id, usual);
-        found.seconds = found.played = scale > 0 ? ticks / static_cast<double>(scale) : 0.0;
-        if (!isWhole)
+        {
+            const auto count = at(times, 8 + 8 * i, 4);
+            all.blocks += count;
+            all.ticks += static_cast<double>(count) * static_cast<double>(at(times, 12 + 8 * i, 4));
+        }
+        std::set<std::uint64_t> known; // tracks of the movie
+        for (const Mp4Box& one : children(movie, "trak"))
+            known.insert(idOf(one));
+        bool agree = true;
+        for (std::size_t i = 0; i < fragments.size(); ++i)
+        {
+            const auto until = i + 1 < fragments.size() ? fragments[i + 1].begin - 8 : file.size();
+            agree = addFragment(all, fragments[i], movie, id, known, until) && agree;
+        }
+        found.seconds = found.played = scale > 0 ? all.ticks / static_cast<double>(scale) : 0.0;
+        if (!isWhole || fragments.empty())
             found.doubts.emplace_back(
                 "is damaged or cut off between its fragments; some of its sound may be missing; get "
                 "a complete copy");
+        else if (!agree)
+            found.doubts.emplace_back("has fragments whose tables disagree with what is in them; some of its sound may "
+                                      "be missing; get a complete copy");
+        const Mp4Box descriptions = inner(tables, {"stsd"});
+        if (all.blocks > 0 && scale > 0 && descriptions.bytes() >= 8 + 36)
+        {
+            const auto blocks = static_cast<double>(all.blocks);
+            checkBlocks(found, descriptions, all.ticks / blocks / static_cast<double>(scale), 0.011 + 1.0 / blocks);
+        }
+        checkEdits(found, inner(box, {"edts", "elst"}), scale);
         return found;
     }
 
-    /// How long the blocks of a track last that a fragment tells of: 0 if it is about another track.
-    double ticksOf(const Mp4Box& piece, std::uint64_t id, std::uint64_t usual)
+    /// Blocks of one track.
+    struct Run
     {
-        constexpr std::uint64_t hasBase = 1, hasDescription = 2, hasDuration = 8;
-        const Mp4Box header = inner(piece, {"tfhd"});
-        if (at(header, 4, 4) != id)
-            return 0.0;
-        const auto flags = at(header, 1, 3);
-        if ((flags & hasDuration) != 0)
-            usual = at(header, 8 + ((flags & hasBase) != 0 ? 8u : 0u) + ((flags & hasDescription) != 0 ? 4u : 0u), 4);
+        std::uint64_t blocks = 0;
         double ticks = 0.0;
+        std::uint64_t bytes = 0;
+        bool areSized = true; ///< all of them state how many bytes they have
+        bool isWhole = true;  ///< their tables have as many rows as they state
+    };
+
+    /// The number that a track has in its movie.
+    std::uint64_t idOf(const Mp4Box& track)
+    {
+        const Mp4Box header = inner(track, {"tkhd"});
+        return at(header, at(header, 0, 1) == 1 ? 20 : 12, 4);
+    }
+
+    /// Adds the blocks of track `id` in a fragment to `all`; whether it tells of all that lies between it and `until`.
+    bool addFragment(Run& all, const Mp4Box& fragment, const Mp4Box& movie, std::uint64_t id,
+                     const std::set<std::uint64_t>& known, std::uint64_t until)
+    {
+        const auto pieces = children(fragment, "traf");
+        bool isWhole = !pieces.empty() && stopped == fragment.end;
+        std::uint64_t told = 0;
+        bool areSized = true;
+        for (const Mp4Box& piece : pieces)
+        {
+            constexpr std::uint64_t isEmpty = 0x10000;
+            const Mp4Box header = inner(piece, {"tfhd"});
+            const auto owner = at(header, 4, 4);
+            const Run run = runOf(piece, header, movie);
+            isWhole = isWhole && run.isWhole && known.contains(owner) &&
+                      (run.blocks > 0 || (at(header, 1, 3) & isEmpty) != 0);
+            told += run.bytes;
+            areSized = areSized && run.areSized;
+            if (owner != id)
+                continue;
+            all.blocks += run.blocks;
+            all.ticks += run.ticks;
+        }
+        std::uint64_t there = 0;
+        for (const Mp4Box& data : children({fragment.end, until}, "mdat"))
+            there += data.bytes();
+        return isWhole && (!areSized || told == there);
+    }
+
+    /// The blocks that a fragment tells of one track.
+    Run runOf(const Mp4Box& piece, const Mp4Box& header, const Mp4Box& movie)
+    {
+        constexpr std::uint64_t hasBase = 1, hasDescription = 2, hasDuration = 8, hasSize = 16;
+        std::uint64_t usual = 0, size = 0; // ticks and bytes of a block, where nothing else is stated
+        for (const Mp4Box& defaults : children(inner(movie, {"mvex"}), "trex"))
+            if (at(defaults, 4, 4) == at(header, 4, 4))
+            {
+                usual = at(defaults, 12, 4);
+                size = at(defaults, 16, 4);
+            }
+        const auto flags = at(header, 1, 3);
+        std::uint64_t place = 8 + ((flags & hasBase) != 0 ? 8u : 0u) + ((flags & hasDescription) != 0 ? 4u : 0u);
+        if ((flags & hasDuration) != 0)
+            usual = at(header, std::exchange(place, place + 4), 4);
+        if ((flags & hasSize) != 0)
+            size = at(header, place, 4);
+        Run all;
         for (const Mp4Box& run : children(piece, "trun"))
         {
             // An offset of the data, flags of the first block, then up to four numbers of each block.
@@ -208,13 +279,24 @@ private:
             std::uint64_t bytes = 0;
             for (const std::uint64_t one : {0x100u, 0x200u, 0x400u, 0x800u})
                 bytes += (what & one) != 0 ? 4u : 0u;
-            if ((what & 0x100u) == 0)
-                ticks += static_cast<double>(count) * static_cast<double>(usual);
-            else
-                for (std::uint64_t i = 0; i < count && first + i * bytes < run.bytes(); ++i)
-                    ticks += static_cast<double>(at(run, first + i * bytes, 4));
+            const bool isTimed = (what & 0x100u) != 0, isSized = (what & 0x200u) != 0;
+            const auto there = bytes > 0 && run.bytes() > first ? (run.bytes() - first) / bytes : 0;
+            all.blocks += count;
+            all.areSized = all.areSized && (isSized || size > 0);
+            all.isWhole = all.isWhole && (bytes == 0 || count == there);
+            if (!isTimed)
+                all.ticks += static_cast<double>(count) * static_cast<double>(usual);
+            if (!isSized)
+                all.bytes += count * size;
+            for (std::uint64_t i = 0; (isTimed || isSized) && i < std::min(count, there); ++i)
+            {
+                if (isTimed)
+                    all.ticks += static_cast<double>(at(run, first + i * bytes, 4));
+                if (isSized)
+                    all.bytes += at(run, first + i * bytes + (isTimed ? 4 : 0), 4);
+            }
         }
-        return ticks;
+        return all;
     }
 
     /// Blocks by the table that says how many are in each chunk: first chunk, blocks, description.
@@ -254,7 +336,7 @@ private:
                                       "or be at wrong times; get a complete copy");
     }
 
-    void checkEdits(Mp4Track& found, const Mp4Box& list)
+    void checkEdits(Mp4Track& found, const Mp4Box& list, std::uint64_t scale)
     {
         if (list.bytes() == 0)
             return;
@@ -262,23 +344,31 @@ private:
         const std::uint64_t width = isLong ? 8 : 4, row = 2 * width + 4;
         const std::uint64_t nothing = isLong ? ~std::uint64_t{0} : 0xFFFFFFFFu;
         double ticks = 0.0;
+        std::optional<std::uint64_t> skipped; // ticks of the media before the first that is played
         for (std::uint64_t i = 0; i < rows(list, 4, row); ++i)
-            if (at(list, 8 + row * i + width, width) != nothing)
+            if (const auto start = at(list, 8 + row * i + width, width); start != nothing)
+            {
                 ticks += static_cast<double>(at(list, 8 + row * i, width));
+                skipped = std::min(start, skipped.value_or(start));
+            }
+        if (scale > 0)
+            found.played -=
+                std::min(found.played, static_cast<double>(skipped.value_or(0)) / static_cast<double>(scale));
         // 0 stands for all of it.
         if (ticks > 0.0)
-            found.played = movieScale > 0 ? std::min(found.seconds, ticks / static_cast<double>(movieScale)) : 0.0;
+            found.played = movieScale > 0 ? std::min(found.played, ticks / static_cast<double>(movieScale)) : 0.0;
     }
 
     ByteWindow file;
+    std::uint64_t begin = 0;
     std::uint64_t movieScale = 0;
     std::uint64_t stopped = 0; ///< where the boxes ended that were looked at last
 };
 } // namespace
 
-std::vector<Mp4Track> mp4Tracks(std::FILE* file)
+std::vector<Mp4Track> mp4Tracks(std::FILE* file, std::uint64_t begin)
 {
-    return Mp4Reader(file).tracks();
+    return Mp4Reader(file, begin).tracks();
 }
 
 } // namespace pacini

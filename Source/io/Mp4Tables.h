@@ -2,6 +2,7 @@
 
 // Tables of the sounds of an MP4 or MOV file, which players believe without a word where they contradict each other.
 
+#include <cstdint>
 #include <cstdio>
 #include <string>
 #include <vector>
@@ -19,8 +20,8 @@ struct Mp4Track
 };
 
 /// The tracks of an MP4 or MOV file in their order, those that are no sound with 0 s; in fragments by what these
-/// state. None for other files. Moves the stream's position; trusts no number. Source: ISO/IEC
-/// 14496-12.
-[[nodiscard]] std::vector<Mp4Track> mp4Tracks(std::FILE* file);
+/// state. None for other files. The film begins at byte `begin`, behind a tag. Moves the stream's position; trusts no
+/// number. Source: ISO/IEC 14496-12.
+[[nodiscard]] std::vector<Mp4Track> mp4Tracks(std::FILE* file, std::uint64_t begin = 0);
 
 } // namespace pacini

@@ -2,6 +2,7 @@
 
 #include "io/AudioHeader.h"
 #include "io/ByteWindow.h"
+#include "io/FilmSound.h"
 #include "io/MpegFrames.h"
 #include "io/SoundCodec.h"
 #include "io/SoundTags.h"
@@ -37,7 +38,7 @@ bool hasMpegSync(ByteWindow& file, std::uint64_t offset)
 class Planner
 {
 public:
-    explicit Planner(std::FILE* opened) : file(opened), end(file.size()) {}
+    explicit Planner(std::FILE* source) : opened(source), file(source), end(file.size()) {}
 
     std::vector<SoundPart> run()
     {
@@ -111,7 +112,7 @@ private:
                 begin = next;
                 continue;
             }
-            return searched(begin);
+            return next < end && isFilm(opened, next) ? next : searched(begin);
         }
         return begin;
     }
@@ -122,7 +123,7 @@ private:
     {
         constexpr std::uint64_t reach = 4096, window = 65536;
         constexpr std::size_t fewestFrames = 8; // which chance does not make
-        if (startsSound(file, begin) || hasMpegSync(file, begin))
+        if (startsSound(file, begin) || hasMpegSync(file, begin) || isFilm(opened, begin))
             return begin;
         const auto from = behindZeros(begin);
         const auto last = std::min(end, from + reach);
@@ -586,4 +587,5 @@ std::optional<SoundPart> nextFlac(std::FILE* file, std::uint64_t offset, std::ui
     return begin < end ? std::optional(Planner(file).flac(begin)) : std::nullopt;
 }
 
+    std::FILE* opened;
 } // namespace pacini

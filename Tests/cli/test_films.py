@@ -124,6 +124,16 @@ class Films(FilmTest):
         self.assertEqual([(marker["time"], marker["name"]) for marker in self.clip_read["markers"]],
                          [(0, "door"), (1.5, "rain")])
 
+    def test_an_mp4_behind_a_tag_is_read(self):
+        for name, options in (("late.m4a", ()), ("first.m4a", ("-movflags", "+faststart")),
+                              ("lossless.m4a", ("-c:a", "alac")), ("parts.mp4", ("-movflags", "+frag_keyframe+empty_moov"))):
+            self.ffmpeg("-i", "sound.wav", *options, name)
+            expected = self.events(name)
+            for tag in (b"ID3\4\0\0\0\0\2\0" + bytes(256), b"ID3\3\0\0\0\1\0\0" + b"\xff\xfb\x90\x44" * 4096):
+                self.put("tagged" + name, tag + (self.folder / name).read_bytes())
+                self.assertEqual(self.events("tagged" + name), expected)
+                self.assertEqual(self.said, "", name)
+
     def test_a_film_that_is_cut_off_is_refused_or_read_with_a_word(self):
         for name, codec in (("a.mp4", "aac"), ("a.mkv", "aac"), ("a.avi", "pcm_s16le")):
             self.film(name, "-c:a", codec, *(("-movflags", "+faststart") if name == "a.mp4" else ()))

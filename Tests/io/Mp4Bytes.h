@@ -55,4 +55,36 @@ inline std::string mp4Bytes(std::uint32_t blocks, std::uint32_t rate, std::uint3
            mp4Box("mdat", std::string(std::size_t{blocks} * blockBytes, 'x'));
 }
 
+/// The same sound in `fragments` of `perFragment` blocks, which are told of in front of each.
+inline std::string fragmentedMp4Bytes(std::uint32_t fragments, std::uint32_t perFragment, std::uint32_t rate)
+{
+    constexpr std::uint32_t blockBytes = 20;
+    const std::string plain(4, '\0');
+    std::string whole = mp4Bytes(1, rate, 1);
+    whole.resize(whole.find("mdat") - 4);
+    // Its tables are empty; there are no edits, but the lengths of blocks where nothing else is stated.
+    for (const std::string table : {"stts", "stsc", "stsz", "stco"})
+    {
+        const auto place = whole.find(table);
+        const auto count = place + (table == "stsz" ? 12 : 8);
+        whole.replace(count, 4, plain);
+    }
+    whole.replace(whole.find("edts"), 4, "free");
+    const std::string more =
+        mp4Box("mvex", mp4Box("trex", plain + plain + bigEndian(1, 4) + bigEndian(1024, 4) + plain + plain));
+    const auto movie = whole.find("moov") - 4;
+    whole.replace(movie, 4, bigEndian(whole.size() - movie + more.size(), 4));
+    whole += more;
+    std::string run = bigEndian(0x201, 4) + bigEndian(perFragment, 4) + plain;
+    for (std::uint32_t i = 0; i < perFragment; ++i)
+        run += bigEndian(blockBytes, 4);
+    for (std::uint32_t i = 0; i < fragments; ++i)
+        whole += mp4Box("moof", mp4Box("mfhd", plain + bigEndian(i + 1, 4)) +
+                                    mp4Box("traf", mp4Box("tfhd", bigEndian(0x20000, 4) + plain) +
+                                                       mp4Box("tfdt", plain + bigEndian(i * perFragment * 1024, 4)) +
+                                                       mp4Box("trun", run))) +
+                 mp4Box("mdat", std::string(std::size_t{perFragment} * blockBytes, 'x'));
+    return whole;
+}
+
 } // namespace pacini::test
