@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <iterator>
 #include <limits>
+#include <utility>
 
 namespace pacini
 {
@@ -68,6 +69,19 @@ std::optional<std::uint64_t> nextChunk(ByteWindow& file, const ChunkLayout& layo
     return offset + whole;
 }
 
+/// Where the first chunk of a list of waves is, if one begins at `offset`: audio and silence one behind the other.
+std::optional<std::uint64_t> insideWaves(ByteWindow& file, const ChunkLayout& layout, std::uint64_t offset)
+{
+    const bool isList = layout.isWave() && file.has(offset, "LIST") && file.has(offset + 8, "wavl");
+    return isList ? std::optional(offset + 12) : std::nullopt;
+}
+
+/// The frames of silence that the chunk at `offset` states, 0 for other chunks.
+std::uint64_t silenceAt(ByteWindow& file, const ChunkLayout& layout, std::uint64_t offset)
+{
+    return layout.isWave() && file.has(offset, "slnt") ? file.number(offset + 8, 4, layout.bigEndian) : 0;
+}
+
 /// Where the chunk begins that follows one whose content ends at `next`: chunks of odd length may lack the byte of
 /// padding behind them.
 std::uint64_t behindPadding(ByteWindow& file, const ChunkLayout& layout, std::uint64_t next, std::uint64_t begin)
@@ -83,7 +97,8 @@ std::optional<std::uint64_t> statedByAiff(ByteWindow& file, std::uint64_t begin,
     {
         if (!file.has(chunk.offset, "COMM") || chunk.bytes < 18)
             continue;
-        const auto channels = file.number(chunk.content, 2, true), bits = file.number(chunk.content + 6, 2, true);
+        const auto channels = file.number(chunk.content, 2, true);
+        const auto bits = bitsOfAifcCodec(file, chunk).value_or(file.number(chunk.content + 6, 2, true));
         const auto codec = chunk.content + 18;
         const bool isPacked =
             chunk.bytes >= 22 && (file.has(codec, "ima4") || file.has(codec, "GSM ") || file.has(codec, "agsm") ||
@@ -158,6 +173,8 @@ std::optional<AudioChunk> walk(ByteWindow& file, const ChunkLayout& layout, std:
     std::optional<std::uint64_t> longSize;
     bool isUnpadded = false;
     int formats = 0; // libsndfile gives up at a second one
+    bool isInWaves = false;
+    std::uint64_t silence = 0;
     auto offset = begin + layout.firstChunk;
     for (int chunk = 0; chunk < maxChunks && offset + headerBytes <= end; ++chunk)
     {
@@ -172,9 +189,17 @@ std::optional<AudioChunk> walk(ByteWindow& file, const ChunkLayout& layout, std:
             if (found.promise == 0u)
                 if (auto later = nextAudioChunk(file, layout, begin, found.start, end); later && later->promise != 0u)
                     return later;
-            found.isHidden = isUnpadded || formats > 1;
+            found.isHidden = isUnpadded || isInWaves || (layout.isWave() && formats != 1);
+            found.silence = silence;
             return found;
         }
+        if (const auto inside = insideWaves(file, layout, offset))
+        {
+            isInWaves = true;
+            offset = *inside;
+            continue;
+        }
+        silence += silenceAt(file, layout, offset);
         formats += layout.isWave() && file.has(offset, "fmt ") ? 1 : 0;
         const auto next = nextChunk(file, layout, offset, end);
         if (!next)
@@ -207,17 +232,64 @@ std::optional<AudioChunk> findAudioChunk(ByteWindow& file, std::uint64_t begin, 
     return found;
 }
 
+std::optional<std::uint64_t> bitsOfAifcCodec(ByteWindow& file, const FileChunk& comm)
+{
+    constexpr std::uint64_t fixedBytes = 18; // before the codec
+    if (comm.bytes < fixedBytes + 4)
+        return {};
+    for (const auto& [codec, bits] : {std::pair("in24", 24u), std::pair("in32", 32u), std::pair("fl32", 32u),
+                                      std::pair("FL32", 32u), std::pair("fl64", 64u), std::pair("FL64", 64u)})
+        if (file.has(comm.content + fixedBytes, codec))
+            return bits;
+    return {};
+}
+
+std::uint64_t frameBytesOf(ByteWindow& file, std::uint64_t begin, std::uint64_t end)
+{
+    if (file.has(begin, ".snd") || file.has(begin, "dns."))
+    {
+        const bool isSun = file.has(begin, ".snd");
+        constexpr std::uint64_t widths[] = {0, 1, 1, 2, 3, 4, 4, 8};
+        const auto codec = file.number(begin + 12, 4, isSun);
+        return codec < std::size(widths) ? widths[codec] * file.number(begin + 20, 4, isSun) : 0;
+    }
+    for (const FileChunk& chunk : chunksOf(file, begin, end, 0))
+    {
+        if (file.has(chunk.offset, "fmt ") && chunk.bytes >= 16)
+        {
+            constexpr std::uint64_t pcm = 1, floats = 3, extensible = 0xFFFE;
+            const bool isBig = file.has(begin, "RIFX");
+            const auto codec = file.number(chunk.content, 2, isBig);
+            return codec == pcm || codec == floats || codec == extensible ? file.number(chunk.content + 12, 2, isBig)
+                                                                          : 0;
+        }
+        if (file.has(chunk.offset, "COMM") && chunk.bytes == 18) // without a codec
+            return file.number(chunk.content, 2, true) * ((file.number(chunk.content + 6, 2, true) + 7) / 8);
+        if (file.has(chunk.offset, "desc") && chunk.bytes >= 32 && file.has(chunk.content + 8, "lpcm"))
+            return file.number(chunk.content + 16, 4, true);
+    }
+    return 0;
+}
+
 std::optional<AudioChunk> nextAudioChunk(ByteWindow& file, const ChunkLayout& layout, std::uint64_t begin,
                                          std::uint64_t offset, std::uint64_t end)
 {
+    std::uint64_t silence = 0;
     for (int chunk = 0; chunk < maxChunks && offset < end; ++chunk)
     {
         if (!hasId(file, layout, offset) || startsSound(file, offset))
             return {};
+        if (const auto inside = insideWaves(file, layout, offset))
+        {
+            offset = *inside;
+            continue;
+        }
+        silence += silenceAt(file, layout, offset);
         if (file.has(offset, layout.dataId))
         {
             auto found = audioChunkAt(file, layout, begin, offset, end, {});
             found.isHidden = true;
+            found.silence = silence;
             return found.present(end) > 0 ? std::optional(found) : std::nullopt;
         }
         const auto next = nextChunk(file, layout, offset, end);

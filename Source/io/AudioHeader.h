@@ -40,6 +40,7 @@ struct AudioChunk
     bool isHidden = false;                ///< libsndfile does not find it behind what comes before it
     bool bigEndian = false;               ///< byte order of the size
     std::uint64_t wrongOffset = 0;        ///< of an AIFF: where an offset is that cannot be true
+    std::uint64_t silence = 0;            ///< frames of silence in front of it, by a list of waves
 
     [[nodiscard]] std::uint64_t present(std::uint64_t end) const noexcept { return end > start ? end - start : 0; }
 };
@@ -55,6 +56,14 @@ struct FileChunk
 /// Finds the audio chunk of the file that begins at `begin` and may last until `end`. Nothing when the format has none
 /// (FLAC, Ogg, MP3), or when there is no such chunk. Trusts no number of the file.
 [[nodiscard]] std::optional<AudioChunk> findAudioChunk(ByteWindow& file, std::uint64_t begin, std::uint64_t end);
+
+/// The bits of a sample by the codec that the COMM of an AIFC names at `content`; nothing where its own number counts.
+/// QuickTime states 16 bits beside all of these.
+[[nodiscard]] std::optional<std::uint64_t> bitsOfAifcCodec(ByteWindow& file, const FileChunk& comm);
+
+/// The bytes of one frame by the header of the file that begins at `begin`; 0 where samples are packed together or
+/// nothing tells.
+[[nodiscard]] std::uint64_t frameBytesOf(ByteWindow& file, std::uint64_t begin, std::uint64_t end);
 
 /// The next audio chunk of the same file, if chunks and nothing else lie between it and `offset`: a sound may be stored
 /// in several. `begin` is where the file begins.

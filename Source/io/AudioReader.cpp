@@ -161,7 +161,8 @@ struct AudioReader::State
     SF_INFO info{};
     AudioReadOptions options;
     std::uint64_t delivered = 0;       ///< frames
-    std::uint64_t deliveredBefore = 0; ///< those of earlier parts
+    std::uint64_t deliveredBefore = 0; ///< those of earlier parts, and silence in front of this one
+    std::uint64_t silence = 0;         ///< frames that are still to come before the current part
     std::uint64_t replaced = 0;
     bool ended = false;
     std::vector<std::string> warnings;
@@ -525,7 +526,8 @@ struct AudioReader::State
             if (opened && info.samplerate == before.samplerate && info.channels == before.channels)
             {
                 warnOfGap();
-                deliveredBefore = delivered;
+                silence = part().silence;
+                deliveredBefore = delivered + silence;
                 findMarkers();
                 return true;
             }
@@ -558,9 +560,9 @@ Result<AudioReader> AudioReader::open(const fs::path& path, AudioReadOptions opt
     state->file = std::move(*file);
     state->options = options;
     bool film = isFilm(state->file.get(), 0);
+    std::uint64_t filmBegin = 0;
     if (!film)
     {
-    std::uint64_t filmBegin = 0;
         state->parts = soundParts(state->file.get());
         if (state->parts.empty())
             return invalid("is empty; choose a file with audio");
@@ -582,6 +584,7 @@ Result<AudioReader> AudioReader::open(const fs::path& path, AudioReadOptions opt
     if (!film)
     {
         state->warnOfGap();
+        state->silence = state->deliveredBefore = state->part().silence;
         state->findMarkers();
     }
     if (!film)
@@ -678,6 +681,15 @@ Result<std::size_t> AudioReader::State::read(std::span<float> interleaved)
     while (done < wanted && !ended)
     {
         const auto rest = interleaved.subspan(done * channels);
+        if (silence > 0)
+        {
+            const auto frames = static_cast<std::size_t>(std::min<std::uint64_t>(silence, wanted - done));
+            std::fill_n(rest.begin(), frames * channels, 0.0f);
+            silence -= frames;
+            delivered += frames;
+            done += frames;
+            continue;
+        }
         sf_count_t count = 0;
         if (film)
         {

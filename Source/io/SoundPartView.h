@@ -23,18 +23,32 @@ struct SoundPartView
     std::uint64_t place = 0;
     bool hidesEnd = false; ///< it cannot be gone to
 
-    [[nodiscard]] std::uint64_t size() const noexcept { return part->end - std::min(part->begin, part->end); }
+    [[nodiscard]] std::uint64_t size() const noexcept
+    {
+        return part->head.size() + part->end - std::min(part->begin, part->end);
+    }
 
     bool goTo(std::uint64_t wanted)
     {
         place = wanted;
-        return seekStream(file, static_cast<std::int64_t>(part->begin + place), SEEK_SET);
+        const auto behindHead = place - std::min<std::uint64_t>(place, part->head.size());
+        return seekStream(file, static_cast<std::int64_t>(part->begin + behindHead), SEEK_SET);
     }
 
     std::size_t read(std::span<char> bytes)
     {
+        const auto fromHead = std::min<std::uint64_t>(
+            part->head.size() - std::min<std::uint64_t>(place, part->head.size()), bytes.size());
+        if (fromHead > 0)
+        {
+            part->head.copy(bytes.data(), static_cast<std::size_t>(fromHead), static_cast<std::size_t>(place));
+            place += fromHead;
+            return static_cast<std::size_t>(fromHead) + read(bytes.subspan(static_cast<std::size_t>(fromHead)));
+        }
+        if (bytes.empty())
+            return 0;
         const auto left = size() - std::min(place, size());
-        const auto from = part->begin + place;
+        const auto from = part->begin + place - part->head.size();
         const auto got =
             std::fread(bytes.data(), 1, static_cast<std::size_t>(std::min<std::uint64_t>(bytes.size(), left)), file);
         place += got;

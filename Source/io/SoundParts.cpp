@@ -212,6 +212,7 @@ private:
             return next;
         }
         addHeader(parts.back(), *found);
+        parts.back().silence = found->silence;
         while (const auto chunk = std::exchange(later, std::nullopt))
         {
             if (parts.size() == mostParts)
@@ -223,19 +224,23 @@ private:
             part.begin = begin;
             part.end = end;
             part.isContinued = true;
+            part.silence = chunk->silence;
             next = addAudio(part, *chunk);
             addHeader(part, *chunk);
         }
         return next;
     }
 
-    /// Lets a file begin later whose audio chunk libsndfile does not find: header and format are read again in front of
-    /// it.
+    /// Lets a file begin later whose audio chunk libsndfile does not find: header and format are read in front of it.
     void addHeader(SoundPart& part, const AudioChunk& chunk)
     {
         if (chunk.wrongOffset > 0)
             part.patches.push_back({chunk.wrongOffset, std::string(4, '\0')});
         const auto* layout = chunk.layout;
+        if (layout && layout->fileId == "FORM")
+            for (const FileChunk& piece : chunksOf(file, part.begin, end, 0))
+                if (const auto bits = file.has(piece.offset, "COMM") ? bitsOfAifcCodec(file, piece) : std::nullopt)
+                    part.patches.push_back({piece.content + 6, bytesOf(*bits, 2, true)});
         if (!chunk.isHidden || !layout)
             return;
         const auto audio = chunk.sizeField - layout->idBytes;
@@ -246,17 +251,22 @@ private:
             if (patch.offset >= part.begin && patch.offset + patch.bytes.size() <= part.begin + header.size())
                 header.replace(static_cast<std::size_t>(patch.offset - part.begin), patch.bytes.size(), patch.bytes);
         std::set<std::string_view> taken;
-        for (const FileChunk& piece : chunksOf(file, part.begin, audio, 0))
-            for (const std::string_view id : needed)
-                if (piece.bytes <= largest && file.has(piece.offset, id) && taken.insert(id).second)
-                {
-                    header += bytesAt(piece.offset, piece.content + piece.bytes - piece.offset);
-                    header.append((layout->alignment - header.size() % layout->alignment) % layout->alignment, '\0');
-                }
-        if (header.size() > audio)
-            return;
-        part.outerBegin = std::exchange(part.begin, audio - header.size());
-        part.patches.push_back({part.begin, std::move(header)});
+        const auto take = [&](std::uint64_t chunksEnd, std::uint64_t audioEnd)
+        {
+            for (const FileChunk& piece : chunksOf(file, part.begin, chunksEnd, audioEnd))
+                for (const std::string_view id : needed)
+                    if (piece.bytes <= largest && file.has(piece.offset, id) && taken.insert(id).second)
+                    {
+                        header += bytesAt(piece.offset, piece.content + piece.bytes - piece.offset);
+                        header.append((layout->alignment - header.size() % layout->alignment) % layout->alignment,
+                                      '\0');
+                    }
+        };
+        take(audio, 0);
+        if (layout->isWave() && !taken.contains("fmt "))
+            take(end, chunk.start + part.presentBytes);
+        part.outerBegin = std::exchange(part.begin, audio);
+        part.head = std::move(header);
     }
 
     std::string bytesAt(std::uint64_t offset, std::uint64_t count)
@@ -356,6 +366,15 @@ private:
         constexpr std::uint64_t mostPadding = 65536; // the largest blocks that discs are divided in
         if (*chunk.promise > 0 && soundEnd - stop <= mostPadding && areZeros(file, stop, soundEnd))
         {
+            part.leftOutBytes = soundEnd - stop;
+            return {};
+        }
+        // A few bytes that make no whole frame, behind a stated end that does.
+        constexpr std::uint64_t fewBytes = 64;
+        const auto frame = soundEnd - stop < fewBytes ? frameBytesOf(file, part.begin, chunk.sizeField) : 0;
+        if (frame > 1 && *chunk.promise > 0 && *chunk.promise % frame == 0 && (soundEnd - stop) % frame != 0)
+        {
+            setEnd(part, chunk, stop);
             part.leftOutBytes = soundEnd - stop;
             return {};
         }
@@ -568,6 +587,7 @@ private:
         return true;
     }
 
+    std::FILE* opened;
     ByteWindow file;
     std::uint64_t end;
     std::optional<AudioChunk> later; ///< more audio behind that of the last part, in the same file of chunks
@@ -587,5 +607,4 @@ std::optional<SoundPart> nextFlac(std::FILE* file, std::uint64_t offset, std::ui
     return begin < end ? std::optional(Planner(file).flac(begin)) : std::nullopt;
 }
 
-    std::FILE* opened;
 } // namespace pacini

@@ -26,6 +26,8 @@ struct SoundPart
     std::uint64_t end = 0;
     std::optional<std::uint64_t> outerBegin; ///< of the file of chunks around MPEG audio
     std::vector<BytePatch> patches;
+    std::string head;          ///< bytes to be read in front of `begin`
+    std::uint64_t silence = 0; ///< frames of silence in front of it, by a list of waves
 
     std::optional<std::uint64_t> promisedBytes; ///< of audio, where a header is wrong about them
     std::uint64_t presentBytes = 0;             ///< of audio; 0 where it is not known

@@ -322,6 +322,43 @@ TEST_CASE("Slow sounds are read at a multiple of their rate, which is said", "[i
     CHECK(asItIs->warnings.empty());
 }
 
+TEST_CASE("A WAV may have its audio in a list of waves, and in front of its format", "[io][audio]")
+{
+    const TempFolder folder;
+    const auto read = [&](const std::string& bytes)
+    {
+        const auto audio = readAudio(put(folder / "x", bytes));
+        REQUIRE(audio.ok());
+        CHECK(audio->warnings.empty());
+        return audio->samples;
+    };
+    const std::string wave = waveFile("RIFF").bytes, data = wave.substr(44);
+    const auto whole = read(wave);
+    const auto chunk = [](const std::string& id, const std::string& content)
+    {
+        return id + littleEndian(content.size(), 4) + content;
+    };
+    const auto riff = [&](const std::string& chunks)
+    {
+        return chunk("RIFF", "WAVE" + chunks);
+    };
+    const std::string format = wave.substr(12, 24), info = chunk("LIST", "INFOISFT" + littleEndian(4, 4) + "abc\1");
+    const std::string fact = chunk("fact", littleEndian(knownFrames, 4));
+    const std::string one = chunk("data", data.substr(0, 3000)), other = chunk("data", data.substr(3000));
+    const std::string quiet = chunk("slnt", littleEndian(500, 4));
+    CHECK(read(riff(format + fact + chunk("LIST", "wavl" + one + other))) == whole);
+    CHECK(read(riff(format + chunk("LIST", "wavl" + chunk("data", data)) + info)) == whole);
+    auto silent = whole;
+    silent.insert(silent.begin() + 1500, 500, 0.0f);
+    CHECK(read(riff(format + fact + chunk("LIST", "wavl" + one + quiet + other) + info)) == silent);
+    auto late = whole;
+    late.insert(late.begin(), 1000, 0.0f);
+    CHECK(read(riff(format + chunk("LIST", "wavl" + quiet + quiet + one + other))) == late);
+    for (const std::string& chunks : {chunk("data", data) + format, info + chunk("data", data) + info + format + info})
+        CHECK(read(riff(chunks)) == whole);
+    CHECK_FALSE(readAudio(put(folder / "x", riff(chunk("data", data)))).ok());
+}
+
 TEST_CASE("MPEG audio in a file of chunks is read as if it lay alone", "[io][audio]")
 {
     const TempFolder folder;
@@ -604,4 +641,45 @@ TEST_CASE("A warning of two lengths that differ little has the digits that tell 
     CHECK(audio->warnings ==
           std::vector<std::string>{"has a header that states 0.500250 s, but 0.500000 s are there and "
                                    "all of them are read; save it anew"});
+}
+
+TEST_CASE("A few bytes behind a sound that make no frame are left out with a word", "[io][audio]")
+{
+    const TempFolder folder;
+    for (const KnownSound& sound : {waveFile("RIFF"), waveFile("RF64"), aiff(), caf(), au()})
+    {
+        CAPTURE(sound.name);
+        const auto audio = readAudio(put(folder / "x", sound.bytes + "\7\6\5"));
+        REQUIRE(audio.ok());
+        CHECK(audio->samples.size() == knownFrames);
+        REQUIRE(audio->warnings.size() == 1);
+        CHECK(audio->warnings.front().starts_with("has 3 bytes behind its sound that are left out"));
+    }
+}
+
+TEST_CASE("The codec of an AIFC says how long its samples are, whatever number stands beside it", "[io][audio]")
+{
+    const TempFolder folder;
+    const auto aifc = [](const std::string& codec, int stated, const std::string& data)
+    {
+        const std::string head = "AIFCFVER" + bigEndian(4, 4) + bigEndian(0xA2805140u, 4) + "COMM" + bigEndian(24, 4) +
+                                 bigEndian(1, 2) + bigEndian(3, 4) + bigEndian(static_cast<std::uint64_t>(stated), 2) +
+                                 bigEndian(16383 + 12, 2) + bigEndian(std::uint64_t{rate} << 51u, 8) + codec +
+                                 std::string(2, '\0') + "SSND" + bigEndian(data.size() + 8, 4) + std::string(8, '\0');
+        return "FORM" + bigEndian(head.size() + data.size(), 4) + head + data;
+    };
+    const auto bits24 = std::string("\x20\0\0\xE0\0\0\x10\0\0", 9);
+    const auto bits32 = std::string("\x20\0\0\0\xE0\0\0\0\x10\0\0\0", 12);
+    const auto floats = std::string("\x3E\x80\0\0\xBE\x80\0\0\x3E\0\0\0", 12);
+    const auto doubles = std::string("\x3F\xD0\0\0\0\0\0\0\xBF\xD0\0\0\0\0\0\0\x3F\xC0\0\0\0\0\0\0", 24);
+    for (const auto& [codec, data] : {std::pair("in24", bits24), std::pair("in32", bits32), std::pair("fl32", floats),
+                                      std::pair("FL32", floats), std::pair("fl64", doubles)})
+        for (const int stated : {8, 16, 24, 32, 64})
+        {
+            CAPTURE(codec, stated);
+            const auto audio = readAudio(put(folder / "x", aifc(codec, stated, data)));
+            REQUIRE(audio.ok());
+            CHECK(audio->samples == std::vector<float>{0.25f, -0.25f, 0.125f});
+            CHECK(audio->warnings.empty());
+        }
 }
