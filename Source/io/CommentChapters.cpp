@@ -1,5 +1,6 @@
 #include "io/CommentChapters.h"
 
+#include "io/CueSheet.h"
 #include "io/JsonText.h"
 #include "io/TextMark.h"
 #include "io/Utf8.h"
@@ -14,6 +15,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace pacini
 {
@@ -79,6 +81,14 @@ std::optional<double> chapterTimeOf(std::string_view text)
     return {};
 }
 
+/// The name of a comment, in capitals.
+std::string keyOf(std::string_view comment)
+{
+    std::string key(comment.substr(0, comment.find('=')));
+    std::transform(key.begin(), key.end(), key.begin(), [](char c) { return c >= 'a' && c <= 'z' ? char(c - 32) : c; });
+    return key;
+}
+
 /// Takes one comment among `chapters`, by their numbers, if it is of one.
 void takeChapter(std::string_view comment, std::map<std::string, CommentChapter, std::less<>>& chapters)
 {
@@ -86,8 +96,7 @@ void takeChapter(std::string_view comment, std::map<std::string, CommentChapter,
     const auto equals = comment.find('=');
     if (equals == std::string_view::npos)
         return;
-    std::string key(comment.substr(0, equals));
-    std::transform(key.begin(), key.end(), key.begin(), [](char c) { return c >= 'a' && c <= 'z' ? char(c - 32) : c; });
+    std::string key = keyOf(comment);
     if (!key.starts_with(prefix))
         return;
     key.erase(0, prefix.size());
@@ -113,9 +122,19 @@ FoundMarkers commentChapters(std::string_view comments)
     list.text(); // the vendor
     const auto count = list.number();
     std::map<std::string, CommentChapter, std::less<>> chapters;
-    for (std::uint32_t i = 0; i < count && !list.isCut; ++i)
-        takeChapter(list.text(), chapters);
     FoundMarkers found;
+    for (std::uint32_t i = 0; i < count && !list.isCut; ++i)
+    {
+        const auto comment = list.text();
+        takeChapter(comment, chapters);
+        if (keyOf(comment) != "CUESHEET" || !isCueSheet(comment.substr(comment.find('=') + 1)))
+            continue;
+        if (auto sheet = readCueSheet(comment.substr(comment.find('=') + 1)))
+            appendFound(found, std::move(*sheet));
+        else
+            found.warnings.push_back(fmt::format("has a cue sheet whose {} {}; its tracks are left out",
+                                                 sheet.error().where, sheet.error().message));
+    }
     if (list.isCut)
         found.warnings.emplace_back("has comments that are cut off; chapters among what is missing are left out");
     std::size_t broken = 0;

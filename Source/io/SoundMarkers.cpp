@@ -70,6 +70,43 @@ std::string flacComments(ByteWindow& file, std::uint64_t offset, std::uint64_t e
     return {};
 }
 
+/// The tracks of the cue sheet of a FLAC stream, whose blocks of metadata begin at `offset`. Behind 395 bytes and their
+/// number come tracks of 36 bytes, the last of them the end, and behind each its indices of 12 (RFC 9639, 8.7).
+FoundMarkers flacTracks(ByteWindow& file, std::uint64_t offset, std::uint64_t end, int sampleRate)
+{
+    constexpr unsigned sheet = 5, last = 0x80;
+    constexpr std::uint64_t trackBytes = 36, indexBytes = 12;
+    FoundMarkers found;
+    for (; sampleRate > 0 && offset + 4 <= end;)
+    {
+        const auto type = file.number(offset, 1, true);
+        const auto next = offset + 4 + file.number(offset + 1, 3, true);
+        auto track = offset + 4 + 395;
+        const auto count = file.number(track++, 1, true);
+        for (std::uint64_t i = 0; (type & ~std::uint64_t(last)) == sheet && i + 1 < count; ++i)
+        {
+            if (track + trackBytes > std::min(next, end))
+            {
+                found.warnings.push_back(
+                    fmt::format("has a cue sheet of {} tracks, of which {} can be read", count - 1, i));
+                break;
+            }
+            const auto start = file.number(track, 8, true), number = file.number(track + 8, 1, true);
+            const auto indices = file.number(track + 35, 1, true);
+            track += trackBytes;
+            std::uint64_t first = 0; // of index 1
+            for (std::uint64_t index = 0; index < indices; ++index, track += indexBytes)
+                if (file.number(track + 8, 1, true) == 1)
+                    first = file.number(track, 8, true);
+            found.markers.push_back({static_cast<double>(start + first) / sampleRate, std::to_string(number)});
+        }
+        if ((type & last) != 0)
+            break;
+        offset = next;
+    }
+    return found;
+}
+
 /// The second packet of the first stream of an Ogg file, which holds its comments (RFC 3533).
 std::string oggComments(ByteWindow& file, std::uint64_t offset, std::uint64_t end)
 {
@@ -150,6 +187,11 @@ FoundMarkers soundMarkers(std::FILE* opened, const SoundPart& part, std::uint64_
     {
         if (const std::string comments = flacComments(file, part.begin + 4, part.end); !comments.empty())
             appendFound(tags, commentChapters(comments));
+        FoundMarkers tracks = flacTracks(file, part.begin + 4, part.end, sampleRate);
+        if (tags.markers.empty()) // which have names
+            appendFound(tags, std::move(tracks));
+        else
+            tags.warnings.insert(tags.warnings.end(), tracks.warnings.begin(), tracks.warnings.end());
     }
     if (file.has(part.begin, "OggS"))
     {

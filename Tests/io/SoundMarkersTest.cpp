@@ -165,6 +165,59 @@ TEST_CASE("Chapters of Ogg and FLAC are markers, in whatever order their comment
     CHECK(takenOf(flacWithComments(taggedSound("tone.flac"), commentBytes({}))).markers.empty());
 }
 
+TEST_CASE("Cue sheets in a FLAC are markers, as a block and among its comments", "[io]")
+{
+    const TempFolder folder;
+    const std::string flac = bytesOf(testFolder() / "io/audio/ramp.flac"); // .05 s at 8 kHz
+    const auto read = [&](const std::string& bytes)
+    {
+        auto reader = AudioReader::open(put(folder / "x.flac", bytes));
+        REQUIRE(reader.ok());
+        std::vector<std::pair<double, std::string>> found;
+        for (const Marker& marker : reader->takeMarkers(1.0))
+            found.emplace_back(marker.time, marker.name);
+        return std::pair(found, reader->warnings());
+    };
+    const auto index = [](std::uint64_t offset, int number)
+    {
+        return bigEndian(offset, 8) + bigEndian(static_cast<std::uint64_t>(number), 1) + std::string(3, '\0');
+    };
+    const auto track = [](std::uint64_t offset, int number, const std::vector<std::string>& indices)
+    {
+        std::string all = bigEndian(offset, 8) + bigEndian(static_cast<std::uint64_t>(number), 1) +
+                          std::string(26, '\0') + bigEndian(indices.size(), 1);
+        for (const std::string& one : indices)
+            all += one;
+        return all;
+    };
+    const auto block = [](int type, const std::string& content)
+    {
+        return bigEndian(static_cast<std::uint64_t>(type), 1) + bigEndian(content.size(), 3) + content;
+    };
+    const std::string sheet = std::string(395, '\0') + bigEndian(3, 1) + track(0, 1, {index(0, 1)}) +
+                              track(160, 2, {index(0, 0), index(80, 1)}) + track(400, 170, {});
+    const auto with = [&](const std::string& blocks)
+    {
+        return std::string(flac).insert(42, blocks);
+    };
+    using Found = std::vector<std::pair<double, std::string>>;
+    const auto tracks = read(with(block(5, sheet)));
+    CHECK(tracks.first == Found{{0.0, "1"}, {0.03, "2"}});
+    CHECK(tracks.second.empty());
+    const std::string text = "CueSheet=FILE \"a.wav\" WAVE\n TRACK 01 AUDIO\n  TITLE \"door\"\n  INDEX 01 00:00:00\n"
+                             " TRACK 02 AUDIO\n  INDEX 01 00:00:03\n";
+    const auto named = read(with(block(4, commentBytes({text})) + block(5, sheet)));
+    CHECK(named.first == Found{{0.0, "door"}, {0.04, "02"}});
+    const auto cut = read(with(block(5, sheet.substr(0, 470))));
+    CHECK(cut.first == Found{{0.0, "1"}});
+    CHECK(cut.second == std::vector<std::string>{"has a cue sheet of 2 tracks, of which 1 can be read"});
+    const auto wrong = read(with(block(4, commentBytes({"CUESHEET=FILE a WAVE\nTRACK 1\nINDEX 01 x\n"}))));
+    CHECK(wrong.first.empty());
+    CHECK(wrong.second ==
+          std::vector<std::string>{"has a cue sheet whose line 3 has a time that is not "
+                                   "minutes:seconds:frames, such as 03:25:74; its tracks are left out"});
+}
+
 TEST_CASE("A chapter without a time is told, one without a name is called by its number", "[io]")
 {
     const auto read = [](const std::vector<std::string>& comments)
