@@ -81,6 +81,9 @@ Result<Onsets> readLines(std::string_view text)
     if (const auto read = forEachTimeLine(text, [&](const TimeLine& line) { onsets.ofAny.push_back(line.time); });
         !read)
         return read.error();
+    if (onsets.ofAny.empty())
+        return Error{ErrorCode::invalidData, "",
+                     "has no times; write one in seconds on each line, or [] for a sound without onsets"};
     return onsets;
 }
 } // namespace
@@ -143,6 +146,8 @@ Result<FoundMarkers> readLabelText(std::string_view text)
         });
     if (!read)
         return read.error();
+    if (found.markers.empty())
+        found.warnings.emplace_back("has no labels, so it adds no markers");
     if (regions > 0)
         found.warnings.push_back(fmt::format(
             "has labels of regions ({}), whose starts are read as markers, but not how long they last", regions));

@@ -360,6 +360,8 @@ TEST_CASE("Onsets are taken from lines and lists, and what is none is said", "[i
     CHECK(readOnsetText("[0, 0.5]")->ofAny == std::vector<double>{0.0, 0.5});
     CHECK(readOnsetText("[]")->ofAny.empty());
     CHECK(readOnsetText("\xEF\xBB\xBF[2, 1]")->ofAny == std::vector<double>{1.0, 2.0});
+    for (const char* text : {"", "\n", "# nothing\n", "\xEF\xBB\xBF"})
+        CHECK(onsetError(text) == "has no times; write one in seconds on each line, or [] for a sound without onsets");
     CHECK(readOnsetText("{}")->namesFiles);
     CHECK(readOnsetText("{}")->find("a.wav") == nullptr);
     CHECK(onsetError("0.5\n-0.001") == "line 2: \"-0.001\" is not a time in seconds, 0 or more");
