@@ -107,6 +107,32 @@ TEST_CASE(".haps: frequencies of 0 to 1 are fractions, not Hz that nobody feels"
     CHECK(hertz.warnings.empty());
 }
 
+TEST_CASE(".haps: gains of file and effect count, and a loop or numbers that nobody explains are told", "[io][formats]")
+{
+    const auto with = [](const std::string& outer, const std::string& inner)
+    {
+        std::string text = haps(R"({"m_time": 0, "m_value": 0.5}, {"m_time": 1, "m_value": 0.5})");
+        text.replace(text.find(R"("m_vibration": {)"), 16, outer + R"("m_vibration": {)" + inner);
+        return readAs("haps", text);
+    };
+    const auto quiet =
+        with(R"("m_gain": 0.5, "m_time_unit": 0, )", R"("m_gain": 0.5, "m_loop": 0, "m_maximum": 1.0, )");
+    CHECK(quiet.warnings.empty());
+    CHECK(valueAt(quiet.clip.bands[0].amplitude, 0.5) == Approx(0.125));
+    const auto loop = with("", R"("m_loop": 1, )");
+    CHECK(loop.warnings ==
+          std::vector<std::string>{"m_vibration.m_loop: says that the effect is repeated, which a clip "
+                                   "does not; it is read once; repeat it in a scene"});
+    const auto unit = with(R"("m_time_unit": 3, )", "");
+    CHECK(unit.clip.duration == Approx(1.0));
+    CHECK(unit.warnings == std::vector<std::string>{"m_time_unit: is 3; only 0 is known, and the times are read as "
+                                                    "seconds; compare the length of the clip"});
+    const auto most = with("", R"("m_maximum": 0.5, )");
+    CHECK(most.warnings ==
+          std::vector<std::string>{"m_vibration.m_maximum: is 0.5; only 1 is known, and the levels are "
+                                   "read as they are"});
+}
+
 TEST_CASE(".haps: what a writer leaves out is its default, with a warning", "[io][formats]")
 {
     const std::string where = "m_vibration.m_melodies[0].m_notes[0]";

@@ -44,7 +44,7 @@ struct Melody
 
 struct Vibration
 {
-    double gain = 1.0;
+    double gain = 1.0, maximum = 1.0, loop = 0.0;
     std::vector<Melody> melodies;
 };
 
@@ -65,6 +65,8 @@ void readModulation(FieldsReader& reader, const char* name, std::vector<Keyframe
 void readVibration(FieldsReader& reader, Vibration& vibration)
 {
     reader.number("m_gain", vibration.gain, Need::optional);
+    reader.number("m_maximum", vibration.maximum, Need::optional);
+    reader.number("m_loop", vibration.loop, Need::optional);
     reader.list("m_melodies", vibration.melodies, 100'000, "melodies",
                 [&](Melody& melody)
                 {
@@ -290,10 +292,11 @@ std::optional<Error> readHapsEffect(const nlohmann::json& tree, ImportedClip& im
         reader.fail("m_version", fmt::format("is '{}'; this program reads version 5", shownText(stated)),
                     ErrorCode::unsupportedVersion);
     std::string description;
-    double gain = 1.0;
+    double gain = 1.0, timeUnit = 0.0;
     Vibration vibration;
     reader.optionalText("m_description", description);
     reader.number("m_gain", gain, Need::optional);
+    reader.number("m_time_unit", timeUnit, Need::optional);
     reader.object("m_vibration", vibration, Need::required, [&](Vibration& inner) { readVibration(reader, inner); });
     if (reader.error)
         return reader.error;
@@ -302,7 +305,20 @@ std::optional<Error> readHapsEffect(const nlohmann::json& tree, ImportedClip& im
         if (const auto other = tree.find(name); other != tree.end() && hasMelodies(*other))
             imported.warnings.push_back(fmt::format("{}: is not read", name));
     }
+    // No public text says what other numbers mean; all files that are known have these.
     HapsImporter importer(imported.warnings);
+    if (timeUnit != 0.0)
+        importer.report.warn("m_time_unit", fmt::format("is {}; only 0 is known, and the times are read as seconds; "
+                                                        "compare the length of the clip",
+                                                        timeUnit));
+    if (vibration.loop != 0.0)
+        importer.report.warn("m_vibration.m_loop",
+                             "says that the effect is repeated, which a clip does not; it is read "
+                             "once; repeat it in a scene");
+    if (vibration.maximum != 1.0)
+        importer.report.warn(
+            "m_vibration.m_maximum",
+            fmt::format("is {}; only 1 is known, and the levels are read as they are", vibration.maximum));
     importer.add(vibration, gain);
     if (importer.report.error)
         return importer.report.error;
