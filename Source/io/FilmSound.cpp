@@ -457,12 +457,22 @@ Result<void> FilmSound::checkCut(std::FILE* file, const std::string& kind)
 void FilmSound::checkTables(std::FILE* file, std::uint64_t begin, double index)
 {
     auto tracks = mp4Tracks(file, begin);
-    if (!(index >= 0.0 && index < static_cast<double>(tracks.size())))
+    const bool isThere = index >= 0.0 && index < static_cast<double>(tracks.size());
+    const auto* const found = isThere ? &tracks[static_cast<std::size_t>(index)] : nullptr;
+    if (!found || (found->seconds == 0.0 && found->doubts.empty()))
+    {
+        if (duration == Duration::exact && !(found && found->isUnchecked))
+            warnings.emplace_back("has a header in which not all of its tracks are found; some of its sound may "
+                                  "be missing; get a complete copy");
         return;
+    }
     Mp4Track& track = tracks[static_cast<std::size_t>(index)];
     std::move(track.doubts.begin(), track.doubts.end(), std::back_inserter(warnings));
-    // Codecs are primed, and their last block is filled up.
-    const double margin = shortest + static_cast<double>(longestBlock) / rate;
+    // Codecs are primed with up to 2112 frames, and their last block is filled up.
+    constexpr double mostBlocks = 3.0;
+    const double longest = static_cast<double>(longestBlock) / rate;
+    const double margin =
+        shortest + (track.blockSeconds > 0.0 ? std::min(longest, mostBlocks * track.blockSeconds) : longest);
     held = track.played - std::max(-late, 0.0) - margin;
     if (track.played + margin < track.seconds)
         warnings.push_back(fmt::format("has an edit list, by which {:.3f} s of the {:.3f} s of its sound are left out",

@@ -44,8 +44,12 @@ public:
         const auto fragments = children(whole, "moof");
         const bool isWhole = stopped + 8 > whole.end || areZeros(file, stopped, whole.end);
         const bool isFragmented = !fragments.empty() || child(*movie, "mvex");
-        if (isFragmented && fragments.size() * 2 >= mostBoxes)
-            return {};
+        if (isFragmented && fragments.size() * 2 >= mostBoxes) // too many to look at
+        {
+            Mp4Track unchecked;
+            unchecked.isUnchecked = true;
+            return std::vector<Mp4Track>(children(*movie, "trak").size(), unchecked);
+        }
         const auto header = child(*movie, "mvhd");
         movieScale = header ? timeScale(*header) : 0;
         std::vector<Mp4Track> all;
@@ -318,6 +322,7 @@ private:
     /// Whether the blocks of AAC and MP3, of `seconds` each, last as long as such do.
     void checkBlocks(Mp4Track& found, const Mp4Box& descriptions, double seconds, double tolerance)
     {
+        found.blockSeconds = seconds;
         const auto entry = descriptions.begin + 8;
         // The second version of QuickTime's descriptions has a rate of its own.
         const bool isSecond = file.number(entry + 16, 2, true) == 2;

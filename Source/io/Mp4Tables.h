@@ -15,6 +15,8 @@ struct Mp4Track
 {
     double seconds = 0.0;            ///< of its media, by the durations of their blocks
     double played = 0.0;             ///< s of these that an edit list plays; `seconds` without one
+    double blockSeconds = 0.0;       ///< s of one block of its codec
+    bool isUnchecked = false;        ///< it has too many fragments to look at
     int sampleRate = 0;              ///< Hz, by the description of its codec
     std::vector<std::string> doubts; ///< contradictions, each a sentence about the file
 };
