@@ -7,7 +7,7 @@
 #include "app/Settings.h"
 #include "app/StandaloneWindow.h"
 #include "editor/Translation.h"
-#include "io/SoundHandle.h"
+#include "io/SoundLibraryCall.h"
 
 #include <juce_audio_utils/juce_audio_utils.h>
 

@@ -1,6 +1,6 @@
 #include "cli/Process.h"
 
-#include "io/SoundHandle.h"
+#include "io/SoundLibraryCall.h"
 #include "io/TemporaryFiles.h"
 
 #include <cstdio>

@@ -14,7 +14,7 @@
 #include "editor/Translation.h"
 #include "io/ProfileFile.h"
 #include "io/ShippedProfiles.h"
-#include "io/SoundHandle.h"
+#include "io/SoundLibraryCall.h"
 #include "study/StudyFile.h"
 #include "study/StudyResults.h"
 

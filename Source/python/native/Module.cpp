@@ -1,6 +1,6 @@
 // The module pacini._native: implementation of the package behind its public interface.
 
-#include "io/SoundHandle.h"
+#include "io/SoundLibraryCall.h"
 #include "python/native/Support.h"
 
 namespace pacini::python
