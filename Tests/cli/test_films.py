@@ -29,6 +29,16 @@ def hits(times=HITS, seconds=4.0, frequency=120.0):
     return samples
 
 
+def outside(content):
+    """Places of the bytes of an MP4 that are no sound."""
+    places, at = [], 0
+    while at + 8 <= len(content):
+        size, kind = struct.unpack_from(">I4s", content, at)
+        places += range(at, at + (8 if kind == b"mdat" else size))
+        at += size
+    return places
+
+
 @unittest.skipUnless(shutil.which("ffmpeg") and shutil.which("ffprobe"), "ffmpeg is not installed")
 class FilmTest(CommandTest):
     """A test with `sound.wav`, three hits in 4 s."""
@@ -126,7 +136,8 @@ class Films(FilmTest):
 
     def test_an_mp4_behind_a_tag_is_read(self):
         for name, options in (("late.m4a", ()), ("first.m4a", ("-movflags", "+faststart")),
-                              ("lossless.m4a", ("-c:a", "alac")), ("parts.mp4", ("-movflags", "+frag_keyframe+empty_moov"))):
+                              ("lossless.m4a", ("-c:a", "alac")),
+                              ("parts.mp4", ("-movflags", "+frag_keyframe+empty_moov"))):
             self.ffmpeg("-i", "sound.wav", *options, name)
             expected = self.events(name)
             for tag in (b"ID3\4\0\0\0\0\2\0" + bytes(256), b"ID3\3\0\0\0\1\0\0" + b"\xff\xfb\x90\x44" * 4096):
@@ -377,15 +388,20 @@ class Films(FilmTest):
     def test_mutated_headers_lose_nothing_in_silence(self):
         self.ffmpeg("-i", "sound.wav", "-ac", "1", "-ar", "16000", "-c:a", "aac", "-movflags", "+faststart", "a.m4a")
         self.ffmpeg("-i", "sound.wav", "-ac", "1", "-c:a", "libopus", "a.mka")
-        # The first ones are those of 160 whose sound was lost without a word when only ffmpeg judged them.
-        for name, header, known in (("a.m4a", (self.folder / "a.m4a").read_bytes().index(b"mdat"),
-                                     [83, 94, 131, 145, 152]), ("a.mka", 600, [])):
+        self.ffmpeg("-i", "sound.wav", "-ac", "1", "-ar", "16000", "-c:a", "aac", "-movflags",
+                    "+frag_keyframe+empty_moov+default_base_moof", "-frag_duration", "500000", "parts.mp4")
+        self.ffmpeg("-i", "sound.wav", "-ac", "1", "-ar", "16000", "-c:a", "alac", "lossless.m4a")
+        # The first ones are those of 160 whose sound was lost without a word when only ffmpeg judged them, and of 400
+        # when fragments were not compared with what lies in them.
+        for name, known in (("a.m4a", [83, 94, 131, 145, 152]), ("a.mka", []), ("parts.mp4", [51, 231, 249, 262, 285]),
+                            ("lossless.m4a", [])):
             content = (self.folder / name).read_bytes()
-            for seed in known + list(range(MUTATIONS // 2)):
+            places = {"a.m4a": range(8, content.find(b"mdat")), "a.mka": range(8, 600)}.get(name) or outside(content)
+            for seed in known + list(range(MUTATIONS // 4)):
                 source = random.Random(seed)
                 mutated = bytearray(content)
                 for _ in range(source.choice((1, 2, 4))):
-                    mutated[source.randrange(8, header)] = source.choice((0, 1, 127, 128, 255, source.randrange(256)))
+                    mutated[source.choice(places)] = source.choice((0, 1, 127, 128, 255, source.randrange(256)))
                 self.put(f"in/{seed}{name}", bytes(mutated))
         done = self.run_command("encode", "in", "-o", "out", "--json", "-j", "2")
         self.assertIn(done.returncode, (0, 1))
