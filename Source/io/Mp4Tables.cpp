@@ -186,7 +186,9 @@ private:
         std::set<std::uint64_t> known; // tracks of the movie
         for (const Mp4Box& one : children(movie, "trak"))
             known.insert(idOf(one));
-        bool agree = true;
+        // Sound in front of all fragments, of which the movie does not tell: the first of them is damaged.
+        bool agree = all.blocks > 0 || fragments.empty() ||
+                     children({begin, std::max(begin, fragments.front().begin - 8)}, "mdat").empty();
         for (std::size_t i = 0; i < fragments.size(); ++i)
         {
             const auto until = i + 1 < fragments.size() ? fragments[i + 1].begin - 8 : file.size();
