@@ -422,7 +422,7 @@ void EncodeCommand::printChosen(Console& console, const TranslationParams& trans
                            {"export", exportDescriptionsJson()},
                            {"render", descriptionsJson(infosOf(renderParameters))},
                            {"felt", descriptionsJson(infosOf(feltParameters))}}},
-                         {"play", playDescriptionsJson()}});
+                         {"play", playbackDescriptionsJson()}});
     console.print(document.dump(4));
 }
 
