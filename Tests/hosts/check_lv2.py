@@ -121,6 +121,14 @@ def main():
               and np.abs(added[1] - usual[1] - usual[2]).max() < 1e-6)
         second = render("--preset", f"{URI}:preset2")[0]
         check("a preset is heard", not np.array_equal(second[2], usual[2]))
+        said = render("--sets", "--preset", f"{URI}:preset2")[1]
+        sent = dict(line.rsplit(" ", 1) for line in said.splitlines())
+        holds = dict(line.rsplit(" ", 1) for line in render(
+            "--sets", "--preset", f"{URI}:preset2", "--at", half, "--get", "all")[1].splitlines()[len(said.splitlines()):])
+        changed = {uri for uri, number in holds.items() if abs(float(number) - parameters[uri.rpartition(":")[2]][2]) > 1e-6}
+        check("a preset tells the host each value that it changed", changed and changed <= set(sent),
+              f"{len(changed - set(sent))} of {len(changed)} are not told")
+        check("and no other value than it holds", all(number == holds.get(uri) for uri, number in sent.items()))
         check("so is the one that was chosen before its values were changed",
               np.array_equal(render("--load", save(value("intensity", -40)), "--preset", f"{URI}:preset1")[0], usual))
 
