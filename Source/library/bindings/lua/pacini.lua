@@ -12,7 +12,7 @@
 -- SPDX-License-Identifier: MIT
 local ffi = require "ffi"
 
--- What pacini.h 1.2 declares.
+-- What pacini.h 1.4 declares.
 ffi.cdef [[
 uint32_t pacini_api_version(void);
 typedef enum pacini_result {
@@ -180,7 +180,7 @@ end
 local library = loadLibrary()
 local version = library.pacini_api_version()
 if version < 1004 or version >= 2000 then
-    error("pacini: libpacini has the interface " .. version / 1000 .. ", this file is for 1.3 or a newer 1.x", 0)
+    error("pacini: libpacini has the interface " .. version / 1000 .. ", this file is for 1.4 or a newer 1.x", 0)
 end
 
 local controls = {gain = 0, intensity = 1, pan = 2, delay = 3, transposition = 4, speed = 5, priority = 6,

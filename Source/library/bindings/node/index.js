@@ -28,7 +28,7 @@ if (apiVersion() < 1004 || apiVersion() >= 2000) {
   throw new Error(`libpacini has the interface ${apiVersion() / 1000}, this module is for 1.2 or a newer 1.x`);
 }
 
-// What pacini.h 1.2 declares.
+// What pacini.h 1.4 declares.
 const structs = {};
 structs.pacini_clip_info = koffi.struct('pacini_clip_info', {
   struct_size: 'uint32_t', events: 'uint32_t', duration: 'double', bytes: 'uint64_t', name: koffi.array('char', 64, 'String'),

@@ -1,4 +1,4 @@
-// The functions and structs of pacini.h 1.2 as they are.
+// The functions and structs of pacini.h 1.4 as they are.
 //
 // SPDX-License-Identifier: MIT
 using System;

@@ -1,4 +1,4 @@
-//! The functions and structs of pacini.h 1.2 as they are.
+//! The functions and structs of pacini.h 1.4 as they are.
 #![allow(non_camel_case_types, missing_docs)]
 
 use std::os::raw::{c_char, c_int, c_void};

@@ -30,7 +30,7 @@ func _init():
 	_native = Native.new()
 	var version = _native.run("version", [])
 	if version != null and (version < 1004 or version >= 2000):
-		_native.fail("libpacini has the interface %s, this script is for 1.3 or a newer 1.x" % (version / 1000.0))
+		_native.fail("libpacini has the interface %s, this script is for 1.4 or a newer 1.x" % (version / 1000.0))
 
 var last_error setget , _get_last_error
 
