@@ -146,7 +146,8 @@ void ParameterSlider::resized()
     if (shape == Shape::knob)
         title.setBounds(area.removeFromTop(2 * grid + 2));
     else
-        title.setBounds(area.removeFromLeft(title.getText().isEmpty() ? 0 : 11 * grid - 2));
+        title.setBounds(area.removeFromLeft(
+            title.getText().isEmpty() ? 0 : std::min(std::max(11 * grid - 2, nameWidth()), area.getWidth() / 2)));
     // Names that have no room in a language are a size smaller before they are cut.
     title.setFont(nameWidth() - grid / 2 <= title.getWidth() ? smallFont() : captionFont());
     slider.setBounds(area);
