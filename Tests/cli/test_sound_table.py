@@ -177,6 +177,24 @@ class SoundTable(CommandTest):
         picture = bytes([6]) + struct.pack(">I", 30)[1:] + b"\x7f" * 30
         self.reads(says, flac[:4] + bytes([flac[4] & 127]) + flac[5:42] + picture + flac[42:],
                    self.clip_read["duration"])
+        says = self.row("a cue sheet in a FLAC")
+        sheet = b'CUESHEET=FILE "a" WAVE\nTRACK 01 AUDIO\nINDEX 01 00:00:00\nTRACK 02 AUDIO\nINDEX 01 00:00:03\n'
+        comments = struct.pack("<III", 0, 1, len(sheet)) + sheet
+        block = bytes([4]) + struct.pack(">I", len(comments))[1:] + comments
+        self.reads(says, flac[:4] + bytes([flac[4] & 127]) + flac[5:42] + block + flac[42:], self.clip_read["duration"])
+        self.assertEqual([round(time, 3) for time in self.markers()], [0.0, 0.04])
+        says = self.row("a list of waves")
+        waves = chunk(b"data", sound[44:half]) + chunk(b"slnt", struct.pack("<I", 4800)) + chunk(b"data", sound[half:])
+        self.reads(says, chunk(b"RIFF", b"WAVE" + sound[12:36] + chunk(b"LIST", b"wavl" + waves)), 1.1)
+        self.reads(says, chunk(b"RIFF", b"WAVE" + sound[36:] + sound[12:36]))
+        self.reads_with_a_word(self.row("fewer than 64 bytes behind"), sound + b"abc", "3 bytes")
+        says = self.row("24 or 32 bits and floats of an AIFC")
+        longer = b"".join(samples[i + 1:i + 2] + samples[i:i + 1] + b"\0" for i in range(0, len(samples), 2))
+        common += b"in24\0\0"
+        inside = struct.pack(">II", 0, 0) + longer
+        body = b"AIFCFVER" + struct.pack(">II", 4, 0xA2805140) + b"COMM" + struct.pack(">I", len(common)) + common
+        body += b"SSND" + struct.pack(">I", len(inside)) + inside
+        self.reads(says, b"FORM" + struct.pack(">I", len(body)) + body)
         self.reads_with_a_word(self.row("zeros behind the stated end"), sound + bytes(400), "400 bytes")
         says = self.row("a hole in an MP3")
         self.assertIn("warning", says)

@@ -50,9 +50,11 @@ TEST_CASE("A list or lines of times are the onsets of any sound", "[io]")
         REQUIRE(onsets->find("x.wav") != nullptr);
         CHECK(*onsets->find("x.wav") == twoTimes);
     }
-    const auto empty = readOnsetText("");
-    REQUIRE(empty.ok());
-    CHECK(empty->find("x.wav")->empty());
+    const auto none = readOnsetText("[]");
+    REQUIRE(none.ok());
+    CHECK(none->find("x.wav")->empty());
+    for (const char* text : {"", " \n\r\n", "# by hand\n"})
+        CHECK_FALSE(readOnsetText(text).ok());
 }
 
 TEST_CASE("Tables of audio editors and lines of every system are times", "[io]")

@@ -18,7 +18,7 @@ from pathlib import Path
 
 import numpy as np
 import pacini
-from sounds import DEMO, FolderTest, knocks
+from sounds import DEMO, SOURCE, FolderTest, knocks
 
 RATE = 48000
 

@@ -123,7 +123,7 @@ static class EveryFunction
         play.Dispose();
         Throws(Result.Invalid, "loop", () => engine.Play(clip, new PlaySettings { Loop = 5 }));
         Throws(Result.Invalid, "'lra-176' is no profile", () => new Engine("lra-176"));
-        Throws(Result.Invalid, "actuator_count: must be 1 to 16", () => new Engine(new string[17]));
+        Throws(Result.Invalid, "ActuatorCount: must be 1 to 16", () => new Engine(new string[17]));
         Throws(Result.Io, "dört/none", () => Clip.Load("dört/none"));
         Throws(Result.BadData, "is not a clip", () => Clip.FromBytes(new byte[] { 1, 2, 3, 4 }));
         clip.Dispose();

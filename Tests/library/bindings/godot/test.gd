@@ -133,7 +133,7 @@ func textures():
 	fails("there is no 'lop'", engine.play_texture(texture, 0.0, 1.0, {"lop": 1}))
 	fails("texture is not in use", engine.play_texture(texture))
 	fails("texture is not in use", texture.release())
-	fails("textureSpeed: must be 0 to 1", engine.play_texture(pacini.texture_from_bytes(WOOD.to_utf8()), 2.0))
+	fails("texture_speed: must be 0 to 1", engine.play_texture(pacini.texture_from_bytes(WOOD.to_utf8()), 2.0))
 	fails("none.json: cannot be read", pacini.texture("res://none.json"))
 	fails("format: must be", pacini.texture_from_bytes(HUM.to_utf8()))
 	fails("is not valid JSON", pacini.texture_from_bytes("nonsense".to_utf8()))
