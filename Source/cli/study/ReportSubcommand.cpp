@@ -181,7 +181,7 @@ struct ReportSubcommand : Command
                                     screening->failed.size(),
                                     counted(screening->everyone.size(), "listener", "listeners"),
                                     screening->nobodyPassed ? "; as nobody would remain, all count"
-                                                            : " and are left out; --keep-everybody counts them, too"));
+                                                            : ": left out; --keep-everybody counts all"));
     }
 
     [[nodiscard]] Result<StudyReport> ofStudy(Console& console, const fs::path& path,

@@ -828,11 +828,8 @@ Result<void> writeMap(ReportWriter& writer, Json& json, const std::vector<PairRa
 }
 
 /// Who rated the hidden reference too low, and whether that leaves them out.
-void writeScreening(ReportWriter& writer, Json& json, std::vector<std::string>& said,
-                    const std::optional<Screening>& screening)
+void writeScreening(ReportWriter& writer, Json& json, std::vector<std::string>& said, const Screening& screening)
 {
-    if (!screening)
-        return;
     const auto row = [](const ScreenedListener& one)
     {
         return Json{{"group", one.group},
@@ -842,17 +839,17 @@ void writeScreening(ReportWriter& writer, Json& json, std::vector<std::string>& 
                     {"share", one.share()}};
     };
     json = {{"rule", "ITU-R BS.1534-3"},
-            {"hiddenReferences", screening->references},
+            {"hiddenReferences", screening.references},
             {"listeners", Json::array()},
             {"failed", Json::array()},
-            {"leftOut", screening->kept ? std::size_t(0) : screening->failed.size()}};
-    for (const ScreenedListener& one : screening->everyone)
+            {"leftOut", screening.kept ? std::size_t(0) : screening.failed.size()}};
+    for (const ScreenedListener& one : screening.everyone)
         json["listeners"].push_back(row(one));
     PageTable table{"Listeners who rated the hidden reference below 90 in more than 15 % of the trials",
                     {"Listener", "Group", "Trials", "Below 90", "%"},
                     {}};
     std::vector<std::string> names;
-    for (const ScreenedListener& one : screening->failed)
+    for (const ScreenedListener& one : screening.failed)
     {
         json["failed"].push_back(row(one));
         table.rows.push_back({one.participant, groupTitle(one.group), fmt::to_string(one.trials),
@@ -863,22 +860,25 @@ void writeScreening(ReportWriter& writer, Json& json, std::vector<std::string>& 
     }
     writer.heading(2, "Screening of listeners");
     std::string text = fmt::format("Hidden reference: {}. Of {} {} rated it below 90 in more than 15 % of the trials",
-                                   fmt::join(screening->references, ", "),
-                                   counted(screening->everyone.size(), "listener", "listeners"), names.size());
-    if (screening->nobodyPassed)
+                                   fmt::join(screening.references, ", "),
+                                   counted(screening.everyone.size(), "listener", "listeners"), names.size());
+    if (screening.nobodyPassed)
         text += ". As nobody would remain, all count: is the hidden reference the right one?";
     else if (names.empty())
         text += ": all count.";
     else
-        text += screening->kept ? "; they count, as was requested." : " and are left out (ITU-R BS.1534-3).";
+        text += screening.kept      ? ". All count, as was requested."
+                : names.size() == 1 ? " and is left out (ITU-R BS.1534-3)."
+                                    : " and are left out (ITU-R BS.1534-3).";
     writer.paragraph(text);
     writer.table(std::move(table));
     if (!names.empty())
-        said.push_back(fmt::format("By the hidden reference {} fail of {} (ITU-R BS.1534-3) and {}: {}", names.size(),
-                                   counted(screening->everyone.size(), "listener", "listeners"),
-                                   !screening->kept          ? "are left out"
-                                   : screening->nobodyPassed ? "count, as nobody would remain"
-                                                             : "count, as was requested",
+        said.push_back(fmt::format("By the hidden reference {} of {} did not pass (ITU-R BS.1534-3) and {}: {}",
+                                   names.size(), counted(screening.everyone.size(), "listener", "listeners"),
+                                   screening.nobodyPassed ? "all count, as nobody would remain"
+                                   : screening.kept       ? "all count, as was requested"
+                                   : names.size() == 1    ? "is left out"
+                                                          : "are left out",
                                    fmt::join(names, ", ")));
 }
 
@@ -909,7 +909,7 @@ Result<StudyReport> reportOfRatings(const RatedTable& rated, const std::string& 
     for (const std::string& one : rated.warnings)
         said.push_back(title + ": " + one);
     if (rated.screening)
-        writeScreening(writer, report.json["screening"], said, rated.screening);
+        writeScreening(writer, report.json["screening"], said, *rated.screening);
     for (const auto& [block, ofBlock] : byBlock(ratings))
         if (auto written = writeRatings(writer, report.json["ratings"], ofBlock, block.empty() ? "Ratings" : block,
                                         AnswerKind::ratings, params);
@@ -958,7 +958,7 @@ Result<StudyReport> reportOfStudy(const StudyResults& results, const StudyReport
         said.push_back(fmt::format("{} where sound or touch dropped out {} left out and repeated",
                                    counted(results.dropouts, "trial", "trials"), results.dropouts == 1 ? "is" : "are"));
     if (results.screening)
-        writeScreening(writer, report.json["screening"], said, results.screening);
+        writeScreening(writer, report.json["screening"], said, *results.screening);
     writeQuestionnaires(writer, report.json, results);
     for (const auto& [title, ratings] : questionsOf(results))
     {
