@@ -274,6 +274,63 @@ TEST_CASE("an oscillator begins at the phase that it is given or at another one'
     CHECK(first(silent) == expected);
 }
 
+TEST_CASE("After an event an oscillator has the phase of a sine that began with it, whatever it played before",
+          "[realtime]")
+{
+    constexpr double f = 0.02;
+    constexpr double sinceEvent = 5.0;
+    for (const double phase : {0.0, 1.0, 2.5, 3.14, -2.0})
+    {
+        CAPTURE(phase);
+        CarrierOscillator oscillator;
+        oscillator.begin(std::sin(phase), std::cos(phase));
+        std::vector<double> y;
+        for (int hop = 0; hop < 80; ++hop)
+        {
+            if (hop == 10)
+                oscillator.noteEvent(sinceEvent);
+            oscillator.aim(1.0, 1.0, f);
+            std::array<double, controlHop> out{};
+            oscillator.addTo(out, 0);
+            y.insert(y.end(), out.begin(), out.end());
+        }
+        for (std::size_t i = 0; i < y.size(); ++i)
+        {
+            const double frame = static_cast<double>(i) + 1.0;
+            const double event = 10.0 * static_cast<double>(controlHop) - sinceEvent;
+            if (i >= 3 * controlHop && i < 10 * controlHop)
+                REQUIRE(y[i] == Approx(std::sin(phase + 2.0 * std::numbers::pi * f * frame)).margin(1e-9));
+            if (i >= 75 * controlHop)
+                REQUIRE(y[i] == Approx(std::sin(2.0 * std::numbers::pi * f * (frame - event))).margin(1e-5));
+            if (i > 2 * controlHop) // no step: a sine's own is 2 pi f, and the turn adds what it takes off in a hop
+                REQUIRE(std::abs(y[i] - y[i - 1]) < 2.0 * std::numbers::pi * f + 0.06);
+        }
+    }
+}
+
+TEST_CASE("An event waits for an oscillator that is silent, for 50 ms", "[realtime]")
+{
+    for (const int hops : {3, 30, 60})
+    {
+        CarrierOscillator oscillator;
+        oscillator.begin(1.0, 0.0);
+        oscillator.noteEvent(4.0);
+        for (int hop = 0; hop < hops; ++hop)
+            oscillator.aim(0.0, 1.0, 0.02);
+        oscillator.aim(1.0, 1.0, 0.02);
+        std::array<double, controlHop> out{};
+        oscillator.addTo(out, 0);
+        const double before =
+            hops < 40 ? 2.0 * std::numbers::pi * 0.02 * (4.0 + static_cast<double>(hops * 8)) : 0.5 * std::numbers::pi;
+        for (std::size_t i = 0; i < controlHop; ++i)
+        {
+            const double u = static_cast<double>(i + 1) / static_cast<double>(controlHop);
+            const double turn = 2.0 * std::numbers::pi * 0.02 * static_cast<double>(i + 1);
+            CHECK(out[i] == Approx(0.5 * u * u * std::sin(before + turn)).margin(1e-9));
+        }
+    }
+}
+
 TEST_CASE("a hop's ramp runs in a straight line and arrives", "[realtime]")
 {
     HopRamp ramp;

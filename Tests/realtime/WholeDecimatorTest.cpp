@@ -223,6 +223,31 @@ TEST_CASE("what the filter removes has its power on demand, tones at multiples o
     }
 }
 
+TEST_CASE("A short noise that the filter removes has the same energy wherever it falls among the frames", "[realtime]")
+{
+    for (const std::size_t factor : {2u, 7u, 8u, 32u})
+    {
+        const double fs = 6000.0 * static_cast<double>(factor);
+        double weakest = 1e9, strongest = 0.0;
+        for (std::size_t begin = 0; begin < 2 * factor; ++begin)
+        {
+            auto x = std::vector<float>(begin + 100 * factor, 0.0f);
+            const auto burst = test::noise(30 * factor, 5);
+            std::copy(burst.begin(), burst.end(), x.begin() + static_cast<std::ptrdiff_t>(begin + 20 * factor));
+            WholeDecimator decimator(factor, fs, 1000.0);
+            std::vector<float> frames(decimator.framesFor(x.size())), peaks(frames.size()), highs(frames.size());
+            decimator.process(x, frames, peaks, highs);
+            double energy = 0.0;
+            for (const float level : highs)
+                energy += static_cast<double>(level) * static_cast<double>(level);
+            weakest = std::min(weakest, energy);
+            strongest = std::max(strongest, energy);
+        }
+        CAPTURE(factor, weakest, strongest);
+        CHECK(strongest < 1.0001 * weakest);
+    }
+}
+
 TEST_CASE("a reset whole decimator is a new one, and processing makes no heap traffic", "[realtime]")
 {
     const auto x = test::noise(5000, 5);

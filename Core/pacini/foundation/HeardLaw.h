@@ -34,13 +34,19 @@ inline constexpr double heardSteadySeconds = 0.05; ///< time constant with which
 
 inline constexpr double heardMaskedBy = 300.0; ///< Hz, below which a sound masks the tone
 
-/// Returns the amplitude of the tone beside the rest of the sound, from its amplitude `wanted`, the amplitude `own` of
-/// all bands and the power (amplitude squared) of the `low` ones, all at a full drive of 1. A tone 6 dB below the low
-/// part is masked. The bands have priority for the drive.
-[[nodiscard]] inline double heardBeside(double wanted, double own, double low) noexcept
+/// Returns the power (amplitude squared) of the tone beside the rest of the sound, below 0 where that masks it, from
+/// its amplitude `wanted`, the amplitude `own` of all bands and the power of the `low` ones, all at a full drive of 1.
+/// A tone 6 dB below the low part is masked. The bands have priority for the drive.
+[[nodiscard]] inline double heardBesidePower(double wanted, double own, double low) noexcept
 {
     const double a = std::min(wanted, std::max(0.0, 1.0 - own));
-    return std::sqrt(std::max(0.0, a * a - 0.25 * low));
+    return a * a - 0.25 * low;
+}
+
+/// Returns the amplitude of the tone beside the rest of the sound, see heardBesidePower().
+[[nodiscard]] inline double heardBeside(double wanted, double own, double low) noexcept
+{
+    return std::sqrt(std::max(0.0, heardBesidePower(wanted, own, low)));
 }
 
 /// Returns the pitch of the tone, Hz, for a brightness of 0 to 1: above the frequencies that the low part of a sound

@@ -30,6 +30,8 @@ namespace pacini
 /// - Without a voice of its own a band lends its power to the nearest that has one. Voices go to those that were the
 ///   strongest over the last 20 ms.
 /// - A sinusoid that becomes another band's goes on: it changes its pitch, but neither its phase nor its level.
+/// - Beside the direct path an event begins sinusoids again: those that were moved meet other tones of the range, and
+///   how loud both are together would depend on where playback began.
 class CarrierSection
 {
 public:
@@ -130,6 +132,14 @@ public:
                                         -0.05 * frequency, 0.05 * frequency);
             oscillators[k].aim(wanted, wanted > oscillators[k].level() ? attack : release, frequency);
         }
+    }
+
+    /// Before aim(): see CarrierOscillator. A sinusoid in step with its band's own signal keeps to that.
+    void noteEvent(double frames) noexcept
+    {
+        for (std::size_t k = 0; k < design->bands.size(); ++k)
+            if (!inStep[k])
+                oscillators[k].noteEvent(frames);
     }
 
     /// Frames `at` and on of the hop: listens to `in`, adds to `out`.

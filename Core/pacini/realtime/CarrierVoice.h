@@ -15,6 +15,7 @@
 #include <cstddef>
 #include <numbers>
 #include <span>
+#include <utility>
 
 namespace pacini
 {
@@ -120,10 +121,14 @@ private:
 class CarrierOscillator
 {
 public:
+    CarrierOscillator() noexcept { reset(); }
+
     void reset() noexcept
     {
         re = 1.0;
         im = 0.0;
+        sinceEvent = 0.0;
+        turnTo(1.0, 0.0);
         amplitude.jump(0.0);
     }
 
@@ -134,9 +139,17 @@ public:
         const bool begins = amplitude.silent();
         amplitude.aim(target, share);
         if (amplitude.silent())
+        {
+            waitForLevel();
             return;
+        }
         const double wanted = 2.0 * std::numbers::pi * frequency;
         const double from = begins ? wanted : angle;
+        if (const double frames = std::exchange(sinceEvent, 0.0); frames > 0.0)
+            beginAgain(frames * from, begins);
+        turnCosine.aim(1.0, turnShare);
+        turnSine.aim(0.0, turnShare);
+        turning = turnSine.start() != 0.0 || turnCosine.start() != 1.0;
         const double bend = (wanted - from) / static_cast<double>(controlHop);
         angle = wanted;
         stepRe = std::cos(from);
@@ -148,6 +161,11 @@ public:
         im *= norm;
     }
 
+    /// Before aim(): an event was `frames` frames before the coming hop, more than 0. The sinusoid crosses over, within
+    /// about 20 ms, to a sine that began with the event, or begins as that, so that its phase afterwards depends on the
+    /// sound and not on what was before: an event feels the same each time.
+    void noteEvent(double frames) noexcept { sinceEvent = frames; }
+
     /// While it is silent: begins at the phase of a sinusoid with this sine and cosine, of any amplitude, so that bands
     /// which share a tone begin together as the tone does.
     void begin(double sine, double cosine) noexcept
@@ -157,6 +175,7 @@ public:
             return;
         re = cosine / size;
         im = sine / size;
+        turnTo(1.0, 0.0);
     }
 
     /// For a silent voice: continues from the phase of another voice, so that a hand-over between two voices of one
@@ -165,6 +184,7 @@ public:
     {
         re = other.re;
         im = other.im;
+        turnTo(other.turnCosine.end(), other.turnSine.end());
     }
 
     /// Returns the lag of its phase at the newest frame behind `phase`, -pi to pi.
@@ -188,13 +208,48 @@ public:
             const double next = re * stepRe - im * stepIm;
             im = re * stepIm + im * stepRe;
             re = next;
-            out[n] += amplitude.at(at + n) * im;
+            const std::size_t i = at + n;
+            out[n] += amplitude.at(i) * (turning ? im * turnCosine.at(i) + re * turnSine.at(i) : im);
         }
     }
 
 private:
+    static constexpr double turnShare = 0.2;     // of the way to the event's phase, in a hop
+    static constexpr double longestWait = 300.0; // frames that an event counts for a sinusoid that is silent
+
+    void turnTo(double cosine, double sine) noexcept
+    {
+        turnCosine.jump(cosine);
+        turnSine.jump(sine);
+    }
+
+    void waitForLevel() noexcept
+    {
+        if (sinceEvent > 0.0)
+            sinceEvent += static_cast<double>(controlHop);
+        if (sinceEvent > longestWait)
+            sinceEvent = 0.0;
+    }
+
+    /// The phasor goes to `phase` at once; the turn, which leads back to the one before, then fades.
+    void beginAgain(double phase, bool silent) noexcept
+    {
+        const double cosine = std::cos(phase), sine = std::sin(phase);
+        const double c = re * turnCosine.end() - im * turnSine.end();
+        const double s = im * turnCosine.end() + re * turnSine.end();
+        if (silent)
+            turnTo(1.0, 0.0);
+        else
+            turnTo(c * cosine + s * sine, s * cosine - c * sine);
+        re = cosine;
+        im = sine;
+    }
+
     double re = 1.0, im = 0.0;
-    double angle = 0.0; // of a frame, at the end of the hop
+    HopRamp turnCosine, turnSine; // of the phasor, from (re, im) to what is played
+    bool turning = false;
+    double sinceEvent = 0.0; // frames from an event to the coming hop; 0: none
+    double angle = 0.0;      // of a frame, at the end of the hop
     double stepRe = 1.0, stepIm = 0.0;
     double bendRe = 1.0, bendIm = 0.0;
     HopCurve amplitude;

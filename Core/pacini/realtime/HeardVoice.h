@@ -16,6 +16,7 @@
 #include <cstddef>
 #include <numbers>
 #include <span>
+#include <utility>
 
 namespace pacini
 {
@@ -46,7 +47,7 @@ public:
         oscillator.reset();
         energies = {};
         loudness = above = {};
-        steady = felt = 0.0;
+        steady = felt = unmasked = 0.0;
         pitch = low;
     }
 
@@ -68,11 +69,17 @@ public:
         if (silent())
             return;
         hear();
-        oscillator.aim(gain * heardBeside(wanted.end() * felt, own, lowPower), 1.0, pitch / rate);
+        const double before = std::exchange(unmasked, heardBesidePower(wanted.end() * felt, own, lowPower));
+        if (oscillator.silent() && unmasked > 0.0) // it begins between two points of the grid, where the power was 0
+            oscillator.noteEvent(static_cast<double>(controlHop) * unmasked / (unmasked - std::min(before, 0.0)));
+        oscillator.aim(gain * std::sqrt(std::max(0.0, unmasked)), 1.0, pitch / rate);
     }
 
-    /// Processes frames of the hop from `at` on: analyses `in` and `highs`, the part above it or empty, and adds to
-    /// `out`.
+    /// Before aim(): see CarrierOscillator.
+    void noteEvent(double frames) noexcept { oscillator.noteEvent(frames); }
+
+    /// Processes frames of the hop from `at` on: analyses `in` and `highs`, the levels (RMS) of the part above it or
+    /// empty, and adds to `out`.
     void process(std::span<const double> in, std::span<const double> highs, std::span<double> out,
                  std::size_t at) noexcept
     {
@@ -155,6 +162,7 @@ private:
     Memory loudness, above;           // of all that is heard and of what lies above
     double steady = 0.0;              // loudness as it was of late
     double felt = 0.0;                // level of the sinusoid where nothing else is felt
+    double unmasked = 0.0;            // power of the sinusoid beside the rest; below 0 where that masks it
     double pitch = 0.0;               // Hz
 };
 

@@ -62,6 +62,9 @@ public:
         oscillator.aim(wanted, 1.0, cyclesPerFrame);
     }
 
+    /// Before aim(): see CarrierOscillator.
+    void noteEvent(double frames) noexcept { oscillator.noteEvent(frames); }
+
     /// Frames `at` and on of the hop: listens to `in`, adds to `out`.
     void process(std::span<const double> in, std::span<double> out, std::size_t at) noexcept
     {

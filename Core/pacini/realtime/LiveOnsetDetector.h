@@ -82,6 +82,9 @@ public:
         return false;
     }
 
+    /// Frames since the newest event began, which is not reported yet while its peak is awaited.
+    [[nodiscard]] std::size_t framesSinceEvent() const noexcept { return sinceEvent; }
+
     /// Frames from the beginning of an event to its report.
     [[nodiscard]] std::size_t delayFrames() const noexcept { return waitFrames + 1; }
 

@@ -188,10 +188,10 @@ public:
     }
 
     /// Whether process() analyses the samples above the range of the frames.
-    [[nodiscard]] bool wantsHighs() const noexcept { return params.audible > 0.0 || !heardVoice.silent(); }
+    [[nodiscard]] bool wantsHighs() const noexcept { return audibleShare() > 0.0 || !heardVoice.silent(); }
 
-    /// All spans of one length: band-limited frames, full-band peaks and, where they are wanted and else none, samples
-    /// of what lies above the frames in, drive out. `onEvent(frame, level)` is
+    /// All spans of one length: band-limited frames, full-band peaks and, where they are wanted and else none, levels
+    /// (RMS) of what lies above the frames in, drive out. `onEvent(frame, level)` is
     /// called for every event, with the frame since reset.
     template <typename OnEvent>
     void process(std::span<const float> in, std::span<const float> peaks, std::span<const float> highs,
@@ -327,6 +327,7 @@ private:
             played += role * role * bandPowers[k];
             low += band.centre.value < heardMaskedBy ? role * role * bandPowers[k] : 0.0;
         }
+        noteEvent();
         heardVoice.aim(heardShare.end(), textureGain.end(), 1.0, std::sqrt(played), low);
         carriers.aim(carrierGains, ratio.end(), attackShare, releaseShare, levelling.end(), ownShare.end());
         bright.aim((1.0 - heardVoice.share()) * brightGain(), glideShare, design->brightFrequency / rate);
@@ -341,6 +342,17 @@ private:
         bright.flush();
         heardVoice.flush();
         watch.flush();
+    }
+
+    /// Sinusoids that are added to the sound's own signal begin again with an event of the last hop.
+    void noteEvent() noexcept
+    {
+        if (!design->anyDirect || watch.framesSinceEvent() >= controlHop)
+            return;
+        const auto frames = static_cast<double>(watch.framesSinceEvent() + 1);
+        carriers.noteEvent(frames);
+        bright.noteEvent(frames);
+        heardVoice.noteEvent(frames);
     }
 
     template <typename OnEvent>

@@ -23,9 +23,7 @@ namespace pacini
 /// `pass` and the inner Nyquist frequency it may fold, so that the filter can be short: its delay is latencyFrames()
 /// input frames, 0.4 ms at 6 kHz. Beside it stands the peak of all input since the frame before, which also tells of
 /// what the filter removes. Frame k is made when input k * factor arrives: an interpolator that starts there needs no
-/// further delay. On demand it also samples what the filter removes, anew for every second frame: enough for its
-/// power. Those samples lie on all phases of the frames in turn, so that tones at multiples of the inner rate have
-/// theirs too.
+/// further delay. On demand it also measures the level of what the filter removes.
 /// Not finite input counts as 0, input is limited to +-100.
 class WholeDecimator
 {
@@ -42,7 +40,6 @@ public:
         if (ratio > 1)
             design(fs, pass);
         kept = coefficients.size() - 1 + ratio - 1;
-        phaseStep = stepThrough(ratio);
         line.assign(kept + std::max<std::size_t>(4096, 8 * coefficients.size()), 0.0f);
         reset();
     }
@@ -55,9 +52,6 @@ public:
         std::fill(line.begin(), line.end(), 0.0f);
         end = kept;
         untilFrame = 0;
-        phase = 0;
-        high = 0.0f;
-        fresh = true;
         peak = 0.0f;
         quiet = kept + 1;
     }
@@ -94,7 +88,7 @@ public:
             // When the whole filter lies on zeros its output is one.
             frames[k] = quiet >= taps ? 0.0f : dotProduct(to + until - taps, coefficients.data(), taps);
             if (!highs.empty())
-                highs[k] = nextHigh(to + until);
+                highs[k] = removed(to + until);
             peaks[k] = peak;
             peak = 0.0f;
             done = until;
@@ -115,27 +109,35 @@ private:
         peak = std::max(peak, largest);
     }
 
-    /// Samples the part that the filter removes, at one of the newest `ratio` inputs before `until`.
-    float nextHigh(const float* until) noexcept
+    /// Returns the root mean square of what the filter removes from the newest `ratio` inputs before `until`. All
+    /// of them count: a short noise has no more or less for where the frames lie.
+    [[nodiscard]] float removed(const float* until) const noexcept
     {
-        if (std::exchange(fresh, !fresh))
+        if (quiet > kept)
+            return 0.0f;
+        constexpr std::size_t lanes = 8;
+        const std::size_t taps = coefficients.size();
+        float power = 0.0f;
+        for (std::size_t at = 0; at < ratio; at += lanes) // outputs side by side
         {
-            const std::size_t taps = coefficients.size();
-            const float* last = until - phase;
-            phase = (phase + phaseStep) % ratio;
-            high = quiet > kept ? 0.0f
-                                : *(last - 1 - latencyFrames()) - dotProduct(last - taps, coefficients.data(), taps);
+            const std::size_t count = std::min(lanes, ratio - at);
+            const float* first = until - at - (taps - 1) - count; // of the inputs of the earliest of them
+            float low[lanes]{};
+            if (count == lanes)
+                for (std::size_t i = 0; i < taps; ++i)
+                    for (std::size_t lane = 0; lane < lanes; ++lane)
+                        low[lane] += coefficients[i] * first[i + lane];
+            else
+                for (std::size_t i = 0; i < taps; ++i)
+                    for (std::size_t lane = 0; lane < count; ++lane)
+                        low[lane] += coefficients[i] * first[i + lane];
+            for (std::size_t lane = 0; lane < count; ++lane)
+            {
+                const float high = first[latencyFrames() + lane] - low[lane];
+                power += high * high;
+            }
         }
-        return high;
-    }
-
-    /// A step that comes through all of `count` phases, far from one to the next.
-    [[nodiscard]] static std::size_t stepThrough(std::size_t count)
-    {
-        std::size_t step = std::max<std::size_t>(1, (3 * count + 4) / 8);
-        while (std::gcd(step, count) > 1)
-            ++step;
-        return step % count;
+        return std::sqrt(power / static_cast<float>(ratio));
     }
 
     void design(double fs, double pass)
@@ -159,10 +161,6 @@ private:
     std::vector<float> line;         // those and room
     std::size_t end = 0;             // of the inputs in the line
     std::size_t untilFrame = 0;      // inputs before the one that completes a frame
-    std::size_t phase = 0;           // of the next sample of what the filter removes
-    std::size_t phaseStep = 1;
-    float high = 0.0f;
-    bool fresh = true; // the next frame gets another
     float peak = 0.0f;
     std::size_t quiet = 0; // newest inputs that are 0, as far as they matter
 };
