@@ -1,6 +1,6 @@
 #pragma once
 
-// Handles: numbers for objects of the library that detect destroyed objects.
+// Numbers of handles, the ids of pacini.h, that detect destroyed objects.
 
 #include <array>
 #include <atomic>

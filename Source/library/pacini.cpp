@@ -73,7 +73,7 @@ struct EngineEntry
     std::atomic<bool> rendering{false};
     std::atomic<bool> pulled{false}; ///< by a controller
     std::unique_ptr<library::ControllerLink> link;
-    std::uint64_t controller = 0;
+    pacini_controller controller = PACINI_NONE;
 };
 
 /// All objects of the library. Never destroyed, as an audio thread may outlive main().
@@ -84,7 +84,7 @@ struct Library
     library::HandleTable<std::shared_ptr<const Texture>> textures{HandleKind::texture, mostTextures};
     library::SharedSlots<EngineEntry, mostEngines> engines;
     library::HandleTable<devices::Controller> controllers{HandleKind::controller, mostControllers};
-    std::vector<std::uint64_t> connected; ///< handles of `controllers`
+    std::vector<pacini_controller> connected; ///< of `controllers`
 };
 
 Library& all()
@@ -256,10 +256,10 @@ Result<std::shared_ptr<const LoadedClip>> loadClip(std::string_view bytes, std::
 pacini_result addClip(const std::shared_ptr<const LoadedClip>& clip, pacini_clip* handle)
 {
     const std::lock_guard lock(all().control);
-    const pacini_clip added = all().clips.add(clip);
+    const std::uint64_t added = all().clips.add(clip);
     if (added == 0)
         return fail(PACINI_TOO_MANY, "a million clips are loaded: release some");
-    *handle = added;
+    *handle = {added};
     return PACINI_OK;
 }
 
@@ -270,10 +270,10 @@ pacini_result addTexture(Result<Texture>&& read, std::string_view path, pacini_t
         return fail(read.error(), path);
     auto texture = std::make_shared<const Texture>(std::move(read).value());
     const std::lock_guard lock(all().control);
-    const pacini_texture added = all().textures.add(std::move(texture));
+    const std::uint64_t added = all().textures.add(std::move(texture));
     if (added == 0)
         return fail(PACINI_TOO_MANY, "10000 textures are loaded: release some");
-    *handle = added;
+    *handle = {added};
     return PACINI_OK;
 }
 
@@ -361,7 +361,7 @@ pacini_result createEngine(const pacini_engine_config* given, const Scene* scene
     if (index == mostEngines)
         return fail(PACINI_TOO_MANY, "64 engines are in use: destroy some");
     static_cast<void>(entry.release()); // the slots have it
-    *handle = Handle{HandleKind::engine, index, generation}.number();
+    *handle = {Handle{HandleKind::engine, index, generation}.number()};
     return PACINI_OK;
 }
 
@@ -417,9 +417,9 @@ double measuredFactor(const EngineEntry& entry)
 using EngineUse = library::SharedSlots<EngineEntry, mostEngines>::Use;
 
 /// The engine of a handle while this lives; generation 0 for a handle of another kind, which finds none.
-EngineUse useEngine(std::uint64_t number)
+EngineUse useEngine(pacini_engine engine)
 {
-    const Handle handle = Handle::of(number);
+    const Handle handle = Handle::of(engine.id);
     return {all().engines, handle.index, handle.kind == HandleKind::engine ? handle.generation : 0};
 }
 
@@ -450,28 +450,28 @@ void forget(const LoadedClip* clip)
 
 /// Calls work(engine) for one thread at a time.
 template <typename Work>
-pacini_result withEngine(pacini_engine number, Work&& work) noexcept
+pacini_result withEngine(pacini_engine engine, Work&& work) noexcept
 {
     return guarded(
         [&]
         {
             const std::lock_guard lock(all().control);
-            const EngineUse use = useEngine(number);
+            const EngineUse use = useEngine(engine);
             return use.get() != nullptr ? work(*use.get()) : stale("engine");
         });
 }
 
 /// Calls work(engine, play) for one thread at a time.
 template <typename Work>
-pacini_result withPlay(pacini_play number, Work&& work) noexcept
+pacini_result withPlay(pacini_play play, Work&& work) noexcept
 {
     return guarded(
         [&]
         {
             const std::lock_guard lock(all().control);
-            if (Handle::of(number).kind != HandleKind::play)
+            if (Handle::of(play.id).kind != HandleKind::play)
                 return stale("play");
-            const PlayHandle handle = PlayHandle::of(number);
+            const PlayHandle handle = PlayHandle::of(play.id);
             const std::uint32_t generation = all().engines.generationOf(handle.engine);
             if ((generation & 0xFFFu) != handle.engineGeneration)
                 return stale("engine of the play");
@@ -522,7 +522,7 @@ void release(pacini_engine engine)
     const EngineUse use = useEngine(engine);
     if (use.get() != nullptr)
     {
-        use.get()->controller = 0;
+        use.get()->controller = PACINI_NONE;
         use.get()->pulled.store(false, std::memory_order_seq_cst);
     }
 }
@@ -619,12 +619,12 @@ pacini_result play(pacini_engine engine, const devices::Controller& controller, 
 /// Replaces the list of controllers with those connected now.
 void keepConnected(const std::vector<devices::Controller>& now)
 {
-    std::vector<std::uint64_t> kept;
+    std::vector<pacini_controller> kept;
     for (const devices::Controller& controller : now)
     {
-        const auto isSame = [&](std::uint64_t handle)
+        const auto isSame = [&](pacini_controller handle)
         {
-            const auto* const known = all().controllers.find(handle);
+            const auto* const known = all().controllers.find(handle.id);
             return known->path == controller.path && known->name == controller.name &&
                    known->haptics == controller.haptics && known->transport == controller.transport;
         };
@@ -636,10 +636,10 @@ void keepConnected(const std::vector<devices::Controller>& now)
             before.erase(found);
         }
         else if (const std::uint64_t handle = all().controllers.add(controller); handle != 0)
-            kept.push_back(handle);
+            kept.push_back({handle});
     }
-    for (const std::uint64_t handle : all().connected)
-        all().controllers.remove(handle);
+    for (const pacini_controller handle : all().connected)
+        all().controllers.remove(handle.id);
     all().connected = std::move(kept);
 }
 
@@ -702,9 +702,9 @@ pacini_result startPlay(pacini_engine engine, const pacini_play_settings* settin
     const Result<PlayId> started = start(std::move(wanted), given.frame);
     if (!started)
         return fail(started.error());
-    const Handle owner = Handle::of(engine);
+    const Handle owner = Handle::of(engine.id);
     if (play != nullptr)
-        *play = PlayHandle{owner.index, owner.generation, started->slot, started->generation}.number();
+        *play = {PlayHandle{owner.index, owner.generation, started->slot, started->generation}.number()};
     return PACINI_OK;
 }
 } // namespace
@@ -819,19 +819,19 @@ extern "C"
                 const auto takeBack = [&]
                 {
                     for (const pacini_clip one : added)
-                        all().clips.remove(one);
+                        all().clips.remove(one.id);
                 };
                 try
                 {
                     for (auto& one : loaded)
                     {
-                        const pacini_clip handle = all().clips.add(std::move(one));
+                        const std::uint64_t handle = all().clips.add(std::move(one));
                         if (handle == 0)
                         {
                             takeBack();
                             return fail(PACINI_TOO_MANY, "a million clips are loaded: release some");
                         }
-                        added.push_back(handle);
+                        added.push_back({handle});
                     }
                 }
                 catch (...)
@@ -855,7 +855,7 @@ extern "C"
                 if (!loaded)
                     return fail(loaded.error());
                 const std::lock_guard lock(all().control);
-                auto* const held = all().clips.find(clip);
+                auto* const held = all().clips.find(clip.id);
                 if (held == nullptr)
                     return stale("clip");
                 // First all that can fail.
@@ -892,7 +892,7 @@ extern "C"
             [&]
             {
                 const std::lock_guard lock(all().control);
-                const auto* const held = all().clips.find(clip);
+                const auto* const held = all().clips.find(clip.id);
                 if (held == nullptr)
                     return stale("clip");
                 const LoadedClip& loaded = **held;
@@ -911,11 +911,11 @@ extern "C"
             [&]
             {
                 const std::lock_guard lock(all().control);
-                const auto* const held = all().clips.find(clip);
+                const auto* const held = all().clips.find(clip.id);
                 if (held == nullptr)
                     return stale("clip");
                 forget(held->get());
-                all().clips.remove(clip);
+                all().clips.remove(clip.id);
                 return PACINI_OK;
             });
     }
@@ -964,7 +964,7 @@ extern "C"
         return guarded(
             [&]
             {
-                const Handle handle = Handle::of(engine);
+                const Handle handle = Handle::of(engine.id);
                 if (handle.kind != HandleKind::engine)
                     return stale("engine");
                 static_cast<void>(detach(engine));
@@ -1114,7 +1114,7 @@ extern "C"
         return withEngine(engine,
                           [&](EngineEntry& entry)
                           {
-                              const auto* const held = all().clips.find(clip);
+                              const auto* const held = all().clips.find(clip.id);
                               if (held == nullptr)
                                   return stale("clip");
                               return startPlay(engine, settings, play,
@@ -1158,9 +1158,9 @@ extern "C"
             [&]
             {
                 const std::lock_guard lock(all().control);
-                if (all().textures.find(texture) == nullptr)
+                if (all().textures.find(texture.id) == nullptr)
                     return stale("texture");
-                all().textures.remove(texture);
+                all().textures.remove(texture.id);
                 return PACINI_OK;
             });
     }
@@ -1171,7 +1171,7 @@ extern "C"
         return withEngine(engine,
                           [&](EngineEntry& entry)
                           {
-                              const auto* const held = all().textures.find(texture);
+                              const auto* const held = all().textures.find(texture.id);
                               if (held == nullptr)
                                   return stale("texture");
                               return startPlay(engine, settings, play,
@@ -1287,7 +1287,7 @@ extern "C"
             [&]
             {
                 const std::lock_guard lock(all().control);
-                const auto* const known = all().controllers.find(controller);
+                const auto* const known = all().controllers.find(controller.id);
                 if (known == nullptr)
                     return stale("controller");
                 pacini_controller_info read{};
@@ -1317,7 +1317,7 @@ extern "C"
                 devices::Controller wanted;
                 {
                     const std::lock_guard lock(all().control);
-                    const auto* const known = all().controllers.find(controller);
+                    const auto* const known = all().controllers.find(controller.id);
                     if (known == nullptr)
                         return stale("controller");
                     wanted = *known;

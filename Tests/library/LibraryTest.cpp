@@ -14,6 +14,7 @@
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <map>
 #include <string>
 #include <thread>
 #include <utility>
@@ -44,7 +45,7 @@ void require(pacini_result result)
 
 pacini_clip loaded(const std::string& text)
 {
-    pacini_clip clip = 0;
+    pacini_clip clip = PACINI_NONE;
     require(pacini_clip_load(text.data(), text.size(), &clip));
     return clip;
 }
@@ -55,7 +56,7 @@ pacini_engine created(std::uint32_t actuators = 1)
     pacini_engine_config_init(&config);
     config.actuator_count = actuators;
     config.sample_rate = 8000.0;
-    pacini_engine engine = 0;
+    pacini_engine engine = PACINI_NONE;
     require(pacini_engine_create(&config, &engine));
     return engine;
 }
@@ -90,10 +91,10 @@ TEST_CASE("A texture is loaded, started, moved while it plays and stopped throug
     const std::string wood = R"({"format": "pacini.texture", "version": 1, "pitch": 1, "levelBySpeed": 1,
  "levelByForce": 0.5, "nodes": [{"speed": 0.5, "level": 0.1, "reflection": [-0.6, 0.8]}],
  "tones": [{"frequency": 300, "levels": [0.05]}]})";
-    pacini_texture texture = 0;
+    pacini_texture texture = PACINI_NONE;
     require(pacini_texture_load(wood.data(), wood.size(), &texture));
     const pacini_engine engine = created();
-    pacini_play play = 0;
+    pacini_play play = PACINI_NONE;
     require(pacini_texture_start(engine, texture, 0.0, 1.0, nullptr, &play));
     CHECK(largest(rendered(engine, 1000)) == 0.0f);
     CHECK(infoOf(play).state == PACINI_PLAYING);
@@ -121,14 +122,14 @@ TEST_CASE("A texture is loaded, started, moved while it plays and stopped throug
     rendered(engine, 200);
     CHECK(infoOf(play).state == PACINI_ENDED);
     // What is no texture.
-    texture = 7;
+    texture = {7};
     CHECK(pacini_texture_load(hum.data(), hum.size(), &texture) == PACINI_BAD_DATA);
     CHECK(pacini_texture_load("", 0, &texture) == PACINI_INVALID);
     CHECK(pacini_texture_load(wood.data(), 40, &texture) == PACINI_BAD_DATA);
     CHECK(pacini_texture_load_file("none.texture.json", &texture) == PACINI_IO);
-    CHECK(texture == 7);
+    CHECK(texture.id == 7);
     const pacini_clip clip = loaded(hum);
-    CHECK(pacini_texture_start(engine, clip, 0.5, 1.0, nullptr, nullptr) == PACINI_STALE);
+    CHECK(pacini_texture_start(engine, {clip.id}, 0.5, 1.0, nullptr, nullptr) == PACINI_STALE);
     require(pacini_texture_load(wood.data(), wood.size(), &texture));
     CHECK(pacini_texture_start(engine, texture, 2.0, 1.0, nullptr, nullptr) == PACINI_INVALID);
     CHECK(pacini_texture_start(engine, texture, 0.5, -1.0, nullptr, nullptr) == PACINI_INVALID);
@@ -153,7 +154,7 @@ TEST_CASE("A clip is loaded from memory in any format, played, changed and stopp
     pacini_play_settings_init(&settings);
     settings.loop = -1.0;
     settings.frame = 1000;
-    pacini_play play = 0;
+    pacini_play play = PACINI_NONE;
     require(pacini_play_start(engine, clip, &settings, &play));
     CHECK(infoOf(play).state == PACINI_WAITING);
     CHECK(largest(rendered(engine, 1000)) == 0.0f);
@@ -205,31 +206,32 @@ TEST_CASE("Handles that are stale or of another kind are errors, also after thei
 {
     const pacini_clip clip = loaded(hum);
     const pacini_engine engine = created();
-    pacini_play play = 0;
+    pacini_play play = PACINI_NONE;
     require(pacini_play_start(engine, clip, nullptr, &play));
     pacini_play_info info;
     pacini_play_info_init(&info);
-    for (const std::uint64_t other : {std::uint64_t(0), engine, clip, play + 1, ~play, ~std::uint64_t(0)})
+    // Numbers of another kind, which only who makes a handle of them can pass.
+    for (const std::uint64_t other : {std::uint64_t(0), engine.id, clip.id, play.id + 1, ~play.id, ~std::uint64_t(0)})
     {
-        CHECK(pacini_play_stop(other, 0.0, 0) == PACINI_STALE);
-        if (other != play + 1)
-            CHECK(pacini_play_get_info(other, &info) == PACINI_STALE);
+        CHECK(pacini_play_stop({other}, 0.0, 0) == PACINI_STALE);
+        if (other != play.id + 1)
+            CHECK(pacini_play_get_info({other}, &info) == PACINI_STALE);
     }
-    for (const std::uint64_t other : {std::uint64_t(0), play, clip, engine + 2, ~std::uint64_t(0)})
+    for (const std::uint64_t other : {std::uint64_t(0), play.id, clip.id, engine.id + 2, ~std::uint64_t(0)})
     {
         std::array<float, 8> samples;
         samples.fill(1.0f);
-        CHECK(pacini_render_interleaved(other, samples.data(), 1, 8) == PACINI_STALE);
+        CHECK(pacini_render_interleaved({other}, samples.data(), 1, 8) == PACINI_STALE);
         CHECK(std::all_of(samples.begin(), samples.end(), [](float v) { return v == 0.0f; })); // not what was there
-        CHECK(pacini_engine_destroy(other) == PACINI_STALE);
-        CHECK(pacini_play_start(other, clip, nullptr, nullptr) == PACINI_STALE);
-        CHECK(pacini_play_start(engine, other, nullptr, nullptr) == (other == clip ? PACINI_OK : PACINI_STALE));
+        CHECK(pacini_engine_destroy({other}) == PACINI_STALE);
+        CHECK(pacini_play_start({other}, clip, nullptr, nullptr) == PACINI_STALE);
+        CHECK(pacini_play_start(engine, {other}, nullptr, nullptr) == (other == clip.id ? PACINI_OK : PACINI_STALE));
     }
     require(pacini_engine_destroy(engine));
     CHECK(pacini_engine_destroy(engine) == PACINI_STALE);
     const pacini_engine again = created();
     CHECK(again != engine);
-    pacini_play newer = 0;
+    pacini_play newer = PACINI_NONE;
     require(pacini_play_start(again, clip, nullptr, &newer));
     CHECK(newer != play);
     CHECK(pacini_play_get_info(play, &info) == PACINI_STALE);
@@ -239,12 +241,28 @@ TEST_CASE("Handles that are stale or of another kind are errors, also after thei
     require(pacini_engine_destroy(again));
 }
 
+TEST_CASE("Handles are compared in C++")
+{
+    const pacini_clip none = PACINI_NONE, one = loaded(hum), other = loaded(hum);
+    CHECK(none == pacini_clip{0});
+    CHECK(one != none);
+    CHECK(one != other);
+    CHECK(none < one);
+    CHECK((one < other) != (other < one));
+    std::map<pacini_clip, std::string> names{{one, "one"}, {other, "other"}};
+    CHECK(names[one] == "one");
+    CHECK(names.size() == 2);
+    require(pacini_clip_release(one));
+    require(pacini_clip_release(other));
+}
+
 TEST_CASE("Many clips are loaded by one call, all or none")
 {
     const std::string broken = hum.substr(0, hum.size() / 2);
     std::array<const void*, 3> bytes{hum.data(), faintHum.data(), hum.data()};
     std::array<std::size_t, 3> sizes{hum.size(), faintHum.size(), hum.size()};
-    std::array<pacini_clip, 3> clips{1, 2, 3};
+    constexpr std::array<pacini_clip, 3> numbered{{{1}, {2}, {3}}};
+    std::array<pacini_clip, 3> clips = numbered;
     require(pacini_clips_load(nullptr, nullptr, 0, nullptr));
     require(pacini_clips_load(bytes.data(), sizes.data(), 3, clips.data()));
     const std::array<const char*, 3> names{"hum", "faint", "hum"};
@@ -261,7 +279,7 @@ TEST_CASE("Many clips are loaded by one call, all or none")
     // The first one that is broken is told, nothing is loaded, and no handle is written.
     const auto placeOf = [](pacini_clip clip)
     {
-        return clip >> 32 & 0xFFFFFFu;
+        return clip.id >> 32 & 0xFFFFFFu;
     };
     const pacini_clip before = loaded(hum);
     require(pacini_clip_release(before));
@@ -269,10 +287,10 @@ TEST_CASE("Many clips are loaded by one call, all or none")
     sizes[1] = broken.size();
     bytes[2] = broken.data();
     sizes[2] = 1;
-    clips = {1, 2, 3};
+    clips = numbered;
     CHECK(pacini_clips_load(bytes.data(), sizes.data(), 3, clips.data()) == PACINI_BAD_DATA);
     CHECK(lastError().find("bytes[1]: ") == 0);
-    CHECK(clips == std::array<pacini_clip, 3>{1, 2, 3});
+    CHECK(clips == numbered);
     // The next clip takes the place that was free before.
     const pacini_clip next = loaded(hum);
     CHECK(placeOf(next) == placeOf(before));
@@ -283,11 +301,11 @@ TEST_CASE("Wrong arguments are told by name")
 {
     pacini_engine_config config;
     pacini_engine_config_init(&config);
-    pacini_engine engine = 1;
+    pacini_engine engine = {1};
     const auto says = [&](const std::string& text)
     {
         CHECK(pacini_engine_create(&config, &engine) != PACINI_OK);
-        CHECK(engine == 1);
+        CHECK(engine.id == 1);
         CHECK(lastError().find(text) != std::string::npos);
         pacini_engine_config_init(&config);
     };
@@ -301,9 +319,9 @@ TEST_CASE("Wrong arguments are told by name")
     says("actuators[0].profile");
     config.struct_size = 0;
     says("pacini_engine_config_init()");
-    pacini_clip clip = 1;
+    pacini_clip clip = {1};
     CHECK(pacini_clip_load("nonsense", 8, &clip) == PACINI_BAD_DATA);
-    CHECK(clip == 1);
+    CHECK(clip.id == 1);
     CHECK(pacini_clip_load(hum.data(), hum.size() / 2, &clip) == PACINI_BAD_DATA);
     CHECK(pacini_clip_load_file("there/is/none", &clip) == PACINI_IO);
     CHECK(lastError().find("there/is/none") != std::string::npos);
@@ -316,8 +334,8 @@ TEST_CASE("Wrong arguments are told by name")
         "wavelet_stream": "AAAA"}]}]}]}]})";
     CHECK(pacini_clip_load(wave.data(), wave.size(), &clip) == PACINI_BAD_DATA);
     CHECK(lastError().find("pacini convert") != std::string::npos);
-    CHECK(clip == 1);
-    CHECK(pacini_render(0, nullptr, 1, 1) == PACINI_INVALID);
+    CHECK(clip.id == 1);
+    CHECK(pacini_render(PACINI_NONE, nullptr, 1, 1) == PACINI_INVALID);
     // A caller of an older header has a shorter struct: what it does not know stays as usual.
     config.struct_size = 8;
     config.actuator_count = 3;
@@ -391,7 +409,7 @@ TEST_CASE("Plays that end on the audio thread while others start in their slots 
     settings.from = 0.99;
     for (int i = 0; i < 3000; ++i)
     {
-        pacini_play play = 0;
+        pacini_play play = PACINI_NONE;
         if (pacini_play_start(engine, clip, &settings, &play) != PACINI_OK)
             continue; // as many as there may be
         settings.from = i % 100 == 0 ? 0.0 : 0.99;
@@ -418,10 +436,10 @@ TEST_CASE("Controllers that are not there, and engines without one, are errors t
     const pacini_engine engine = created();
     pacini_controller_info of;
     pacini_controller_info_init(&of);
-    for (const std::uint64_t wrong : {std::uint64_t{0}, engine, ~std::uint64_t{0}})
+    for (const std::uint64_t wrong : {std::uint64_t{0}, engine.id, ~std::uint64_t{0}})
     {
-        CHECK(pacini_controller_get_info(wrong, &of) == PACINI_STALE);
-        CHECK(pacini_engine_attach(engine, wrong, nullptr) == PACINI_STALE);
+        CHECK(pacini_controller_get_info({wrong}, &of) == PACINI_STALE);
+        CHECK(pacini_engine_attach(engine, {wrong}, nullptr) == PACINI_STALE);
     }
     CHECK(lastError() == "controller is not in use (any more)");
     CHECK(pacini_engine_detach(engine) == PACINI_INVALID);
@@ -430,13 +448,13 @@ TEST_CASE("Controllers that are not there, and engines without one, are errors t
     pacini_attachment_info_init(&info);
     require(pacini_engine_get_attachment(engine, &info));
     CHECK(info.state == PACINI_DETACHED);
-    CHECK(info.controller == 0);
+    CHECK(info.controller.id == 0);
     CHECK(pacini_engine_get_attachment(engine, nullptr) == PACINI_INVALID);
     CHECK(rendered(engine, 10).size() == 10); // it is still the caller's
     require(pacini_engine_destroy(engine));
     CHECK(pacini_engine_detach(engine) == PACINI_STALE);
     CHECK(pacini_engine_get_attachment(engine, &info) == PACINI_STALE);
-    CHECK(pacini_api_version() == 1004);
+    CHECK(pacini_api_version() == 1005);
 }
 
 namespace
@@ -549,14 +567,18 @@ TEST_CASE("A thousand calls with something wrong in each name it and change noth
     const pacini_engine gone = created();
     require(pacini_engine_destroy(gone));
 
-    std::uint64_t handle = untouched;
+    pacini_engine madeEngine = {untouched};
+    pacini_clip madeClip = {untouched};
+    pacini_play madePlay = {untouched};
     std::array<int, 20> told{};
     const auto fails = [&](std::size_t kind, pacini_result code, pacini_result result, const std::string& name)
     {
         INFO("call of kind " << kind << ": " << pacini_result_text(result) << ", " << lastError() << "; " << name);
         REQUIRE(result == code);
         REQUIRE(lastError().find(name) != std::string::npos);
-        REQUIRE(handle == untouched);
+        REQUIRE(madeEngine.id == untouched);
+        REQUIRE(madeClip.id == untouched);
+        REQUIRE(madePlay.id == untouched);
         // No name of C++: what is wrong is called as pacini.h has it. Keys of files are those of the file.
         const std::string said = lastError();
         REQUIRE((result == PACINI_BAD_DATA || !hasCamelCase(said)));
@@ -570,7 +592,7 @@ TEST_CASE("A thousand calls with something wrong in each name it and change noth
         const auto frame = static_cast<std::int64_t>(dice.below(2) == 0 ? 0 : dice.below(1u << 30));
         const double value = dice.outside(controls[c].low, controls[c].high), fine = controls[c].high;
         const double fade = dice.outside(0.0, 3600.0);
-        const std::array<std::uint64_t, 5> strangers{0, gone, clip, untouched, ~std::uint64_t{0}};
+        const std::array<std::uint64_t, 5> strangers{0, gone.id, clip.id, untouched, ~std::uint64_t{0}};
         const std::uint64_t stranger = strangers[dice.below(strangers.size())];
         switch (kind)
         {
@@ -617,7 +639,7 @@ TEST_CASE("A thousand calls with something wrong in each name it and change noth
             const auto& field = settingFields[dice.below(settingFields.size())];
             pacini_play_settings wrong = settings;
             wrong.*field.member = dice.outside(field.low, field.high);
-            fails(kind, PACINI_INVALID, pacini_play_start(engine, clip, &wrong, &handle), field.name);
+            fails(kind, PACINI_INVALID, pacini_play_start(engine, clip, &wrong, &madePlay), field.name);
             break;
         }
         case 12:
@@ -626,11 +648,11 @@ TEST_CASE("A thousand calls with something wrong in each name it and change noth
             pacini_engine_config config;
             pacini_engine_config_init(&config);
             config.*field.member = dice.outside(field.low, field.high);
-            fails(kind, PACINI_INVALID, pacini_engine_create(&config, &handle), field.name);
+            fails(kind, PACINI_INVALID, pacini_engine_create(&config, &madeEngine), field.name);
             pacini_engine_config_init(&config);
             config.actuator_count = 2;
             (dice.below(2) == 0 ? config.actuators[1].gain : config.actuators[1].delay) = dice.outside(0.0, 1.0);
-            fails(kind, PACINI_INVALID, pacini_engine_create(&config, &handle), "actuators[1].");
+            fails(kind, PACINI_INVALID, pacini_engine_create(&config, &madeEngine), "actuators[1].");
             break;
         }
         case 13:
@@ -645,51 +667,51 @@ TEST_CASE("A thousand calls with something wrong in each name it and change noth
                  {&config.max_commands, "max_commands"}}};
             const auto& [member, name] = counts[dice.below(3)];
             *member = count;
-            fails(kind, PACINI_INVALID, pacini_engine_create(&config, &handle), name);
+            fails(kind, PACINI_INVALID, pacini_engine_create(&config, &madeEngine), name);
             pacini_engine_config_init(&config);
             config.budget_frames = 0;
-            fails(kind, PACINI_INVALID, pacini_engine_create(&config, &handle), "budget");
+            fails(kind, PACINI_INVALID, pacini_engine_create(&config, &madeEngine), "budget");
             pacini_engine_config_init(&config);
             config.pan_law = dice.below(2) == 0 ? -1 : 3;
-            fails(kind, PACINI_INVALID, pacini_engine_create(&config, &handle), "pan_law");
+            fails(kind, PACINI_INVALID, pacini_engine_create(&config, &madeEngine), "pan_law");
             pacini_engine_config_init(&config);
             config.struct_size =
                 static_cast<std::uint32_t>(dice.below(2) == 0 ? dice.below(4) : 4097 + dice.below(1u << 31));
-            fails(kind, PACINI_INVALID, pacini_engine_create(&config, &handle), "pacini_engine_config_init()");
-            fails(kind, PACINI_IO, pacini_engine_create_scene(nullptr, "there/is/none", &handle), "there/is/none");
+            fails(kind, PACINI_INVALID, pacini_engine_create(&config, &madeEngine), "pacini_engine_config_init()");
+            fails(kind, PACINI_IO, pacini_engine_create_scene(nullptr, "there/is/none", &madeEngine), "there/is/none");
             break;
         }
         case 14:
         {
             const std::size_t some = 1 + static_cast<std::size_t>(dice.below(hum.size() - 2));
-            fails(kind, PACINI_BAD_DATA, pacini_clip_load(hum.data(), some, &handle), "");
+            fails(kind, PACINI_BAD_DATA, pacini_clip_load(hum.data(), some, &madeClip), "");
             fails(kind, PACINI_BAD_DATA, pacini_clip_reload(clip, hum.data(), some), "");
-            fails(kind, PACINI_INVALID, pacini_clip_load(hum.data(), 0, &handle), "bytes");
+            fails(kind, PACINI_INVALID, pacini_clip_load(hum.data(), 0, &madeClip), "bytes");
             fails(kind, PACINI_INVALID, pacini_clip_load(hum.data(), hum.size(), nullptr), "clip");
-            fails(kind, PACINI_IO, pacini_clip_load_file("there/is/none", &handle), "there/is/none");
+            fails(kind, PACINI_IO, pacini_clip_load_file("there/is/none", &madeClip), "there/is/none");
             const std::array<const void*, 2> both{hum.data(), hum.data()};
             std::array<std::size_t, 2> sizes{hum.size(), some};
-            fails(kind, PACINI_BAD_DATA, pacini_clips_load(both.data(), sizes.data(), 2, &handle), "bytes[1]");
+            fails(kind, PACINI_BAD_DATA, pacini_clips_load(both.data(), sizes.data(), 2, &madeClip), "bytes[1]");
             sizes[1] = 0;
-            fails(kind, PACINI_INVALID, pacini_clips_load(both.data(), sizes.data(), 2, &handle), "bytes[1]: there");
-            fails(kind, PACINI_INVALID, pacini_clips_load(both.data(), nullptr, 2, &handle), "sizes");
-            fails(kind, PACINI_TOO_MANY, pacini_clips_load(both.data(), sizes.data(), ~std::size_t{0}, &handle),
+            fails(kind, PACINI_INVALID, pacini_clips_load(both.data(), sizes.data(), 2, &madeClip), "bytes[1]: there");
+            fails(kind, PACINI_INVALID, pacini_clips_load(both.data(), nullptr, 2, &madeClip), "sizes");
+            fails(kind, PACINI_TOO_MANY, pacini_clips_load(both.data(), sizes.data(), ~std::size_t{0}, &madeClip),
                   "count");
             break;
         }
         case 15:
         {
-            fails(kind, PACINI_STALE, pacini_play_start(stranger, clip, nullptr, &handle), "engine");
-            if (stranger != clip)
-                fails(kind, PACINI_STALE, pacini_play_start(engine, stranger, nullptr, &handle), "clip");
-            fails(kind, PACINI_STALE, pacini_play_set(stranger, number, fine, 0.0, frame), "play");
-            fails(kind, PACINI_STALE, pacini_engine_attach(engine, stranger, nullptr), "controller");
-            if (stranger != clip)
-                fails(kind, PACINI_STALE, pacini_clip_reload(stranger, hum.data(), hum.size()), "clip");
+            fails(kind, PACINI_STALE, pacini_play_start({stranger}, clip, nullptr, &madePlay), "engine");
+            if (stranger != clip.id)
+                fails(kind, PACINI_STALE, pacini_play_start(engine, {stranger}, nullptr, &madePlay), "clip");
+            fails(kind, PACINI_STALE, pacini_play_set({stranger}, number, fine, 0.0, frame), "play");
+            fails(kind, PACINI_STALE, pacini_engine_attach(engine, {stranger}, nullptr), "controller");
+            if (stranger != clip.id)
+                fails(kind, PACINI_STALE, pacini_clip_reload({stranger}, hum.data(), hum.size()), "clip");
             float* none = nullptr;
-            CHECK(pacini_render(stranger, &none, 0, 8) == PACINI_STALE);
-            CHECK(pacini_render(stranger, nullptr, 0, 0) == PACINI_STALE);
-            CHECK(pacini_render_interleaved(stranger, nullptr, 0, 0) == PACINI_STALE);
+            CHECK(pacini_render({stranger}, &none, 0, 8) == PACINI_STALE);
+            CHECK(pacini_render({stranger}, nullptr, 0, 0) == PACINI_STALE);
+            CHECK(pacini_render_interleaved({stranger}, nullptr, 0, 0) == PACINI_STALE);
             CHECK(pacini_render(engine, &none, 1, 8) == PACINI_INVALID);
             CHECK(pacini_render_interleaved(engine, nullptr, 1, 8) == PACINI_INVALID);
             break;
@@ -705,10 +727,10 @@ TEST_CASE("A thousand calls with something wrong in each name it and change noth
             fails(kind, PACINI_INVALID, pacini_group_stop(engine, group, 0.0, frame), "group");
             pacini_play_settings wrong = settings;
             wrong.group = group;
-            fails(kind, PACINI_INVALID, pacini_play_start(engine, clip, &wrong, &handle), "group");
+            fails(kind, PACINI_INVALID, pacini_play_start(engine, clip, &wrong, &madePlay), "group");
             wrong = settings;
             wrong.priority = std::numeric_limits<std::int32_t>::min();
-            fails(kind, PACINI_INVALID, pacini_play_start(engine, clip, &wrong, &handle), "priority");
+            fails(kind, PACINI_INVALID, pacini_play_start(engine, clip, &wrong, &madePlay), "priority");
             break;
         }
         case 17:
@@ -718,7 +740,7 @@ TEST_CASE("A thousand calls with something wrong in each name it and change noth
             info.struct_size = dice.below(2) == 0 ? 0 : 5000;
             const pacini_play_info before = info;
             fails(kind, PACINI_INVALID, pacini_play_get_info(play, &info), "init");
-            fails(kind, PACINI_STALE, pacini_play_get_info(stranger, &info), "play");
+            fails(kind, PACINI_STALE, pacini_play_get_info({stranger}, &info), "play");
             CHECK(std::memcmp(&info, &before, sizeof info) == 0);
             fails(kind, PACINI_INVALID, pacini_engine_get_info(engine, nullptr), "init");
             fails(kind, PACINI_INVALID, pacini_clip_get_info(clip, nullptr), "init");
@@ -758,7 +780,7 @@ pacini_engine humming(double budget, double factor)
     config.actuator_count = 2;
     config.budget = budget;
     config.budget_frames = 256;
-    pacini_engine engine = 0;
+    pacini_engine engine = PACINI_NONE;
     require(pacini_engine_create(&config, &engine));
     require(pacini_engine_calibrate(engine, factor, nullptr));
     const pacini_clip clip = loaded(hum);
@@ -903,6 +925,9 @@ TEST_CASE("Structs of version 1 never grow: their init functions would write bey
 {
     if (sizeof(void*) != 8 || sizeof(double) != alignof(double))
         return;
+    for (const std::size_t size : {sizeof(pacini_clip), sizeof(pacini_engine), sizeof(pacini_texture),
+                                   sizeof(pacini_play), sizeof(pacini_controller)})
+        CHECK(size == 8);
     CHECK(sizeof(pacini_clip_info) == 88);
     CHECK(sizeof(pacini_actuator) == 24);
     CHECK(sizeof(pacini_engine_config) == 456);

@@ -10,8 +10,8 @@
 int main(int argc, char** argv)
 {
     pacini_engine_config config;
-    pacini_engine engine = 0;
-    pacini_clip clip = 0;
+    pacini_engine engine = PACINI_NONE;
+    pacini_clip clip = PACINI_NONE;
     float drive[256];
     float* channels[1] = {drive};
     int block;

@@ -82,9 +82,9 @@ struct Handles
             return;
         const auto old = some.begin() + 1 + static_cast<std::ptrdiff_t>(next() % 11);
         if (kind == engines) // there are 64 at most
-            pacini_engine_destroy(*old);
+            pacini_engine_destroy({*old});
         if (kind == clips)
-            pacini_clip_release(*old);
+            pacini_clip_release({*old});
         some.erase(old);
     }
 };
@@ -93,16 +93,18 @@ constexpr std::uint64_t untouched = 0x1234567890ABCDEF;
 
 /// Whether a call gave a handle, or else left the caller's alone and said why. `made` is what the call wrote, whichever
 /// argument is evaluated first.
-bool gaveOrSaid(pacini_result result, const std::uint64_t& made)
+template <typename Made>
+bool gaveOrSaid(pacini_result result, const Made& made)
 {
-    const bool well =
-        result == PACINI_OK ? made != untouched && made != 0 : made == untouched && pacini_last_error(nullptr, 0) > 1;
+    const bool well = result == PACINI_OK ? made.id != untouched && made.id != 0
+                                          : made.id == untouched && pacini_last_error(nullptr, 0) > 1;
     if (!well)
-        std::printf("%s, and the handle is %llx\n", pacini_result_text(result), static_cast<unsigned long long>(made));
+        std::printf("%s, and the handle is %llx\n", pacini_result_text(result),
+                    static_cast<unsigned long long>(made.id));
     return well;
 }
 
-bool rendersWell(std::uint64_t engine)
+bool rendersWell(pacini_engine engine)
 {
     std::array<float, 3 * 300> samples;
     const auto channels = static_cast<std::uint32_t>(next() % 4), frames = static_cast<std::uint32_t>(next() % 301);
@@ -124,23 +126,27 @@ bool sequence(Handles& handles)
     const std::uint64_t calls = next() % 30;
     for (std::uint64_t i = 0; i < calls; ++i)
     {
-        std::uint64_t made = untouched;
-        const std::uint64_t engine = handles.of(engines), clip = handles.of(clips), play = handles.of(plays);
+        const pacini_engine engine = {handles.of(engines)};
+        const pacini_clip clip = {handles.of(clips)};
+        const pacini_play play = {handles.of(plays)};
         const double x = number(), y = number();
         const auto frame = static_cast<std::int64_t>(next() % 4 == 0 ? next() : 0);
         const auto control = static_cast<std::int32_t>(next() % 12) - 1;
         switch (next() % 19)
         {
         case 0:
+        {
             if (next() % 3 != 0)
                 break;
+            pacini_clip made = {untouched};
             if (!gaveOrSaid(pacini_clip_load(clipText.data(),
                                              next() % 4 != 0 ? clipText.size() : next() % clipText.size(), &made),
                             made))
                 return false;
-            if (made != untouched)
-                handles.add(clips, made);
+            if (made.id != untouched)
+                handles.add(clips, made.id);
             break;
+        }
         case 1:
         {
             if (next() % 4 != 0)
@@ -157,10 +163,11 @@ bool sequence(Handles& handles)
             config.actuators[1].delay = next() % 8 == 0 ? number() : 0.01;
             config.longest_delay = next() % 8 == 0 ? number() : 0.1;
             config.budget = next() % 4 == 0 ? number() : 0.0;
+            pacini_engine made = {untouched};
             if (!gaveOrSaid(pacini_engine_create(&config, &made), made))
                 return false;
-            if (made != untouched)
-                handles.add(engines, made);
+            if (made.id != untouched)
+                handles.add(engines, made.id);
             break;
         }
         case 2:
@@ -180,12 +187,13 @@ bool sequence(Handles& handles)
             settings.frame = frame;
             if (next() % 32 == 0)
                 settings.struct_size = static_cast<std::uint32_t>(next());
+            pacini_play made = {untouched};
             if (!gaveOrSaid(pacini_play_start(engine, clip, next() % 4 == 0 ? nullptr : &settings, &made), made))
                 return false;
-            if (made == untouched)
+            if (made.id == untouched)
                 break;
             ++started;
-            handles.add(plays, made);
+            handles.add(plays, made.id);
             break;
         }
         case 5:
@@ -242,7 +250,7 @@ bool sequence(Handles& handles)
         }
         case 16:
         {
-            const std::uint64_t controller = handles.of(controllers);
+            const pacini_controller controller = {handles.of(controllers)};
             pacini_attach_settings settings;
             pacini_attach_settings_init(&settings);
             if (next() % 32 == 0)
@@ -262,10 +270,10 @@ bool sequence(Handles& handles)
             if (next() % 8 == 0)
                 pacini_controllers_find(found.data(), static_cast<std::uint32_t>(next() % 4), &count);
             for (const pacini_controller each : found)
-                handles.add(controllers, each);
+                handles.add(controllers, each.id);
             pacini_controller_info ofController;
             pacini_controller_info_init(&ofController);
-            pacini_controller_get_info(handles.of(controllers), &ofController);
+            pacini_controller_get_info({handles.of(controllers)}, &ofController);
             pacini_engine_detach(engine);
             break;
         }

@@ -23,7 +23,16 @@
  * TIME. A command takes effect at a frame of the output; frame 0 is the first one that the engine renders. Past frames,
  * such as 0, mean now. For exact timing, send a command pacini_engine_info.latency frames ahead.
  *
- * HANDLES are numbers; 0 is no handle. A stale or invalid handle causes an error (PACINI_STALE), never a crash.
+ * HANDLES are structs of one number, a type for each kind, so that a clip in the place of an engine does not compile.
+ * `id` 0 is no handle: pacini_clip clip = PACINI_NONE. Two handles are the same if their ids are; in C++ == compares
+ * them. A stale or invalid handle causes an error (PACINI_STALE), never a crash.
+ *
+ * Up to 1.4 handles were uint64_t: sources that initialise, compare, print or store them as numbers must be changed,
+ * and programs built against an older pacini.h keep working. Handles are arguments and fields of structs, never
+ * results, and there a struct of one uint64_t is passed and laid out as the uint64_t itself by the calling conventions
+ * of x86-64 (System V and Windows), 64-bit and 32-bit ARM, i386 and WebAssembly. Results are left out for i386, which
+ * returns a uint64_t in registers and a struct in memory. Languages that cannot pass structs may therefore declare
+ * handles as uint64_t.
  *
  * STRUCTS begin with their size, which their init function sets. They never grow within a major version: additions are
  * new functions and structs, so that programs built against an older pacini.h keep working.
@@ -60,7 +69,7 @@ extern "C"
 
 /* Version of this header. It works with a library of the same major version and at least this minor version. */
 #define PACINI_API_MAJOR 1
-#define PACINI_API_MINOR 4
+#define PACINI_API_MINOR 5
 
     /* Version of the library: major * 1000 + minor. [any thread] */
     PACINI_API uint32_t pacini_api_version(void);
@@ -86,11 +95,36 @@ extern "C"
      * bytes including a terminating 0 and returns the size of the whole text. [any thread] */
     PACINI_API size_t pacini_last_error(char* text, size_t size);
 
-    typedef uint64_t pacini_clip;
-    typedef uint64_t pacini_engine;
-    typedef uint64_t pacini_texture; /* since 1.3 */
-    typedef uint64_t pacini_play;
-    typedef uint64_t pacini_controller;
+    /* Handles; structs since 1.5. */
+    typedef struct pacini_clip
+    {
+        uint64_t id;
+    } pacini_clip;
+
+    typedef struct pacini_engine
+    {
+        uint64_t id;
+    } pacini_engine;
+
+    typedef struct pacini_texture /* since 1.3 */
+    {
+        uint64_t id;
+    } pacini_texture;
+
+    typedef struct pacini_play
+    {
+        uint64_t id;
+    } pacini_play;
+
+    typedef struct pacini_controller
+    {
+        uint64_t id;
+    } pacini_controller;
+
+    /* clang-format off */
+/* Initial value of a handle of any kind: none. */
+#define PACINI_NONE {0}
+    /* clang-format on */
 
     /* ---- Clips
      * ------------------------------------------------------------------------------------------------------- */
@@ -435,6 +469,27 @@ extern "C"
 
 #ifdef __cplusplus
 }
+
+/* In C++: equality of handles, and an order for std::map. */
+#define PACINI_COMPARE(handle)                                                                                         \
+    inline bool operator==(handle a, handle b)                                                                         \
+    {                                                                                                                  \
+        return a.id == b.id;                                                                                           \
+    }                                                                                                                  \
+    inline bool operator!=(handle a, handle b)                                                                         \
+    {                                                                                                                  \
+        return a.id != b.id;                                                                                           \
+    }                                                                                                                  \
+    inline bool operator<(handle a, handle b)                                                                          \
+    {                                                                                                                  \
+        return a.id < b.id;                                                                                            \
+    }
+PACINI_COMPARE(pacini_clip)
+PACINI_COMPARE(pacini_engine)
+PACINI_COMPARE(pacini_texture)
+PACINI_COMPARE(pacini_play)
+PACINI_COMPARE(pacini_controller)
+#undef PACINI_COMPARE
 #endif
 /* NOLINTEND(modernize-use-using) */
 

@@ -5,21 +5,24 @@ import unittest
 
 from bindings import BINDINGS, declarations
 
+HANDLES = ["clip", "texture", "engine", "play", "controller"]
 KINDS = {
     "u32": {"uint32_t", "u32", "uint"},
     "i32": {"int32_t", "int", "pacini_result", "i32", "c_int"},
-    "u64": {"uint64_t", "pacini_clip", "pacini_texture", "pacini_engine", "pacini_play", "pacini_controller", "ulong"},
+    "u64": {"uint64_t", "ulong", "u64"},
     "i64": {"int64_t", "i64", "long"},
     "f64": {"double", "f64"},
     "size": {"size_t", "usize", "UIntPtr"},
     "none": {"void", ""},
+    **{handle: {f"pacini_{handle}"} for handle in HANDLES},
 }
 
 
 def kind(written):
     """Of a type in C, koffi's C, Rust or C#, with or without the name of the argument."""
     if re.search(r"[*\[]|\b(ref|out|IntPtr)\b", written):
-        return "pointer"
+        handle = re.search(rf"\bpacini_({'|'.join(HANDLES)})\b", written)
+        return f"pointer to {handle[1]}" if handle else "pointer"
     word = next((word for word in re.findall(r"\w+", written) if word != "const"), "")
     found = [kind for kind, words in KINDS.items() if word in words]
     return found[0] if found else f"unknown: {written}"
@@ -59,7 +62,8 @@ class Signatures(unittest.TestCase):
         self.compare(functions(text, r"'(?P<result>[\w *]+?) ?\b(?P<name>pacini_\w+)\((?P<arguments>[^)]*)\)'"))
 
     def test_a_wrong_type_is_found(self):
-        self.assertEqual(of_header()["pacini_play_set"], ["i32", "u64", "i32", "f64", "f64", "i64"])
+        self.assertEqual(of_header()["pacini_play_set"], ["i32", "play", "i32", "f64", "f64", "i64"])
+        self.assertEqual(of_header()["pacini_clip_load"], ["i32", "pointer", "size", "pointer to clip"])
         self.assertEqual(of_header()["pacini_result_text"], ["pointer", "i32"])
         with self.assertRaises(AssertionError):
             self.compare({"pacini_api_version": ["i32"]}, 1)

@@ -60,5 +60,5 @@ void rumble_close(rumble* r)
 {
     SDL_GameControllerRumble(r->controller, 0, 0, 0);
     pacini_engine_destroy(r->engine);
-    r->engine = 0;
+    r->engine.id = 0;
 }

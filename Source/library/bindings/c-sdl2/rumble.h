@@ -12,7 +12,7 @@
 typedef struct rumble
 {
     SDL_GameController* controller;
-    pacini_engine engine; /* start plays on it, as on any other; 0 when it could not be made */
+    pacini_engine engine; /* start plays on it, as on any other; its id is 0 when it could not be made */
     double time, low;     /* s that are still to be rendered; state of the low-pass filter */
 } rumble;
 

@@ -24,8 +24,8 @@ static int failed_in_pacini(const char* what)
 int main(int argc, char** argv)
 {
     SDL_GameController* controller = NULL;
-    pacini_clip clip = 0;
-    pacini_play play = 0;
+    pacini_clip clip = PACINI_NONE;
+    pacini_play play = PACINI_NONE;
     pacini_play_info info;
     rumble r;
     int i;

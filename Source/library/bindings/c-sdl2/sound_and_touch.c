@@ -93,8 +93,8 @@ int main(int argc, char** argv)
 {
     static game g;
     pacini_engine_config config;
-    pacini_clip clip = 0;
-    pacini_play play = 0;
+    pacini_clip clip = PACINI_NONE;
+    pacini_play play = PACINI_NONE;
     pacini_play_info info;
     int sounds = 0;
     SDL_AudioSpec wanted;

@@ -12,7 +12,7 @@
 -- SPDX-License-Identifier: MIT
 local ffi = require "ffi"
 
--- What pacini.h 1.4 declares.
+-- What pacini.h 1.5 declares.
 ffi.cdef [[
 uint32_t pacini_api_version(void);
 typedef enum pacini_result {
@@ -21,11 +21,11 @@ typedef enum pacini_result {
 } pacini_result;
 const char* pacini_result_text(pacini_result result);
 size_t pacini_last_error(char* text, size_t size);
-typedef uint64_t pacini_clip;
-typedef uint64_t pacini_texture;
-typedef uint64_t pacini_engine;
-typedef uint64_t pacini_play;
-typedef uint64_t pacini_controller;
+typedef struct pacini_clip { uint64_t id; } pacini_clip;
+typedef struct pacini_texture { uint64_t id; } pacini_texture;
+typedef struct pacini_engine { uint64_t id; } pacini_engine;
+typedef struct pacini_play { uint64_t id; } pacini_play;
+typedef struct pacini_controller { uint64_t id; } pacini_controller;
 
 typedef struct pacini_clip_info {
     uint32_t struct_size;
@@ -179,8 +179,8 @@ end
 
 local library = loadLibrary()
 local version = library.pacini_api_version()
-if version < 1004 or version >= 2000 then
-    error("pacini: libpacini has the interface " .. version / 1000 .. ", this file is for 1.4 or a newer 1.x", 0)
+if version < 1005 or version >= 2000 then
+    error("pacini: libpacini has the interface " .. version / 1000 .. ", this file is for 1.5 or a newer 1.x", 0)
 end
 
 local controls = {gain = 0, intensity = 1, pan = 2, delay = 3, transposition = 4, speed = 5, priority = 6,
@@ -227,10 +227,9 @@ local function number(names, given, what)
     return found
 end
 
---- A box for a handle, which lets go of what it stands for when it is collected.
-local function boxed(kind, handle, letGo)
-    local box = ffi.new(kind .. "[1]", handle)
-    return ffi.gc(box, function(dying) if dying[0] ~= 0 then letGo(dying[0]) end end)
+--- A handle which lets go of what it stands for when it is collected.
+local function owned(handle, letGo)
+    return ffi.gc(handle, function(dying) if dying.id ~= 0 then letGo(dying) end end)
 end
 
 local function filled(kind, init)
@@ -246,13 +245,13 @@ local pacini = {version = version, Clip = Clip, Engine = Engine, Play = Play}
 
 ---- Clips
 
-local function ownedClip(out)
-    return setmetatable({box = boxed("pacini_clip", out[0], library.pacini_clip_release)}, Clip)
+local function ownedClip(handle)
+    return setmetatable({handle = owned(handle, library.pacini_clip_release)}, Clip)
 end
 
 --- A clip of any format that Pacini reads from its bytes, a string.
 function pacini.clipFromBytes(bytes)
-    local out = ffi.new "pacini_clip[1]"
+    local out = ffi.new "pacini_clip"
     check(library.pacini_clip_load(bytes, #bytes, out))
     return ownedClip(out)
 end
@@ -267,16 +266,14 @@ function pacini.clipsFromBytes(all)
     local out, clips = ffi.new("pacini_clip[?]", #all), {}
     check(library.pacini_clips_load(bytes, sizes, #all, out))
     for i = 1, #all do
-        local one = ffi.new "pacini_clip[1]"
-        one[0] = out[i - 1]
-        clips[i] = ownedClip(one)
+        clips[i] = ownedClip(ffi.new("pacini_clip", out[i - 1])) -- a copy: what is in an array goes with it
     end
     return clips
 end
 
 --- The same from a file: of the game in LÖVE, or of the system.
 function pacini.clip(path)
-    local out = ffi.new "pacini_clip[1]"
+    local out = ffi.new "pacini_clip"
     if filesystem and filesystem.getInfo(path, "file") then
         local bytes = assert(filesystem.read(path))
         check(library.pacini_clip_load(bytes, #bytes, out))
@@ -288,32 +285,32 @@ end
 
 --- A texture from a file, as `pacini texture analyse` makes it: of the game in LÖVE, or of the system.
 function pacini.texture(path)
-    local out = ffi.new "pacini_texture[1]"
+    local out = ffi.new "pacini_texture"
     if filesystem and filesystem.getInfo(path, "file") then
         local bytes = assert(filesystem.read(path))
         check(library.pacini_texture_load(bytes, #bytes, out))
     else
         check(library.pacini_texture_load_file(path, out))
     end
-    return {box = boxed("pacini_texture", out[0], library.pacini_texture_release)}
+    return {handle = owned(out, library.pacini_texture_release)}
 end
 
 --- Puts other content in its place; what plays of it fades over.
 function Clip:reload(bytes)
-    check(library.pacini_clip_reload(self.box[0], bytes, #bytes))
+    check(library.pacini_clip_reload(self.handle, bytes, #bytes))
 end
 
 --- name, duration (s), events, bytes
 function Clip:info()
     local info = filled("pacini_clip_info", library.pacini_clip_info_init)
-    check(library.pacini_clip_get_info(self.box[0], info))
+    check(library.pacini_clip_get_info(self.handle, info))
     return {name = ffi.string(info.name), duration = info.duration, events = info.events, bytes = tonumber(info.bytes)}
 end
 
 --- What plays of it goes on to its end.
 function Clip:release()
-    check(library.pacini_clip_release(self.box[0]))
-    self.box[0] = 0
+    check(library.pacini_clip_release(self.handle))
+    self.handle.id = 0
 end
 
 ---- Engines
@@ -340,20 +337,20 @@ function pacini.engine(config)
     local scene = rest.scene
     rest.actuators, rest.panLaw, rest.protect, rest.scene = nil, nil, nil, nil
     fill(struct, configFields, rest, "the configuration of an engine")
-    local out = ffi.new "pacini_engine[1]"
+    local out = ffi.new "pacini_engine"
     if scene then
         check(library.pacini_engine_create_scene(struct, scene, out))
     else
         check(library.pacini_engine_create(struct, out))
     end
-    return setmetatable({box = boxed("pacini_engine", out[0], library.pacini_engine_destroy), sampleRate =
+    return setmetatable({handle = owned(out, library.pacini_engine_destroy), sampleRate =
         struct.sample_rate, actuators = struct.actuator_count}, Engine)
 end
 
 --- Ends it and all its plays.
 function Engine:destroy()
-    check(library.pacini_engine_destroy(self.box[0]))
-    self.box[0] = 0
+    check(library.pacini_engine_destroy(self.handle))
+    self.handle.id = 0
 end
 
 --- Starts a clip. `settings` may have group, frame, gain, intensity, pan, delay, transposition, speed, from, loop,
@@ -361,18 +358,18 @@ end
 function Engine:play(clip, settings)
     local struct = filled("pacini_play_settings", library.pacini_play_settings_init)
     fill(struct, settingFields, settings or {}, "a play")
-    local out = ffi.new "pacini_play[1]"
-    check(library.pacini_play_start(self.box[0], clip.box[0], struct, out))
-    return setmetatable({handle = out[0]}, Play)
+    local out = ffi.new "pacini_play"
+    check(library.pacini_play_start(self.handle, clip.handle, struct, out))
+    return setmetatable({handle = out}, Play)
 end
 
 --- Starts a texture, which plays until it is stopped; set "textureSpeed" and "textureForce" (0 to 1) while it does.
 function Engine:playTexture(texture, speed, force, settings)
     local struct = filled("pacini_play_settings", library.pacini_play_settings_init)
     fill(struct, settingFields, settings or {}, "a play")
-    local out = ffi.new "pacini_play[1]"
-    check(library.pacini_texture_start(self.box[0], texture.box[0], speed or 0, force or 1, struct, out))
-    return setmetatable({handle = out[0]}, Play)
+    local out = ffi.new "pacini_play"
+    check(library.pacini_texture_start(self.handle, texture.handle, speed or 0, force or 1, struct, out))
+    return setmetatable({handle = out}, Play)
 end
 
 --- The next frames as a cdata array of floats: frame by frame, `channels` (as many as actuators) in each. The array is
@@ -382,7 +379,7 @@ function Engine:render(frames, channels)
     if frames * channels ~= self.size then
         self.size, self.samples = frames * channels, ffi.new("float[?]", frames * channels)
     end
-    local result = library.pacini_render_interleaved(self.box[0], self.samples, channels, frames)
+    local result = library.pacini_render_interleaved(self.handle, self.samples, channels, frames)
     if result ~= ffi.C.PACINI_OK then -- it does not write down why, as it is for audio threads
         error("pacini: engine: " .. ffi.string(library.pacini_result_text(result)), 2)
     end
@@ -392,36 +389,36 @@ end
 --- frame, latency, playing, leftOut, cost (microseconds), leftOutError and gainReduction (dB)
 function Engine:info()
     local info = filled("pacini_engine_info", library.pacini_engine_info_init)
-    check(library.pacini_engine_get_info(self.box[0], info))
+    check(library.pacini_engine_get_info(self.handle, info))
     return {frame = tonumber(info.frame), latency = info.latency, playing = info.playing, leftOut = info.left_out,
         cost = info.cost, leftOutError = info.left_out_error, gainReduction = info.gain_reduction}
 end
 
 --- What may play at a time: microseconds for a block of so many frames, and voices; 0: all.
 function Engine:setBudget(microseconds, frames, voices)
-    check(library.pacini_engine_set_budget(self.box[0], microseconds, frames or 512, voices or 0))
+    check(library.pacini_engine_set_budget(self.handle, microseconds, frames or 512, voices or 0))
 end
 
 --- How many times as long as predicted blocks take on this machine; 0 measures it of the last ones. Returns it.
 function Engine:calibrate(factor)
     local used = ffi.new("double[1]")
-    check(library.pacini_engine_calibrate(self.box[0], factor or 0, used))
+    check(library.pacini_engine_calibrate(self.handle, factor or 0, used))
     return used[0]
 end
 
 --- Gain of an actuator, the first is 1, behind its protection.
 function Engine:setActuatorGain(actuator, gain, glide, frame)
-    check(library.pacini_engine_set_actuator_gain(self.box[0], actuator - 1, gain, glide or 0, frame or 0))
+    check(library.pacini_engine_set_actuator_gain(self.handle, actuator - 1, gain, glide or 0, frame or 0))
 end
 
 --- A control of all plays of a group (0 to 31).
 function Engine:setGroup(group, control, value, glide, frame)
-    check(library.pacini_group_set(self.box[0], group, number(controls, control, "control"), value, glide or 0,
+    check(library.pacini_group_set(self.handle, group, number(controls, control, "control"), value, glide or 0,
         frame or 0))
 end
 
 function Engine:stopGroup(group, fade, frame)
-    check(library.pacini_group_stop(self.box[0], group, fade or 0, frame or 0))
+    check(library.pacini_group_stop(self.handle, group, fade or 0, frame or 0))
 end
 
 ---- Game controllers
@@ -434,7 +431,7 @@ function pacini.controllers()
     for i = 0, math.min(32, count[0]) - 1 do
         local info = filled("pacini_controller_info", library.pacini_controller_info_init)
         check(library.pacini_controller_get_info(handles[i], info))
-        list[#list + 1] = {handle = handles[i], name = ffi.string(info.name), path = ffi.string(info.path),
+        list[#list + 1] = {handle = ffi.new("pacini_controller", handles[i]), name = ffi.string(info.name), path = ffi.string(info.path),
             haptics = haptics[info.haptics] or "unknown", connection = connections[info.connection] or "unknown"}
     end
     return list
@@ -445,15 +442,15 @@ end
 function Engine:attach(controller, stopOnCrash)
     local settings = filled("pacini_attach_settings", library.pacini_attach_settings_init)
     settings.stop_on_crash = stopOnCrash and 1 or 0
-    check(library.pacini_engine_attach(self.box[0], controller.handle, settings))
+    check(library.pacini_engine_attach(self.handle, controller.handle, settings))
 end
 
-function Engine:detach() check(library.pacini_engine_detach(self.box[0])) end
+function Engine:detach() check(library.pacini_engine_detach(self.handle)) end
 
 --- state ("detached", "attached", "gone"), sent (reports), failure (why it is gone)
 function Engine:attachment()
     local info = filled("pacini_attachment_info", library.pacini_attachment_info_init)
-    check(library.pacini_engine_get_attachment(self.box[0], info))
+    check(library.pacini_engine_get_attachment(self.handle, info))
     return {state = attachments[info.state], sent = tonumber(info.sent), failure = ffi.string(info.failure)}
 end
 

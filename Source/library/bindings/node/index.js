@@ -24,11 +24,13 @@ function loadLibrary() {
 
 const library = loadLibrary();
 const apiVersion = library.func('uint32_t pacini_api_version()');
-if (apiVersion() < 1004 || apiVersion() >= 2000) {
-  throw new Error(`libpacini has the interface ${apiVersion() / 1000}, this module is for 1.2 or a newer 1.x`);
+if (apiVersion() < 1005 || apiVersion() >= 2000) {
+  throw new Error(`libpacini has the interface ${apiVersion() / 1000}, this module is for 1.5 or a newer 1.x`);
 }
 
-// What pacini.h 1.4 declares.
+// What pacini.h 1.5 declares.
+// Handles are structs of one uint64_t to C, passed as that number is; here they are the number, a BigInt.
+for (const kind of ['clip', 'texture', 'engine', 'play', 'controller']) koffi.alias(`pacini_${kind}`, 'uint64_t');
 const structs = {};
 structs.pacini_clip_info = koffi.struct('pacini_clip_info', {
   struct_size: 'uint32_t', events: 'uint32_t', duration: 'double', bytes: 'uint64_t', name: koffi.array('char', 64, 'String'),
@@ -56,61 +58,61 @@ structs.pacini_controller_info = koffi.struct('pacini_controller_info', {
 });
 structs.pacini_attach_settings = koffi.struct('pacini_attach_settings', { struct_size: 'uint32_t', stop_on_crash: 'int32_t' });
 structs.pacini_attachment_info = koffi.struct('pacini_attachment_info', {
-  struct_size: 'uint32_t', state: 'int32_t', controller: 'uint64_t', sent: 'uint64_t',
+  struct_size: 'uint32_t', state: 'int32_t', controller: 'pacini_controller', sent: 'uint64_t',
   failure: koffi.array('char', 128, 'String'),
 });
 
 const c = {
   resultText: library.func('const char *pacini_result_text(int result)'),
   lastError: library.func('size_t pacini_last_error(uint8_t *text, size_t size)'),
-  clipLoad: library.func('int pacini_clip_load(const void *bytes, size_t size, _Out_ uint64_t *clip)'),
-  clipLoadFile: library.func('int pacini_clip_load_file(const char *path, _Out_ uint64_t *clip)'),
-  textureLoad: library.func('int pacini_texture_load(const void *bytes, size_t size, _Out_ uint64_t *texture)'),
-  textureLoadFile: library.func('int pacini_texture_load_file(const char *path, _Out_ uint64_t *texture)'),
-  textureRelease: library.func('int pacini_texture_release(uint64_t texture)'),
+  clipLoad: library.func('int pacini_clip_load(const void *bytes, size_t size, _Out_ pacini_clip *clip)'),
+  clipLoadFile: library.func('int pacini_clip_load_file(const char *path, _Out_ pacini_clip *clip)'),
+  textureLoad: library.func('int pacini_texture_load(const void *bytes, size_t size, _Out_ pacini_texture *texture)'),
+  textureLoadFile: library.func('int pacini_texture_load_file(const char *path, _Out_ pacini_texture *texture)'),
+  textureRelease: library.func('int pacini_texture_release(pacini_texture texture)'),
   textureStart: library.func(
-    'int pacini_texture_start(uint64_t engine, uint64_t texture, double speed, double force, pacini_play_settings *settings, _Out_ uint64_t *play)'),
-  clipReload: library.func('int pacini_clip_reload(uint64_t clip, const void *bytes, size_t size)'),
+    'int pacini_texture_start(pacini_engine engine, pacini_texture texture, double speed, double force, pacini_play_settings *settings, _Out_ pacini_play *play)'),
+  clipReload: library.func('int pacini_clip_reload(pacini_clip clip, const void *bytes, size_t size)'),
   clipInfoInit: library.func('void pacini_clip_info_init(_Out_ pacini_clip_info *info)'),
-  clipGetInfo: library.func('int pacini_clip_get_info(uint64_t clip, _Inout_ pacini_clip_info *info)'),
-  clipRelease: library.func('int pacini_clip_release(uint64_t clip)'),
+  clipGetInfo: library.func('int pacini_clip_get_info(pacini_clip clip, _Inout_ pacini_clip_info *info)'),
+  clipRelease: library.func('int pacini_clip_release(pacini_clip clip)'),
   engineConfigInit: library.func('void pacini_engine_config_init(_Out_ pacini_engine_config *config)'),
-  engineCreate: library.func('int pacini_engine_create(pacini_engine_config *config, _Out_ uint64_t *engine)'),
+  engineCreate: library.func('int pacini_engine_create(pacini_engine_config *config, _Out_ pacini_engine *engine)'),
   engineCreateScene: library.func(
-    'int pacini_engine_create_scene(pacini_engine_config *config, const char *scene_path, _Out_ uint64_t *engine)'),
-  engineDestroy: library.func('int pacini_engine_destroy(uint64_t engine)'),
+    'int pacini_engine_create_scene(pacini_engine_config *config, const char *scene_path, _Out_ pacini_engine *engine)'),
+  engineDestroy: library.func('int pacini_engine_destroy(pacini_engine engine)'),
   renderInterleaved: library.func(
-    'int pacini_render_interleaved(uint64_t engine, _Inout_ float *samples, uint32_t channel_count, uint32_t frames)'),
+    'int pacini_render_interleaved(pacini_engine engine, _Inout_ float *samples, uint32_t channel_count, uint32_t frames)'),
   engineInfoInit: library.func('void pacini_engine_info_init(_Out_ pacini_engine_info *info)'),
-  engineGetInfo: library.func('int pacini_engine_get_info(uint64_t engine, _Inout_ pacini_engine_info *info)'),
+  engineGetInfo: library.func('int pacini_engine_get_info(pacini_engine engine, _Inout_ pacini_engine_info *info)'),
   engineSetBudget: library.func(
-    'int pacini_engine_set_budget(uint64_t engine, double microseconds, uint32_t frames, uint32_t voices)'),
-  engineCalibrate: library.func('int pacini_engine_calibrate(uint64_t engine, double factor, _Out_ double *used)'),
+    'int pacini_engine_set_budget(pacini_engine engine, double microseconds, uint32_t frames, uint32_t voices)'),
+  engineCalibrate: library.func('int pacini_engine_calibrate(pacini_engine engine, double factor, _Out_ double *used)'),
   engineSetActuatorGain: library.func(
-    'int pacini_engine_set_actuator_gain(uint64_t engine, uint32_t actuator, double gain, double glide, int64_t frame)'),
+    'int pacini_engine_set_actuator_gain(pacini_engine engine, uint32_t actuator, double gain, double glide, int64_t frame)'),
   playSettingsInit: library.func('void pacini_play_settings_init(_Out_ pacini_play_settings *settings)'),
   playStart: library.func(
-    'int pacini_play_start(uint64_t engine, uint64_t clip, pacini_play_settings *settings, _Out_ uint64_t *play)'),
-  playSet: library.func('int pacini_play_set(uint64_t play, int32_t control, double value, double glide, int64_t frame)'),
-  playStop: library.func('int pacini_play_stop(uint64_t play, double fade, int64_t frame)'),
-  playPause: library.func('int pacini_play_pause(uint64_t play, double fade, int64_t frame)'),
-  playResume: library.func('int pacini_play_resume(uint64_t play, double fade, int64_t frame)'),
-  playSeek: library.func('int pacini_play_seek(uint64_t play, double position, int64_t frame)'),
+    'int pacini_play_start(pacini_engine engine, pacini_clip clip, pacini_play_settings *settings, _Out_ pacini_play *play)'),
+  playSet: library.func('int pacini_play_set(pacini_play play, int32_t control, double value, double glide, int64_t frame)'),
+  playStop: library.func('int pacini_play_stop(pacini_play play, double fade, int64_t frame)'),
+  playPause: library.func('int pacini_play_pause(pacini_play play, double fade, int64_t frame)'),
+  playResume: library.func('int pacini_play_resume(pacini_play play, double fade, int64_t frame)'),
+  playSeek: library.func('int pacini_play_seek(pacini_play play, double position, int64_t frame)'),
   playInfoInit: library.func('void pacini_play_info_init(_Out_ pacini_play_info *info)'),
-  playGetInfo: library.func('int pacini_play_get_info(uint64_t play, _Inout_ pacini_play_info *info)'),
+  playGetInfo: library.func('int pacini_play_get_info(pacini_play play, _Inout_ pacini_play_info *info)'),
   groupSet: library.func(
-    'int pacini_group_set(uint64_t engine, uint32_t group, int32_t control, double value, double glide, int64_t frame)'),
-  groupStop: library.func('int pacini_group_stop(uint64_t engine, uint32_t group, double fade, int64_t frame)'),
+    'int pacini_group_set(pacini_engine engine, uint32_t group, int32_t control, double value, double glide, int64_t frame)'),
+  groupStop: library.func('int pacini_group_stop(pacini_engine engine, uint32_t group, double fade, int64_t frame)'),
   controllersFind: library.func(
-    'int pacini_controllers_find(_Out_ uint64_t *controllers, uint32_t capacity, _Out_ uint32_t *count)'),
+    'int pacini_controllers_find(_Out_ pacini_controller *controllers, uint32_t capacity, _Out_ uint32_t *count)'),
   controllerInfoInit: library.func('void pacini_controller_info_init(_Out_ pacini_controller_info *info)'),
-  controllerGetInfo: library.func('int pacini_controller_get_info(uint64_t controller, _Inout_ pacini_controller_info *info)'),
+  controllerGetInfo: library.func('int pacini_controller_get_info(pacini_controller controller, _Inout_ pacini_controller_info *info)'),
   attachSettingsInit: library.func('void pacini_attach_settings_init(_Out_ pacini_attach_settings *settings)'),
   engineAttach: library.func(
-    'int pacini_engine_attach(uint64_t engine, uint64_t controller, pacini_attach_settings *settings)'),
-  engineDetach: library.func('int pacini_engine_detach(uint64_t engine)'),
+    'int pacini_engine_attach(pacini_engine engine, pacini_controller controller, pacini_attach_settings *settings)'),
+  engineDetach: library.func('int pacini_engine_detach(pacini_engine engine)'),
   attachmentInfoInit: library.func('void pacini_attachment_info_init(_Out_ pacini_attachment_info *info)'),
-  engineGetAttachment: library.func('int pacini_engine_get_attachment(uint64_t engine, _Inout_ pacini_attachment_info *info)'),
+  engineGetAttachment: library.func('int pacini_engine_get_attachment(pacini_engine engine, _Inout_ pacini_attachment_info *info)'),
 };
 
 /** Of the tests: the structs as koffi lays them out. */

@@ -21,7 +21,7 @@ int main(int argc, char** argv)
 {
     SDL_VirtualJoystickDesc pad;
     SDL_GameController* controller;
-    pacini_clip clip = 0;
+    pacini_clip clip = PACINI_NONE;
     rumble r;
     int index, update;
 

@@ -1,4 +1,4 @@
-// The functions and structs of pacini.h 1.4 as they are.
+// The functions and structs of pacini.h 1.5 as they are.
 //
 // SPDX-License-Identifier: MIT
 using System;
@@ -12,6 +12,36 @@ namespace Pacini
     {
         private const string Library = "pacini";
         private const CallingConvention C = CallingConvention.Cdecl;
+
+        [StructLayout(LayoutKind.Sequential)]
+        internal struct pacini_clip
+        {
+            public ulong id;
+        }
+
+        [StructLayout(LayoutKind.Sequential)]
+        internal struct pacini_texture
+        {
+            public ulong id;
+        }
+
+        [StructLayout(LayoutKind.Sequential)]
+        internal struct pacini_engine
+        {
+            public ulong id;
+        }
+
+        [StructLayout(LayoutKind.Sequential)]
+        internal struct pacini_play
+        {
+            public ulong id;
+        }
+
+        [StructLayout(LayoutKind.Sequential)]
+        internal struct pacini_controller
+        {
+            public ulong id;
+        }
 
         [StructLayout(LayoutKind.Sequential)]
         internal struct pacini_clip_info
@@ -110,7 +140,7 @@ namespace Pacini
         {
             public uint struct_size;
             public int state;
-            public ulong controller;
+            public pacini_controller controller;
             public ulong sent;
             [MarshalAs(UnmanagedType.ByValArray, SizeConst = 128)] public byte[] failure;
         }
@@ -119,49 +149,49 @@ namespace Pacini
         [DllImport(Library, CallingConvention = C)] private static extern IntPtr pacini_result_text(int result);
         [DllImport(Library, CallingConvention = C)] private static extern UIntPtr pacini_last_error([Out] byte[] text, UIntPtr size);
 
-        [DllImport(Library, CallingConvention = C)] internal static extern int pacini_clip_load(byte[] bytes, UIntPtr size, out ulong clip);
-        [DllImport(Library, CallingConvention = C)] internal static extern int pacini_clips_load(IntPtr[] bytes, UIntPtr[] sizes, UIntPtr count, [Out] ulong[] clips);
-        [DllImport(Library, CallingConvention = C)] internal static extern int pacini_clip_load_file(byte[] path, out ulong clip);
-        [DllImport(Library, CallingConvention = C)] internal static extern int pacini_texture_load(byte[] bytes, UIntPtr size, out ulong texture);
-        [DllImport(Library, CallingConvention = C)] internal static extern int pacini_texture_load_file(byte[] path, out ulong texture);
-        [DllImport(Library, CallingConvention = C)] internal static extern int pacini_texture_release(ulong texture);
-        [DllImport(Library, CallingConvention = C)] internal static extern int pacini_clip_reload(ulong clip, byte[] bytes, UIntPtr size);
+        [DllImport(Library, CallingConvention = C)] internal static extern int pacini_clip_load(byte[] bytes, UIntPtr size, out pacini_clip clip);
+        [DllImport(Library, CallingConvention = C)] internal static extern int pacini_clips_load(IntPtr[] bytes, UIntPtr[] sizes, UIntPtr count, [Out] pacini_clip[] clips);
+        [DllImport(Library, CallingConvention = C)] internal static extern int pacini_clip_load_file(byte[] path, out pacini_clip clip);
+        [DllImport(Library, CallingConvention = C)] internal static extern int pacini_texture_load(byte[] bytes, UIntPtr size, out pacini_texture texture);
+        [DllImport(Library, CallingConvention = C)] internal static extern int pacini_texture_load_file(byte[] path, out pacini_texture texture);
+        [DllImport(Library, CallingConvention = C)] internal static extern int pacini_texture_release(pacini_texture texture);
+        [DllImport(Library, CallingConvention = C)] internal static extern int pacini_clip_reload(pacini_clip clip, byte[] bytes, UIntPtr size);
         [DllImport(Library, CallingConvention = C)] internal static extern void pacini_clip_info_init(ref pacini_clip_info info);
-        [DllImport(Library, CallingConvention = C)] internal static extern int pacini_clip_get_info(ulong clip, ref pacini_clip_info info);
-        [DllImport(Library, CallingConvention = C)] internal static extern int pacini_clip_release(ulong clip);
+        [DllImport(Library, CallingConvention = C)] internal static extern int pacini_clip_get_info(pacini_clip clip, ref pacini_clip_info info);
+        [DllImport(Library, CallingConvention = C)] internal static extern int pacini_clip_release(pacini_clip clip);
 
         [DllImport(Library, CallingConvention = C)] internal static extern void pacini_engine_config_init(ref pacini_engine_config config);
-        [DllImport(Library, CallingConvention = C)] internal static extern int pacini_engine_create(ref pacini_engine_config config, out ulong engine);
-        [DllImport(Library, CallingConvention = C)] internal static extern int pacini_engine_create_scene(ref pacini_engine_config config, byte[] path, out ulong engine);
-        [DllImport(Library, CallingConvention = C)] internal static extern int pacini_engine_destroy(ulong engine);
-        [DllImport(Library, CallingConvention = C)] internal static extern int pacini_render_interleaved(ulong engine, [Out] float[] samples, uint channel_count, uint frames);
+        [DllImport(Library, CallingConvention = C)] internal static extern int pacini_engine_create(ref pacini_engine_config config, out pacini_engine engine);
+        [DllImport(Library, CallingConvention = C)] internal static extern int pacini_engine_create_scene(ref pacini_engine_config config, byte[] path, out pacini_engine engine);
+        [DllImport(Library, CallingConvention = C)] internal static extern int pacini_engine_destroy(pacini_engine engine);
+        [DllImport(Library, CallingConvention = C)] internal static extern int pacini_render_interleaved(pacini_engine engine, [Out] float[] samples, uint channel_count, uint frames);
         [DllImport(Library, CallingConvention = C)] internal static extern void pacini_engine_info_init(ref pacini_engine_info info);
-        [DllImport(Library, CallingConvention = C)] internal static extern int pacini_engine_get_info(ulong engine, ref pacini_engine_info info);
-        [DllImport(Library, CallingConvention = C)] internal static extern int pacini_engine_set_budget(ulong engine, double microseconds, uint frames, uint voices);
-        [DllImport(Library, CallingConvention = C)] internal static extern int pacini_engine_calibrate(ulong engine, double factor, out double used);
-        [DllImport(Library, CallingConvention = C)] internal static extern int pacini_engine_set_actuator_gain(ulong engine, uint actuator, double gain, double glide, long frame);
+        [DllImport(Library, CallingConvention = C)] internal static extern int pacini_engine_get_info(pacini_engine engine, ref pacini_engine_info info);
+        [DllImport(Library, CallingConvention = C)] internal static extern int pacini_engine_set_budget(pacini_engine engine, double microseconds, uint frames, uint voices);
+        [DllImport(Library, CallingConvention = C)] internal static extern int pacini_engine_calibrate(pacini_engine engine, double factor, out double used);
+        [DllImport(Library, CallingConvention = C)] internal static extern int pacini_engine_set_actuator_gain(pacini_engine engine, uint actuator, double gain, double glide, long frame);
 
         [DllImport(Library, CallingConvention = C)] internal static extern void pacini_play_settings_init(ref pacini_play_settings settings);
-        [DllImport(Library, CallingConvention = C)] internal static extern int pacini_play_start(ulong engine, ulong clip, ref pacini_play_settings settings, out ulong play);
-        [DllImport(Library, CallingConvention = C)] internal static extern int pacini_texture_start(ulong engine, ulong texture, double speed, double force, ref pacini_play_settings settings, out ulong play);
-        [DllImport(Library, CallingConvention = C)] internal static extern int pacini_play_set(ulong play, int control, double value, double glide, long frame);
-        [DllImport(Library, CallingConvention = C)] internal static extern int pacini_play_stop(ulong play, double fade, long frame);
-        [DllImport(Library, CallingConvention = C)] internal static extern int pacini_play_pause(ulong play, double fade, long frame);
-        [DllImport(Library, CallingConvention = C)] internal static extern int pacini_play_resume(ulong play, double fade, long frame);
-        [DllImport(Library, CallingConvention = C)] internal static extern int pacini_play_seek(ulong play, double position, long frame);
+        [DllImport(Library, CallingConvention = C)] internal static extern int pacini_play_start(pacini_engine engine, pacini_clip clip, ref pacini_play_settings settings, out pacini_play play);
+        [DllImport(Library, CallingConvention = C)] internal static extern int pacini_texture_start(pacini_engine engine, pacini_texture texture, double speed, double force, ref pacini_play_settings settings, out pacini_play play);
+        [DllImport(Library, CallingConvention = C)] internal static extern int pacini_play_set(pacini_play play, int control, double value, double glide, long frame);
+        [DllImport(Library, CallingConvention = C)] internal static extern int pacini_play_stop(pacini_play play, double fade, long frame);
+        [DllImport(Library, CallingConvention = C)] internal static extern int pacini_play_pause(pacini_play play, double fade, long frame);
+        [DllImport(Library, CallingConvention = C)] internal static extern int pacini_play_resume(pacini_play play, double fade, long frame);
+        [DllImport(Library, CallingConvention = C)] internal static extern int pacini_play_seek(pacini_play play, double position, long frame);
         [DllImport(Library, CallingConvention = C)] internal static extern void pacini_play_info_init(ref pacini_play_info info);
-        [DllImport(Library, CallingConvention = C)] internal static extern int pacini_play_get_info(ulong play, ref pacini_play_info info);
-        [DllImport(Library, CallingConvention = C)] internal static extern int pacini_group_set(ulong engine, uint group, int control, double value, double glide, long frame);
-        [DllImport(Library, CallingConvention = C)] internal static extern int pacini_group_stop(ulong engine, uint group, double fade, long frame);
+        [DllImport(Library, CallingConvention = C)] internal static extern int pacini_play_get_info(pacini_play play, ref pacini_play_info info);
+        [DllImport(Library, CallingConvention = C)] internal static extern int pacini_group_set(pacini_engine engine, uint group, int control, double value, double glide, long frame);
+        [DllImport(Library, CallingConvention = C)] internal static extern int pacini_group_stop(pacini_engine engine, uint group, double fade, long frame);
 
-        [DllImport(Library, CallingConvention = C)] internal static extern int pacini_controllers_find([Out] ulong[] controllers, uint capacity, out uint count);
+        [DllImport(Library, CallingConvention = C)] internal static extern int pacini_controllers_find([Out] pacini_controller[] controllers, uint capacity, out uint count);
         [DllImport(Library, CallingConvention = C)] internal static extern void pacini_controller_info_init(ref pacini_controller_info info);
-        [DllImport(Library, CallingConvention = C)] internal static extern int pacini_controller_get_info(ulong controller, ref pacini_controller_info info);
+        [DllImport(Library, CallingConvention = C)] internal static extern int pacini_controller_get_info(pacini_controller controller, ref pacini_controller_info info);
         [DllImport(Library, CallingConvention = C)] internal static extern void pacini_attach_settings_init(ref pacini_attach_settings settings);
-        [DllImport(Library, CallingConvention = C)] internal static extern int pacini_engine_attach(ulong engine, ulong controller, ref pacini_attach_settings settings);
-        [DllImport(Library, CallingConvention = C)] internal static extern int pacini_engine_detach(ulong engine);
+        [DllImport(Library, CallingConvention = C)] internal static extern int pacini_engine_attach(pacini_engine engine, pacini_controller controller, ref pacini_attach_settings settings);
+        [DllImport(Library, CallingConvention = C)] internal static extern int pacini_engine_detach(pacini_engine engine);
         [DllImport(Library, CallingConvention = C)] internal static extern void pacini_attachment_info_init(ref pacini_attachment_info info);
-        [DllImport(Library, CallingConvention = C)] internal static extern int pacini_engine_get_attachment(ulong engine, ref pacini_attachment_info info);
+        [DllImport(Library, CallingConvention = C)] internal static extern int pacini_engine_get_attachment(pacini_engine engine, ref pacini_attachment_info info);
 
         /// <summary>UTF-8 with a 0 at the end, as the library wants texts.</summary>
         internal static byte[] Utf8(string text)

@@ -76,8 +76,8 @@ namespace Pacini
         /// <summary>Throws when this binding is not for it.</summary>
         internal static void Check()
         {
-            if (Version < 1004 || Version >= 2000)
-                throw new PaciniException(Result.Newer, "libpacini has the interface " + Version / 1000.0 + ", this binding is for 1.2 or a newer 1.x");
+            if (Version < 1005 || Version >= 2000)
+                throw new PaciniException(Result.Newer, "libpacini has the interface " + Version / 1000.0 + ", this binding is for 1.5 or a newer 1.x");
         }
     }
 
@@ -121,12 +121,12 @@ namespace Pacini
     /// <summary>A game controller, or another haptic device.</summary>
     public sealed class Controller
     {
-        internal readonly ulong Handle;
+        internal readonly Native.pacini_controller Handle;
         public readonly string Name, Path;
         public readonly Haptics Haptics;
         public readonly Connection Connection;
 
-        private Controller(ulong handle)
+        private Controller(Native.pacini_controller handle)
         {
             Handle = handle;
             var info = new Native.pacini_controller_info();
@@ -142,7 +142,7 @@ namespace Pacini
         public static List<Controller> Find()
         {
             Library.Check();
-            var handles = new ulong[32];
+            var handles = new Native.pacini_controller[32];
             uint count;
             Native.Check(Native.pacini_controllers_find(handles, (uint)handles.Length, out count));
             var found = new List<Controller>();
@@ -155,9 +155,9 @@ namespace Pacini
     /// <summary>A haptic clip in memory. It can play as often as one likes, on any engine.</summary>
     public sealed class Clip : IDisposable
     {
-        internal ulong Handle { get; private set; }
+        internal Native.pacini_clip Handle { get; private set; }
 
-        private Clip(ulong handle)
+        private Clip(Native.pacini_clip handle)
         {
             Handle = handle;
         }
@@ -165,7 +165,7 @@ namespace Pacini
         /// <summary>From a file of any format that Pacini reads.</summary>
         public static Clip Load(string path)
         {
-            ulong handle;
+            Native.pacini_clip handle;
             Native.Check(Native.pacini_clip_load_file(Native.Utf8(path), out handle));
             return new Clip(handle);
         }
@@ -173,7 +173,7 @@ namespace Pacini
         /// <summary>From the bytes of such a file.</summary>
         public static Clip FromBytes(byte[] bytes)
         {
-            ulong handle;
+            Native.pacini_clip handle;
             Native.Check(Native.pacini_clip_load(bytes, (UIntPtr)(uint)bytes.Length, out handle));
             return new Clip(handle);
         }
@@ -192,7 +192,7 @@ namespace Pacini
                     bytes[i] = pinned[i].AddrOfPinnedObject();
                     sizes[i] = (UIntPtr)(uint)all[i].Length;
                 }
-                var handles = new ulong[all.Length];
+                var handles = new Native.pacini_clip[all.Length];
                 Native.Check(Native.pacini_clips_load(bytes, sizes, (UIntPtr)(uint)all.Length, handles));
                 return Array.ConvertAll(handles, handle => new Clip(handle));
             }
@@ -236,15 +236,15 @@ namespace Pacini
         /// <summary>Releases it; what plays of it goes on to its end.</summary>
         public void Dispose()
         {
-            if (Handle != 0)
+            if (Handle.id != 0)
                 Native.pacini_clip_release(Handle);
-            Handle = 0;
+            Handle = new Native.pacini_clip();
             GC.SuppressFinalize(this);
         }
 
         ~Clip()
         {
-            if (Handle != 0)
+            if (Handle.id != 0)
                 Native.pacini_clip_release(Handle);
         }
     }
@@ -253,9 +253,9 @@ namespace Pacini
     /// force.</summary>
     public sealed class HapticTexture : IDisposable
     {
-        internal ulong Handle { get; private set; }
+        internal Native.pacini_texture Handle { get; private set; }
 
-        private HapticTexture(ulong handle)
+        private HapticTexture(Native.pacini_texture handle)
         {
             Handle = handle;
         }
@@ -263,7 +263,7 @@ namespace Pacini
         /// <summary>From a file.</summary>
         public static HapticTexture Load(string path)
         {
-            ulong handle;
+            Native.pacini_texture handle;
             Native.Check(Native.pacini_texture_load_file(Native.Utf8(path), out handle));
             return new HapticTexture(handle);
         }
@@ -271,7 +271,7 @@ namespace Pacini
         /// <summary>From the bytes of such a file.</summary>
         public static HapticTexture FromBytes(byte[] bytes)
         {
-            ulong handle;
+            Native.pacini_texture handle;
             Native.Check(Native.pacini_texture_load(bytes, (UIntPtr)(uint)bytes.Length, out handle));
             return new HapticTexture(handle);
         }
@@ -279,15 +279,15 @@ namespace Pacini
         /// <summary>Releases it; what plays of it goes on.</summary>
         public void Dispose()
         {
-            if (Handle != 0)
+            if (Handle.id != 0)
                 Native.pacini_texture_release(Handle);
-            Handle = 0;
+            Handle = new Native.pacini_texture();
             GC.SuppressFinalize(this);
         }
 
         ~HapticTexture()
         {
-            if (Handle != 0)
+            if (Handle.id != 0)
                 Native.pacini_texture_release(Handle);
         }
     }
@@ -347,7 +347,7 @@ namespace Pacini
             return usual;
         }
 
-        internal ulong Create(string scene)
+        internal Native.pacini_engine Create(string scene)
         {
             var config = Usual();
             config.sample_rate = SampleRate;
@@ -375,7 +375,7 @@ namespace Pacini
                     config.actuators[i].profile = Marshal.AllocHGlobal(text.Length);
                     Marshal.Copy(text, 0, config.actuators[i].profile, text.Length);
                 }
-                ulong handle;
+                Native.pacini_engine handle;
                 Native.Check(scene == null ? Native.pacini_engine_create(ref config, out handle)
                                            : Native.pacini_engine_create_scene(ref config, Native.Utf8(scene), out handle));
                 return handle;
@@ -459,7 +459,7 @@ namespace Pacini
     /// <summary>Plays clips on up to 16 actuators.</summary>
     public sealed class Engine : IDisposable
     {
-        private ulong handle;
+        private Native.pacini_engine handle;
 
         public Engine(params string[] profiles) : this(new EngineConfig(profiles), null)
         {
@@ -475,7 +475,7 @@ namespace Pacini
         public Play Play(Clip clip, PlaySettings settings = null)
         {
             var given = settings == null ? PlaySettings.Usual() : settings.Struct();
-            ulong play;
+            Native.pacini_play play;
             Native.Check(Native.pacini_play_start(handle, clip.Handle, ref given, out play));
             GC.KeepAlive(clip);
             return new Play(play);
@@ -486,7 +486,7 @@ namespace Pacini
         public Play Play(HapticTexture texture, double speed, double force = 1.0, PlaySettings settings = null)
         {
             var given = settings == null ? PlaySettings.Usual() : settings.Struct();
-            ulong play;
+            Native.pacini_play play;
             Native.Check(Native.pacini_texture_start(handle, texture.Handle, speed, force, ref given, out play));
             GC.KeepAlive(texture);
             return new Play(play);
@@ -583,15 +583,15 @@ namespace Pacini
         /// <summary>Ends it and all its plays; waits for a block that is being rendered.</summary>
         public void Dispose()
         {
-            if (handle != 0)
+            if (handle.id != 0)
                 Native.pacini_engine_destroy(handle);
-            handle = 0;
+            handle = new Native.pacini_engine();
             GC.SuppressFinalize(this);
         }
 
         ~Engine()
         {
-            if (handle != 0)
+            if (handle.id != 0)
                 Native.pacini_engine_destroy(handle);
         }
     }
@@ -599,9 +599,9 @@ namespace Pacini
     /// <summary>A clip that plays. One that has ended throws, with Result.Stale, at Set, Stop, Pause, Resume and Seek.</summary>
     public sealed class Play : IDisposable
     {
-        private readonly ulong handle;
+        private readonly Native.pacini_play handle;
 
-        internal Play(ulong handle)
+        internal Play(Native.pacini_play handle)
         {
             this.handle = handle;
         }

@@ -100,6 +100,20 @@ static int64_t to_int(const void* arguments, int at)
     return value;
 }
 
+/* Handles are whole numbers to Godot. */
+#define TO_HANDLE(type)                                                                                                \
+    static pacini_##type to_##type(const void* arguments, int at)                                                      \
+    {                                                                                                                  \
+        pacini_##type handle;                                                                                          \
+        handle.id = (uint64_t)to_int(arguments, at);                                                                   \
+        return handle;                                                                                                 \
+    }
+TO_HANDLE(clip)
+TO_HANDLE(texture)
+TO_HANDLE(engine)
+TO_HANDLE(play)
+TO_HANDLE(controller)
+
 static double to_real(const void* arguments, int at)
 {
     godot_variant given = argument(arguments, at);
@@ -182,18 +196,20 @@ EXPORT godot_variant pacini_godot_version(const void* arguments)
 EXPORT godot_variant pacini_godot_clip_load(const void* arguments)
 {
     const int last = count(arguments) - 1;
-    pacini_clip clip = last == 1 ? (pacini_clip)to_int(arguments, 0) : 0;
+    pacini_clip clip = PACINI_NONE;
     pacini_result result;
     godot_variant given = argument(arguments, last);
     godot_pointer array = CALL(GODOT_VARIANT_AS_POOL_BYTE_ARRAY, pointer_of)(&given);
     const int size = CALL(GODOT_POOL_BYTE_ARRAY_SIZE, int (*)(const void*))(&array);
     void* access = CALL(GODOT_POOL_BYTE_ARRAY_READ, address_of)(&array);
     const void* bytes = CALL(GODOT_POOL_BYTE_ARRAY_READ_PTR, address_of)(access);
+    if (last == 1)
+        clip = to_clip(arguments, 0);
     result = last == 1 ? pacini_clip_reload(clip, bytes, (size_t)size) : pacini_clip_load(bytes, (size_t)size, &clip);
     CALL(GODOT_POOL_BYTE_ARRAY_READ_DESTROY, by_pointer)(access);
     CALL(GODOT_POOL_BYTE_ARRAY_DESTROY, by_pointer)(&array);
     destroy(&given);
-    return of_handle(result, clip);
+    return of_handle(result, clip.id);
 }
 
 /* clip, which of: name, duration, events, bytes */
@@ -201,7 +217,7 @@ EXPORT godot_variant pacini_godot_clip_info(const void* arguments)
 {
     pacini_clip_info info;
     pacini_clip_info_init(&info);
-    if (pacini_clip_get_info((pacini_clip)to_int(arguments, 0), &info) != PACINI_OK)
+    if (pacini_clip_get_info(to_clip(arguments, 0), &info) != PACINI_OK)
         return of_nothing();
     switch (to_int(arguments, 1))
     {
@@ -218,7 +234,7 @@ EXPORT godot_variant pacini_godot_clip_info(const void* arguments)
 
 EXPORT godot_variant pacini_godot_clip_release(const void* arguments)
 {
-    return of_result(pacini_clip_release((pacini_clip)to_int(arguments, 0)));
+    return of_result(pacini_clip_release(to_clip(arguments, 0)));
 }
 
 /* ---- Textures */
@@ -226,7 +242,7 @@ EXPORT godot_variant pacini_godot_clip_release(const void* arguments)
 /* bytes */
 EXPORT godot_variant pacini_godot_texture_load(const void* arguments)
 {
-    pacini_texture texture = 0;
+    pacini_texture texture = PACINI_NONE;
     pacini_result result;
     godot_variant given = argument(arguments, 0);
     godot_pointer array = CALL(GODOT_VARIANT_AS_POOL_BYTE_ARRAY, pointer_of)(&given);
@@ -236,12 +252,12 @@ EXPORT godot_variant pacini_godot_texture_load(const void* arguments)
     CALL(GODOT_POOL_BYTE_ARRAY_READ_DESTROY, by_pointer)(access);
     CALL(GODOT_POOL_BYTE_ARRAY_DESTROY, by_pointer)(&array);
     destroy(&given);
-    return of_handle(result, texture);
+    return of_handle(result, texture.id);
 }
 
 EXPORT godot_variant pacini_godot_texture_release(const void* arguments)
 {
-    return of_result(pacini_texture_release((pacini_texture)to_int(arguments, 0)));
+    return of_result(pacini_texture_release(to_texture(arguments, 0)));
 }
 
 /* ---- Engines */
@@ -255,7 +271,7 @@ EXPORT godot_variant pacini_godot_engine_create(const void* arguments)
         FIRST = 12
     };
     pacini_engine_config config;
-    pacini_engine engine = 0;
+    pacini_engine engine = PACINI_NONE;
     pacini_result result;
     utf8_text texts[PACINI_MAX_ACTUATORS];
     int a, actuators = (count(arguments) - FIRST) / 3;
@@ -291,12 +307,12 @@ EXPORT godot_variant pacini_godot_engine_create(const void* arguments)
         result = pacini_engine_create(&config, &engine);
     for (a = 0; a < actuators; ++a)
         forget(&texts[a]);
-    return of_handle(result, engine);
+    return of_handle(result, engine.id);
 }
 
 EXPORT godot_variant pacini_godot_engine_destroy(const void* arguments)
 {
-    return of_result(pacini_engine_destroy((pacini_engine)to_int(arguments, 0)));
+    return of_result(pacini_engine_destroy(to_engine(arguments, 0)));
 }
 
 /* engine, frames, channels: samples frame by frame */
@@ -312,7 +328,7 @@ EXPORT godot_variant pacini_godot_render(const void* arguments)
     CALL(GODOT_POOL_REAL_ARRAY_NEW, by_pointer)(&samples);
     CALL(GODOT_POOL_REAL_ARRAY_RESIZE, resize)(&samples, (int)(frames * channels));
     access = CALL(GODOT_POOL_REAL_ARRAY_WRITE, address_of)(&samples);
-    result = pacini_render_interleaved((pacini_engine)to_int(arguments, 0),
+    result = pacini_render_interleaved(to_engine(arguments, 0),
                                        (float*)CALL(GODOT_POOL_REAL_ARRAY_WRITE_PTR, address_of)(access),
                                        (uint32_t)channels, (uint32_t)frames);
     CALL(GODOT_POOL_REAL_ARRAY_WRITE_DESTROY, by_pointer)(access);
@@ -338,7 +354,7 @@ EXPORT godot_variant pacini_godot_render_stereo(const void* arguments)
     CALL(GODOT_POOL_VECTOR2_ARRAY_RESIZE, resize)(&samples, (int)frames);
     access = CALL(GODOT_POOL_VECTOR2_ARRAY_WRITE, address_of)(&samples);
     /* A Vector2 is two floats. */
-    result = pacini_render_interleaved((pacini_engine)to_int(arguments, 0),
+    result = pacini_render_interleaved(to_engine(arguments, 0),
                                        (float*)CALL(GODOT_POOL_VECTOR2_ARRAY_WRITE_PTR, address_of)(access), 2,
                                        (uint32_t)frames);
     CALL(GODOT_POOL_VECTOR2_ARRAY_WRITE_DESTROY, by_pointer)(access);
@@ -355,7 +371,7 @@ EXPORT godot_variant pacini_godot_engine_info(const void* arguments)
 {
     pacini_engine_info info;
     pacini_engine_info_init(&info);
-    if (pacini_engine_get_info((pacini_engine)to_int(arguments, 0), &info) != PACINI_OK)
+    if (pacini_engine_get_info(to_engine(arguments, 0), &info) != PACINI_OK)
         return of_nothing();
     switch (to_int(arguments, 1))
     {
@@ -378,7 +394,7 @@ EXPORT godot_variant pacini_godot_engine_info(const void* arguments)
 
 EXPORT godot_variant pacini_godot_engine_set_budget(const void* arguments)
 {
-    return of_result(pacini_engine_set_budget((pacini_engine)to_int(arguments, 0), to_real(arguments, 1),
+    return of_result(pacini_engine_set_budget(to_engine(arguments, 0), to_real(arguments, 1),
                                               (uint32_t)to_int(arguments, 2), (uint32_t)to_int(arguments, 3)));
 }
 
@@ -386,27 +402,27 @@ EXPORT godot_variant pacini_godot_engine_calibrate(const void* arguments)
 {
     double used = 0.0;
     const godot_variant done =
-        of_result(pacini_engine_calibrate((pacini_engine)to_int(arguments, 0), to_real(arguments, 1), &used));
+        of_result(pacini_engine_calibrate(to_engine(arguments, 0), to_real(arguments, 1), &used));
     return used > 0.0 ? of_real(used) : done;
 }
 
 EXPORT godot_variant pacini_godot_engine_set_actuator_gain(const void* arguments)
 {
-    return of_result(pacini_engine_set_actuator_gain((pacini_engine)to_int(arguments, 0),
+    return of_result(pacini_engine_set_actuator_gain(to_engine(arguments, 0),
                                                      (uint32_t)to_int(arguments, 1), to_real(arguments, 2),
                                                      to_real(arguments, 3), to_int(arguments, 4)));
 }
 
 EXPORT godot_variant pacini_godot_group_set(const void* arguments)
 {
-    return of_result(pacini_group_set((pacini_engine)to_int(arguments, 0), (uint32_t)to_int(arguments, 1),
+    return of_result(pacini_group_set(to_engine(arguments, 0), (uint32_t)to_int(arguments, 1),
                                       (int32_t)to_int(arguments, 2), to_real(arguments, 3), to_real(arguments, 4),
                                       to_int(arguments, 5)));
 }
 
 EXPORT godot_variant pacini_godot_group_stop(const void* arguments)
 {
-    return of_result(pacini_group_stop((pacini_engine)to_int(arguments, 0), (uint32_t)to_int(arguments, 1),
+    return of_result(pacini_group_stop(to_engine(arguments, 0), (uint32_t)to_int(arguments, 1),
                                        to_real(arguments, 2), to_int(arguments, 3)));
 }
 
@@ -441,48 +457,48 @@ static pacini_play_settings settings_of(const void* arguments, int at)
 EXPORT godot_variant pacini_godot_play_start(const void* arguments)
 {
     const pacini_play_settings settings = settings_of(arguments, 2);
-    pacini_play play = 0;
+    pacini_play play = PACINI_NONE;
     const pacini_result result =
-        pacini_play_start((pacini_engine)to_int(arguments, 0), (pacini_clip)to_int(arguments, 1), &settings, &play);
-    return of_handle(result, play);
+        pacini_play_start(to_engine(arguments, 0), to_clip(arguments, 1), &settings, &play);
+    return of_handle(result, play.id);
 }
 
 /* engine, texture, speed, force; then settings */
 EXPORT godot_variant pacini_godot_texture_start(const void* arguments)
 {
     const pacini_play_settings settings = settings_of(arguments, 4);
-    pacini_play play = 0;
+    pacini_play play = PACINI_NONE;
     const pacini_result result =
-        pacini_texture_start((pacini_engine)to_int(arguments, 0), (pacini_texture)to_int(arguments, 1),
+        pacini_texture_start(to_engine(arguments, 0), to_texture(arguments, 1),
                              to_real(arguments, 2), to_real(arguments, 3), &settings, &play);
-    return of_handle(result, play);
+    return of_handle(result, play.id);
 }
 
 EXPORT godot_variant pacini_godot_play_set(const void* arguments)
 {
-    return of_result(pacini_play_set((pacini_play)to_int(arguments, 0), (int32_t)to_int(arguments, 1),
+    return of_result(pacini_play_set(to_play(arguments, 0), (int32_t)to_int(arguments, 1),
                                      to_real(arguments, 2), to_real(arguments, 3), to_int(arguments, 4)));
 }
 
 EXPORT godot_variant pacini_godot_play_stop(const void* arguments)
 {
-    return of_result(pacini_play_stop((pacini_play)to_int(arguments, 0), to_real(arguments, 1), to_int(arguments, 2)));
+    return of_result(pacini_play_stop(to_play(arguments, 0), to_real(arguments, 1), to_int(arguments, 2)));
 }
 
 EXPORT godot_variant pacini_godot_play_pause(const void* arguments)
 {
-    return of_result(pacini_play_pause((pacini_play)to_int(arguments, 0), to_real(arguments, 1), to_int(arguments, 2)));
+    return of_result(pacini_play_pause(to_play(arguments, 0), to_real(arguments, 1), to_int(arguments, 2)));
 }
 
 EXPORT godot_variant pacini_godot_play_resume(const void* arguments)
 {
     return of_result(
-        pacini_play_resume((pacini_play)to_int(arguments, 0), to_real(arguments, 1), to_int(arguments, 2)));
+        pacini_play_resume(to_play(arguments, 0), to_real(arguments, 1), to_int(arguments, 2)));
 }
 
 EXPORT godot_variant pacini_godot_play_seek(const void* arguments)
 {
-    return of_result(pacini_play_seek((pacini_play)to_int(arguments, 0), to_real(arguments, 1), to_int(arguments, 2)));
+    return of_result(pacini_play_seek(to_play(arguments, 0), to_real(arguments, 1), to_int(arguments, 2)));
 }
 
 /* play, which of: state, position */
@@ -490,7 +506,7 @@ EXPORT godot_variant pacini_godot_play_info(const void* arguments)
 {
     pacini_play_info info;
     pacini_play_info_init(&info);
-    if (pacini_play_get_info((pacini_play)to_int(arguments, 0), &info) != PACINI_OK)
+    if (pacini_play_get_info(to_play(arguments, 0), &info) != PACINI_OK)
         return of_nothing();
     return to_int(arguments, 1) == 0 ? of_int(info.state) : of_real(info.position);
 }
@@ -505,7 +521,7 @@ EXPORT godot_variant pacini_godot_controller(const void* arguments)
     const int64_t which = to_int(arguments, 0);
     if (pacini_controllers_find(controllers, 32, &found) != PACINI_OK)
         return of_nothing();
-    return of_int(which >= 0 && which < 32 && which < (int64_t)found ? (int64_t)controllers[which] : 0);
+    return of_int(which >= 0 && which < 32 && which < (int64_t)found ? (int64_t)controllers[which].id : 0);
 }
 
 /* controller, which of: name, path, haptics, connection */
@@ -513,7 +529,7 @@ EXPORT godot_variant pacini_godot_controller_info(const void* arguments)
 {
     pacini_controller_info info;
     pacini_controller_info_init(&info);
-    if (pacini_controller_get_info((pacini_controller)to_int(arguments, 0), &info) != PACINI_OK)
+    if (pacini_controller_get_info(to_controller(arguments, 0), &info) != PACINI_OK)
         return of_nothing();
     switch (to_int(arguments, 1))
     {
@@ -535,12 +551,12 @@ EXPORT godot_variant pacini_godot_engine_attach(const void* arguments)
     pacini_attach_settings_init(&settings);
     settings.stop_on_crash = (int32_t)to_int(arguments, 2);
     return of_result(
-        pacini_engine_attach((pacini_engine)to_int(arguments, 0), (pacini_controller)to_int(arguments, 1), &settings));
+        pacini_engine_attach(to_engine(arguments, 0), to_controller(arguments, 1), &settings));
 }
 
 EXPORT godot_variant pacini_godot_engine_detach(const void* arguments)
 {
-    return of_result(pacini_engine_detach((pacini_engine)to_int(arguments, 0)));
+    return of_result(pacini_engine_detach(to_engine(arguments, 0)));
 }
 
 /* engine, which of: state, sent, failure */
@@ -548,7 +564,7 @@ EXPORT godot_variant pacini_godot_engine_attachment(const void* arguments)
 {
     pacini_attachment_info info;
     pacini_attachment_info_init(&info);
-    if (pacini_engine_get_attachment((pacini_engine)to_int(arguments, 0), &info) != PACINI_OK)
+    if (pacini_engine_get_attachment(to_engine(arguments, 0), &info) != PACINI_OK)
         return of_nothing();
     switch (to_int(arguments, 1))
     {

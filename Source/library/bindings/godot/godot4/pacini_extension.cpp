@@ -48,7 +48,7 @@ class PaciniClip : public RefCounted
 public:
     ~PaciniClip() override
     {
-        if (handle != 0)
+        if (handle.id != 0)
             pacini_clip_release(handle);
     }
 
@@ -64,7 +64,7 @@ public:
         return clip;
     }
 
-    pacini_clip handle = 0;
+    pacini_clip handle = PACINI_NONE;
 
 protected:
     static void _bind_methods()
@@ -108,7 +108,7 @@ public:
             texts.push_back(profiles[i].utf8());
         for (std::size_t i = 0; i < texts.size(); ++i)
             config.actuators[i].profile = texts[i].get_data();
-        pacini_engine made = 0;
+        pacini_engine made = PACINI_NONE;
         if (!succeeded(pacini_engine_create(&config, &made)))
             return false;
         close();
@@ -118,9 +118,9 @@ public:
 
     void close()
     {
-        if (handle != 0)
+        if (handle.id != 0)
             pacini_engine_destroy(handle);
-        handle = 0;
+        handle = PACINI_NONE;
     }
 
     /// `settings` may have gain, intensity, pan, loop, priority and group.
@@ -135,19 +135,19 @@ public:
         wanted.loop = settings.get("loop", wanted.loop);
         wanted.priority = settings.get("priority", wanted.priority);
         wanted.group = settings.get("group", wanted.group);
-        pacini_play started = 0;
+        pacini_play started = PACINI_NONE;
         succeeded(pacini_play_start(handle, clip->handle, &wanted, &started));
-        return static_cast<std::int64_t>(started);
+        return static_cast<std::int64_t>(started.id);
     }
 
     bool play_set(std::int64_t play, Control control, double value, double glide, std::int64_t frame)
     {
-        return succeeded(pacini_play_set(static_cast<pacini_play>(play), control, value, glide, frame));
+        return succeeded(pacini_play_set({static_cast<std::uint64_t>(play)}, control, value, glide, frame));
     }
 
     bool play_stop(std::int64_t play, double fade, std::int64_t frame)
     {
-        return succeeded(pacini_play_stop(static_cast<pacini_play>(play), fade, frame));
+        return succeeded(pacini_play_stop({static_cast<std::uint64_t>(play)}, fade, frame));
     }
 
     /// The first two actuators, as AudioStreamGeneratorPlayback.push_buffer() takes them.
@@ -187,7 +187,7 @@ protected:
     }
 
 private:
-    pacini_engine handle = 0;
+    pacini_engine handle = PACINI_NONE;
 };
 
 VARIANT_ENUM_CAST(PaciniEngine::Control);

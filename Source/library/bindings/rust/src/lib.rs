@@ -146,7 +146,7 @@ pub struct Clip(sys::pacini_clip);
 impl Clip {
     /// From the bytes of a file of any format that Pacini reads.
     pub fn from_bytes(bytes: &[u8]) -> Result<Clip, Error> {
-        let mut handle = 0;
+        let mut handle = sys::pacini_clip::default();
         // SAFETY: as many bytes as it is told; the library copies them.
         check(unsafe { sys::pacini_clip_load(bytes.as_ptr().cast(), bytes.len(), &mut handle) })?;
         Ok(Clip(handle))
@@ -156,7 +156,7 @@ impl Clip {
     pub fn all_from_bytes(all: &[&[u8]]) -> Result<Vec<Clip>, Error> {
         let bytes: Vec<_> = all.iter().map(|one| one.as_ptr().cast()).collect();
         let sizes: Vec<_> = all.iter().map(|one| one.len()).collect();
-        let mut handles = vec![0; all.len()];
+        let mut handles = vec![sys::pacini_clip::default(); all.len()];
         // SAFETY: as many pointers, sizes and handles as it is told; the library copies the bytes.
         check(unsafe { sys::pacini_clips_load(bytes.as_ptr(), sizes.as_ptr(), all.len(), handles.as_mut_ptr()) })?;
         Ok(handles.into_iter().map(Clip).collect())
@@ -165,7 +165,7 @@ impl Clip {
     /// From a file.
     pub fn load(file: impl AsRef<Path>) -> Result<Clip, Error> {
         let file = path(file.as_ref())?;
-        let mut handle = 0;
+        let mut handle = sys::pacini_clip::default();
         // SAFETY: the text ends with a 0.
         check(unsafe { sys::pacini_clip_load_file(file.as_ptr(), &mut handle) })?;
         Ok(Clip(handle))
@@ -196,7 +196,7 @@ pub struct Texture(sys::pacini_texture);
 impl Texture {
     /// From the bytes of a texture file.
     pub fn from_bytes(bytes: &[u8]) -> Result<Texture, Error> {
-        let mut handle = 0;
+        let mut handle = sys::pacini_texture::default();
         // SAFETY: as many bytes as it is told; the library copies them.
         check(unsafe { sys::pacini_texture_load(bytes.as_ptr().cast(), bytes.len(), &mut handle) })?;
         Ok(Texture(handle))
@@ -205,7 +205,7 @@ impl Texture {
     /// From a file.
     pub fn load(file: impl AsRef<Path>) -> Result<Texture, Error> {
         let file = path(file.as_ref())?;
-        let mut handle = 0;
+        let mut handle = sys::pacini_texture::default();
         // SAFETY: the text ends with a 0.
         check(unsafe { sys::pacini_texture_load_file(file.as_ptr(), &mut handle) })?;
         Ok(Texture(handle))
@@ -287,7 +287,7 @@ pub struct Config {
 
 impl Default for Config {
     fn default() -> Self {
-        assert!((1004..2000).contains(&library_version()), "libpacini has another interface than this crate");
+        assert!((1005..2000).contains(&library_version()), "libpacini has another interface than this crate");
         let usual = filled(sys::pacini_engine_config_init);
         Config {
             actuators: vec![Actuator::default()],
@@ -338,7 +338,7 @@ impl Config {
                 profiles.push(profile);
             }
         }
-        let mut handle = 0;
+        let mut handle = sys::pacini_engine::default();
         match scene {
             // SAFETY: the struct knows its size, and its texts end with a 0 and live until the call returns.
             None => check(unsafe { sys::pacini_engine_create(&config, &mut handle) })?,
@@ -395,7 +395,7 @@ impl Engine {
     /// Starts a clip.
     pub fn play(&self, clip: &Clip, settings: &Settings) -> Result<Play, Error> {
         let settings = settings.to_struct();
-        let mut play = 0;
+        let mut play = sys::pacini_play::default();
         // SAFETY: the struct knows its size.
         check(unsafe { sys::pacini_play_start(self.0, clip.0, &settings, &mut play) })?;
         Ok(Play(play))
@@ -405,7 +405,7 @@ impl Engine {
     /// 1) while it does.
     pub fn play_texture(&self, texture: &Texture, speed: f64, force: f64, settings: &Settings) -> Result<Play, Error> {
         let settings = settings.to_struct();
-        let mut play = 0;
+        let mut play = sys::pacini_play::default();
         // SAFETY: the struct knows its size.
         check(unsafe { sys::pacini_texture_start(self.0, texture.0, speed, force, &settings, &mut play) })?;
         Ok(Play(play))
@@ -564,7 +564,7 @@ pub enum Attachment {
 
 /// What is connected. Takes up to 0.1 s.
 pub fn controllers() -> Result<Vec<Controller>, Error> {
-    let mut handles = [0; 32];
+    let mut handles = [sys::pacini_controller::default(); 32];
     let mut count = 0;
     // SAFETY: no more handles are written than there is room for.
     check(unsafe { sys::pacini_controllers_find(handles.as_mut_ptr(), 32, &mut count) })?;

@@ -1,14 +1,39 @@
-//! The functions and structs of pacini.h 1.4 as they are.
+//! The functions and structs of pacini.h 1.5 as they are.
 #![allow(non_camel_case_types, missing_docs)]
 
 use std::os::raw::{c_char, c_int, c_void};
 
 pub type pacini_result = c_int;
-pub type pacini_clip = u64;
-pub type pacini_texture = u64;
-pub type pacini_engine = u64;
-pub type pacini_play = u64;
-pub type pacini_controller = u64;
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct pacini_clip {
+    pub id: u64,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct pacini_texture {
+    pub id: u64,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct pacini_engine {
+    pub id: u64,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct pacini_play {
+    pub id: u64,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct pacini_controller {
+    pub id: u64,
+}
 
 #[repr(C)]
 pub struct pacini_clip_info {

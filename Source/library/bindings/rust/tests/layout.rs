@@ -18,6 +18,11 @@ macro_rules! layout {
 
 #[test]
 fn layout() {
+    layout!(pacini_clip: id);
+    layout!(pacini_texture: id);
+    layout!(pacini_engine: id);
+    layout!(pacini_play: id);
+    layout!(pacini_controller: id);
     layout!(pacini_clip_info: struct_size, events, duration, bytes, name);
     layout!(pacini_actuator: profile, gain, delay);
     layout!(pacini_engine_config: struct_size, actuator_count, sample_rate, actuators, pan_law, protect, pan_delay,

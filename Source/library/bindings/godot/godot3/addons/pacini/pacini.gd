@@ -29,8 +29,8 @@ var _native
 func _init():
 	_native = Native.new()
 	var version = _native.run("version", [])
-	if version != null and (version < 1004 or version >= 2000):
-		_native.fail("libpacini has the interface %s, this script is for 1.4 or a newer 1.x" % (version / 1000.0))
+	if version != null and (version < 1005 or version >= 2000):
+		_native.fail("libpacini has the interface %s, this script is for 1.5 or a newer 1.x" % (version / 1000.0))
 
 var last_error setget , _get_last_error
 
