@@ -643,11 +643,36 @@ void keepConnected(const std::vector<devices::Controller>& now)
     all().connected = std::move(kept);
 }
 
-void copyText(const std::string& from, std::span<char> to)
+/// Of a text that is too long, whole characters of UTF-8.
+void copyText(std::string_view from, std::span<char> to)
 {
-    const std::size_t n = std::min(from.size(), to.size() - 1);
+    std::size_t n = std::min(from.size(), to.size() - 1);
+    while (n > 0 && n < from.size() && (static_cast<unsigned char>(from[n]) & 0xC0u) == 0x80u)
+        --n;
     std::copy_n(from.begin(), n, to.begin());
     to[n] = '\0';
+}
+
+/// Calls work(clip) for one thread at a time.
+template <typename Work>
+pacini_result withClip(pacini_clip clip, Work&& work) noexcept
+{
+    return guarded(
+        [&]
+        {
+            const std::lock_guard lock(all().control);
+            const auto* const held = all().clips.find(clip.id);
+            return held != nullptr ? work(**held) : stale("clip");
+        });
+}
+
+pacini_result writeMarker(const std::vector<Marker>& markers, std::size_t index, pacini_marker_info* info)
+{
+    pacini_marker_info read{};
+    read.index = static_cast<std::uint32_t>(index);
+    read.time = markers[index].time;
+    copyText(markers[index].name, read.name);
+    return writeStruct(read, info);
 }
 
 pacini_result finish(const Result<void>& done)
@@ -888,21 +913,65 @@ extern "C"
 
     pacini_result pacini_clip_get_info(pacini_clip clip, pacini_clip_info* info)
     {
-        return guarded(
-            [&]
-            {
-                const std::lock_guard lock(all().control);
-                const auto* const held = all().clips.find(clip.id);
-                if (held == nullptr)
-                    return stale("clip");
-                const LoadedClip& loaded = **held;
-                pacini_clip_info read{};
-                read.events = static_cast<std::uint32_t>(loaded.events());
-                read.duration = loaded.duration();
-                read.bytes = loaded.bytes() + sizeof(LoadedClip);
-                std::copy_n(loaded.name().begin(), std::min(loaded.name().size(), sizeof(read.name) - 1), read.name);
-                return writeStruct(read, info);
-            });
+        return withClip(clip,
+                        [&](const LoadedClip& loaded)
+                        {
+                            pacini_clip_info read{};
+                            read.events = static_cast<std::uint32_t>(loaded.events());
+                            read.duration = loaded.duration();
+                            read.bytes = loaded.bytes() + sizeof(LoadedClip) + sizeof(Marker) * loaded.markers().size();
+                            for (const Marker& marker : loaded.markers())
+                                read.bytes += marker.name.size();
+                            copyText(loaded.name(), read.name);
+                            return writeStruct(read, info);
+                        });
+    }
+
+    pacini_result pacini_clip_count_markers(pacini_clip clip, uint32_t* count)
+    {
+        return withClip(clip,
+                        [&](const LoadedClip& loaded)
+                        {
+                            if (count == nullptr)
+                                return fail(PACINI_INVALID, "count: is NULL");
+                            *count = static_cast<std::uint32_t>(loaded.markers().size());
+                            return PACINI_OK;
+                        });
+    }
+
+    void pacini_marker_info_init(pacini_marker_info* info)
+    {
+        beginStruct(info);
+    }
+
+    pacini_result pacini_clip_get_marker(pacini_clip clip, uint32_t index, pacini_marker_info* info)
+    {
+        return withClip(clip,
+                        [&](const LoadedClip& loaded)
+                        {
+                            const auto& markers = loaded.markers();
+                            if (index >= markers.size())
+                                return fail(PACINI_INVALID,
+                                            "index: must be less than the number of markers, which is " +
+                                                std::to_string(markers.size()));
+                            return writeMarker(markers, index, info);
+                        });
+    }
+
+    pacini_result pacini_clip_find_marker(pacini_clip clip, const char* name, uint32_t index, pacini_marker_info* info)
+    {
+        return withClip(clip,
+                        [&](const LoadedClip& loaded)
+                        {
+                            if (name == nullptr)
+                                return fail(PACINI_INVALID, "name: is NULL");
+                            const auto& markers = loaded.markers();
+                            for (std::size_t i = index; i < markers.size(); ++i)
+                                if (markers[i].name == name)
+                                    return writeMarker(markers, i, info);
+                            return fail(PACINI_INVALID, "name: there is no marker '" + std::string(name) +
+                                                            (index > 0 ? "' from there on" : "' in the clip"));
+                        });
     }
 
     pacini_result pacini_clip_release(pacini_clip clip)

@@ -241,6 +241,74 @@ TEST_CASE("Handles that are stale or of another kind are errors, also after thei
     require(pacini_engine_destroy(again));
 }
 
+namespace
+{
+const std::string marked = R"({"format": "pacini.clip", "version": 1, "name": "marked", "duration": 2, "bands": [],
+ "markers": [{"time": 0.5, "name": "loop start"}, {"time": 0.75, "name": "step"}, {"time": 1.25, "name": "step"},
+ {"time": 1.5, "name": "loop end"}, {"time": 2, "name": "LONG"}]})";
+
+pacini_marker_info markerOf(pacini_clip clip, std::uint32_t index)
+{
+    pacini_marker_info info;
+    pacini_marker_info_init(&info);
+    require(pacini_clip_get_marker(clip, index, &info));
+    return info;
+}
+} // namespace
+
+TEST_CASE("Markers of a clip are read through C by number and by name")
+{
+    // 127 bytes hold 63 characters of two bytes, and no half.
+    std::string text = marked, name;
+    for (int i = 0; i < 70; ++i)
+        name += "\u00fc";
+    text.replace(text.find("LONG"), 4, name);
+    const pacini_clip clip = loaded(text);
+    std::uint32_t count = 9;
+    require(pacini_clip_count_markers(clip, &count));
+    REQUIRE(count == 5);
+    const std::array<double, 5> times{0.5, 0.75, 1.25, 1.5, 2.0};
+    for (std::uint32_t i = 0; i < count; ++i)
+    {
+        CHECK(markerOf(clip, i).index == i);
+        CHECK(markerOf(clip, i).time == Approx(times[i]).margin(1e-3));
+    }
+    CHECK(std::string(markerOf(clip, 3).name) == "loop end");
+    CHECK(std::string(markerOf(clip, 4).name) == name.substr(0, 126));
+
+    pacini_marker_info info;
+    pacini_marker_info_init(&info);
+    require(pacini_clip_find_marker(clip, "step", 0, &info));
+    CHECK(info.index == 1);
+    require(pacini_clip_find_marker(clip, "step", info.index + 1, &info));
+    CHECK(info.index == 2);
+    require(pacini_clip_find_marker(clip, name.c_str(), 0, &info));
+    CHECK(info.index == 4);
+
+    // What fails writes nothing.
+    const pacini_marker_info before = info;
+    CHECK(pacini_clip_find_marker(clip, "step", 3, &info) == PACINI_INVALID);
+    CHECK(lastError() == "name: there is no marker 'step' from there on");
+    CHECK(pacini_clip_find_marker(clip, "", 0, &info) == PACINI_INVALID);
+    CHECK(pacini_clip_find_marker(clip, nullptr, 0, &info) == PACINI_INVALID);
+    CHECK(pacini_clip_get_marker(clip, 5, &info) == PACINI_INVALID);
+    CHECK(lastError() == "index: must be less than the number of markers, which is 5");
+    CHECK(pacini_clip_get_marker({~clip.id}, 0, &info) == PACINI_STALE);
+    CHECK(pacini_clip_find_marker({~clip.id}, "step", 0, &info) == PACINI_STALE);
+    CHECK(pacini_clip_count_markers({~clip.id}, &count) == PACINI_STALE);
+    CHECK(pacini_clip_count_markers(clip, nullptr) == PACINI_INVALID);
+    CHECK(pacini_clip_get_marker(clip, 0, nullptr) == PACINI_INVALID);
+    CHECK(std::memcmp(&info, &before, sizeof info) == 0);
+    CHECK(count == 5);
+
+    // They are those of the content that is there.
+    require(pacini_clip_reload(clip, hum.data(), hum.size()));
+    require(pacini_clip_count_markers(clip, &count));
+    CHECK(count == 0);
+    CHECK(pacini_clip_get_marker(clip, 0, &info) == PACINI_INVALID);
+    require(pacini_clip_release(clip));
+}
+
 TEST_CASE("Handles are compared in C++")
 {
     const pacini_clip none = PACINI_NONE, one = loaded(hum), other = loaded(hum);
@@ -744,6 +812,13 @@ TEST_CASE("A thousand calls with something wrong in each name it and change noth
             CHECK(std::memcmp(&info, &before, sizeof info) == 0);
             fails(kind, PACINI_INVALID, pacini_engine_get_info(engine, nullptr), "init");
             fails(kind, PACINI_INVALID, pacini_clip_get_info(clip, nullptr), "init");
+            pacini_marker_info marker;
+            pacini_marker_info_init(&marker);
+            const auto index = static_cast<std::uint32_t>(dice.below(1u << 31));
+            fails(kind, PACINI_INVALID, pacini_clip_get_marker(clip, index, &marker), "index");
+            fails(kind, PACINI_INVALID, pacini_clip_find_marker(clip, "none", index, &marker), "name");
+            fails(kind, PACINI_STALE, pacini_clip_find_marker({untouched}, "none", index, &marker), "clip");
+            fails(kind, PACINI_INVALID, pacini_clip_count_markers(clip, nullptr), "count");
             break;
         }
         case 18:
@@ -929,6 +1004,7 @@ TEST_CASE("Structs of version 1 never grow: their init functions would write bey
                                    sizeof(pacini_play), sizeof(pacini_controller)})
         CHECK(size == 8);
     CHECK(sizeof(pacini_clip_info) == 88);
+    CHECK(sizeof(pacini_marker_info) == 144);
     CHECK(sizeof(pacini_actuator) == 24);
     CHECK(sizeof(pacini_engine_config) == 456);
     CHECK(sizeof(pacini_engine_info) == 48);

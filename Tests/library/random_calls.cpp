@@ -242,6 +242,11 @@ bool sequence(Handles& handles)
             pacini_clip_info ofClip;
             pacini_clip_info_init(&ofClip);
             pacini_clip_get_info(clip, &ofClip);
+            pacini_marker_info ofMarker;
+            pacini_marker_info_init(&ofMarker);
+            pacini_clip_get_marker(clip, ofClip.events, &ofMarker);
+            pacini_clip_find_marker(clip, ofClip.name, ofPlay.struct_size, &ofMarker);
+            pacini_clip_count_markers(clip, &ofMarker.index);
             pacini_attachment_info ofLink;
             pacini_attachment_info_init(&ofLink);
             pacini_engine_get_attachment(engine, &ofLink);

@@ -59,6 +59,9 @@ public:
     [[nodiscard]] std::size_t events() const noexcept { return transients; }
     [[nodiscard]] std::size_t bytes() const noexcept { return packed.size(); } ///< packed; 0 as it is
 
+    /// In order of time, as the clip had them before it was packed.
+    [[nodiscard]] const std::vector<Marker>& markers() const noexcept { return points; }
+
     /// Mean of the drive's square, 1 = full drive, shared by tones and noise; events are not counted.
     [[nodiscard]] const PerRole<double>& power() const noexcept { return meanPower; }
 
@@ -67,6 +70,7 @@ private:
         : title(clip.name),
           length(clip.duration),
           transients(clip.transients.size()),
+          points(clip.markers),
           meanPower(powerOf(clip)),
           packed(std::move(bytes))
     {
@@ -104,6 +108,7 @@ private:
     std::string title;
     double length;
     std::size_t transients;
+    std::vector<Marker> points;
     PerRole<double> meanPower;
     std::vector<std::byte> packed;
     std::optional<Clip> whole; ///< in the place of the packed one

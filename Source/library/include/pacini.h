@@ -160,6 +160,30 @@ extern "C"
     PACINI_API void pacini_clip_info_init(pacini_clip_info* info);
     PACINI_API pacini_result pacini_clip_get_info(pacini_clip clip, pacini_clip_info* info);
 
+    /* A named point of time of a clip. Since 1.5. */
+    typedef struct pacini_marker_info
+    {
+        uint32_t struct_size;
+        uint32_t index; /* from 0, in order of time */
+        double time;    /* s of the clip */
+        char name[128]; /* UTF-8; truncated at a character if longer */
+    } pacini_marker_info;
+
+    /* Writes the number of a clip's markers: cues and chapters of the sound that it was made of, and what was set in an
+     * editor. A loop of a WAV is two of them, "loop start" and "loop end", then "loop 2 start" and so on. A clip that
+     * is reloaded has those of its new content. Since 1.5. [any thread but audio] */
+    PACINI_API pacini_result pacini_clip_count_markers(pacini_clip clip, uint32_t* count);
+
+    PACINI_API void pacini_marker_info_init(pacini_marker_info* info);
+
+    /* Returns a marker. PACINI_INVALID: there are not so many. Since 1.5. [any thread but audio] */
+    PACINI_API pacini_result pacini_clip_get_marker(pacini_clip clip, uint32_t index, pacini_marker_info* info);
+
+    /* Returns the first marker with this name, UTF-8, from `index` on. Names that are longer than pacini_marker_info
+     * holds are found by the whole name. PACINI_INVALID: there is none. Since 1.5. [any thread but audio] */
+    PACINI_API pacini_result pacini_clip_find_marker(pacini_clip clip, const char* name, uint32_t index,
+                                                     pacini_marker_info* info);
+
     /* Releases a clip. Active plays of the clip continue to their end. [any thread but audio] */
     PACINI_API pacini_result pacini_clip_release(pacini_clip clip);
 

@@ -43,6 +43,17 @@ pacini_result pacini_clip_load_file(const char* path, pacini_clip* clip);
 pacini_result pacini_clip_reload(pacini_clip clip, const void* bytes, size_t size);
 void pacini_clip_info_init(pacini_clip_info* info);
 pacini_result pacini_clip_get_info(pacini_clip clip, pacini_clip_info* info);
+typedef struct pacini_marker_info {
+    uint32_t struct_size;
+    uint32_t index;
+    double time;
+    char name[128];
+} pacini_marker_info;
+pacini_result pacini_clip_count_markers(pacini_clip clip, uint32_t* count);
+void pacini_marker_info_init(pacini_marker_info* info);
+pacini_result pacini_clip_get_marker(pacini_clip clip, uint32_t index, pacini_marker_info* info);
+pacini_result pacini_clip_find_marker(pacini_clip clip, const char* name, uint32_t index,
+    pacini_marker_info* info);
 pacini_result pacini_clip_release(pacini_clip clip);
 
 enum { PACINI_MAX_ACTUATORS = 16, PACINI_GROUPS = 32 };
@@ -305,6 +316,30 @@ function Clip:info()
     local info = filled("pacini_clip_info", library.pacini_clip_info_init)
     check(library.pacini_clip_get_info(self.handle, info))
     return {name = ffi.string(info.name), duration = info.duration, events = info.events, bytes = tonumber(info.bytes)}
+end
+
+local function markerOf(info)
+    return {index = info.index + 1, time = info.time, name = ffi.string(info.name)}
+end
+
+--- Its markers in order of time, each with index (from 1), time (s) and name. A loop of a WAV is two of them, "loop
+--- start" and "loop end".
+function Clip:markers()
+    local count, list = ffi.new "uint32_t[1]", {}
+    check(library.pacini_clip_count_markers(self.handle, count))
+    local info = filled("pacini_marker_info", library.pacini_marker_info_init)
+    for i = 1, count[0] do
+        check(library.pacini_clip_get_marker(self.handle, i - 1, info))
+        list[i] = markerOf(info)
+    end
+    return list
+end
+
+--- The first marker with this name, from the marker `index` (1) on.
+function Clip:findMarker(name, index)
+    local info = filled("pacini_marker_info", library.pacini_marker_info_init)
+    check(library.pacini_clip_find_marker(self.handle, name, (index or 1) - 1, info))
+    return markerOf(info)
 end
 
 --- What plays of it goes on to its end.

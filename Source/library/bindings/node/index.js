@@ -35,6 +35,9 @@ const structs = {};
 structs.pacini_clip_info = koffi.struct('pacini_clip_info', {
   struct_size: 'uint32_t', events: 'uint32_t', duration: 'double', bytes: 'uint64_t', name: koffi.array('char', 64, 'String'),
 });
+structs.pacini_marker_info = koffi.struct('pacini_marker_info', {
+  struct_size: 'uint32_t', index: 'uint32_t', time: 'double', name: koffi.array('char', 128, 'String'),
+});
 structs.pacini_actuator = koffi.struct('pacini_actuator', { profile: 'const char *', gain: 'double', delay: 'double' });
 structs.pacini_engine_config = koffi.struct('pacini_engine_config', {
   struct_size: 'uint32_t', actuator_count: 'uint32_t', sample_rate: 'double',
@@ -75,6 +78,12 @@ const c = {
   clipReload: library.func('int pacini_clip_reload(pacini_clip clip, const void *bytes, size_t size)'),
   clipInfoInit: library.func('void pacini_clip_info_init(_Out_ pacini_clip_info *info)'),
   clipGetInfo: library.func('int pacini_clip_get_info(pacini_clip clip, _Inout_ pacini_clip_info *info)'),
+  clipCountMarkers: library.func('int pacini_clip_count_markers(pacini_clip clip, _Out_ uint32_t *count)'),
+  markerInfoInit: library.func('void pacini_marker_info_init(_Out_ pacini_marker_info *info)'),
+  clipGetMarker: library.func(
+    'int pacini_clip_get_marker(pacini_clip clip, uint32_t index, _Inout_ pacini_marker_info *info)'),
+  clipFindMarker: library.func(
+    'int pacini_clip_find_marker(pacini_clip clip, const char *name, uint32_t index, _Inout_ pacini_marker_info *info)'),
   clipRelease: library.func('int pacini_clip_release(pacini_clip clip)'),
   engineConfigInit: library.func('void pacini_engine_config_init(_Out_ pacini_engine_config *config)'),
   engineCreate: library.func('int pacini_engine_create(pacini_engine_config *config, _Out_ pacini_engine *engine)'),
@@ -261,6 +270,24 @@ export class Clip {
     const info = filled(c.clipInfoInit);
     check(c.clipGetInfo(this.#handle, info));
     return { name: info.name, duration: info.duration, events: info.events, bytes: Number(info.bytes) };
+  }
+
+  /** In order of time: index (from 0), time (s) and name of each. A loop of a WAV is two: 'loop start' and 'loop end'. */
+  get markers() {
+    const count = [0];
+    check(c.clipCountMarkers(this.#handle, count));
+    return Array.from({ length: count[0] }, (_, index) => {
+      const info = filled(c.markerInfoInit);
+      check(c.clipGetMarker(this.#handle, index, info));
+      return { index: info.index, time: info.time, name: info.name };
+    });
+  }
+
+  /** The first marker with this name, from the marker `index` on. */
+  findMarker(name, index = 0) {
+    const info = filled(c.markerInfoInit);
+    check(c.clipFindMarker(this.#handle, name, index, info));
+    return { index: info.index, time: info.time, name: info.name };
   }
 
   /** What plays of it goes on to its end. */

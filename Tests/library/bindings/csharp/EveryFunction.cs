@@ -75,6 +75,12 @@ static class EveryFunction
         Throws(Result.BadData, "bytes[1]: ", () => Clip.AllFromBytes(hum, new byte[] { 1, 2 }));
         Throws(Result.Invalid, "MaxPlays: must be", () => new Engine(new EngineConfig { MaxPlays = 1000000 }));
         Check(clip.Name == "hüm" && clip.Duration == 1.0 && clip.Events == 0 && clip.Bytes > 20, "info of the clip");
+        var marked = Clip.FromBytes(Encoding.UTF8.GetBytes(Hum.Replace("\"duration\": 1,",
+            "\"duration\": 1, \"markers\": [{\"time\": 0.25, \"name\": \"schön\"}, {\"time\": 0.5, \"name\": \"step\"}, {\"time\": 0.75, \"name\": \"step\"}],")));
+        Check(string.Join(" ", marked.Markers.Select(marker => marker.Name)) == "schön step step", "markers");
+        Check(Math.Abs(marked.FindMarker("schön").Time - 0.25) < 1e-3 && marked.FindMarker("step", 2).Index == 2, "a marker");
+        Throws(Result.Invalid, "no marker 'schön'", () => marked.FindMarker("schön", 1));
+        Check(clip.Markers.Length == 0, "no markers");
         var config = new EngineConfig { SampleRate = 8000, MaxPlays = 8 };
         Check(config.Protect && config.PanLaw == PanLaw.Power && config.BudgetFrames == 512, "defaults");
         config.Actuators.Add(new Actuator());

@@ -47,6 +47,13 @@ func played_like_c():
 func every_function():
 	var clip = pacini.clip_from_bytes(HUM.to_utf8())
 	check(clip.get_name() == "hüm" and clip.get_duration() == 1.0 and clip.get_events() == 0, "info of the clip")
+	var marked = pacini.clip_from_bytes(HUM.replace("\"duration\": 1,", """"duration": 1, "markers": [
+		{"time": 0.25, "name": "schön"}, {"time": 0.5, "name": "step"}, {"time": 0.75, "name": "step"}],""").to_utf8())
+	var markers = marked.get_markers()
+	check(markers.size() == 3 and markers[0].name == "schön" and abs(markers[2].time - 0.75) < 0.001, "markers")
+	check(marked.find_marker("step").index == 1 and marked.find_marker("step", 2).index == 2, "a marker by its name")
+	fails("no marker 'schön'", marked.find_marker("schön", 1))
+	check(clip.get_markers() == [], "no markers")
 	var engine = pacini.engine({"sample_rate": 8000, "actuators": [{}, {"gain": 0.5}], "max_plays": 8, "pan_law": "power",
 		"protect": true})
 	var play = engine.play(clip, {"loop": -1, "pan": 0, "frame": 1000})

@@ -40,6 +40,14 @@ local function everyFunction()
     equal(two[2]:info().name, "hum")
     fails("bytes[1]: ", pacini.clipsFromBytes, {hum, "none"})
     fails("maxPlays: must be", pacini.engine, {maxPlays = 1000000})
+    local marked = pacini.clipFromBytes((hum:gsub('"duration": 1,', [["duration": 1, "markers": [
+        {"time": 0.25, "name": "schön"}, {"time": 0.5, "name": "step"}, {"time": 0.75, "name": "step"}],]])))
+    equal(#marked:markers(), 3)
+    equal(marked:markers()[1].name, "schön")
+    equal(marked:findMarker("step").index, 2)
+    assert(math.abs(marked:findMarker("step", 3).time - 0.75) < 1e-3)
+    fails("no marker 'schön'", marked.findMarker, marked, "schön", 2)
+    equal(#clip:markers(), 0)
     local engine = pacini.engine{sampleRate = 8000, actuators = {{}, {gain = 0.5}}, panLaw = "power", maxPlays = 8,
         protect = true}
     local play = engine:play(clip, {loop = -1, pan = 0, frame = 1000})

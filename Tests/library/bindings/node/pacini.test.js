@@ -93,6 +93,16 @@ test('a clip plays and is changed; what is stale throws', () => {
   fails('stale', 'engine of the play', () => play.stop());
 });
 
+test('a clip has markers', () => {
+  const clip = Clip.fromBytes(bytes(hum.replace('"duration": 1,', `"duration": 1, "markers": [
+    {"time": 0.25, "name": "schön"}, {"time": 0.5, "name": "step"}, {"time": 0.75, "name": "step"}],`)));
+  assert.deepEqual(clip.markers.map(({ index, name }) => [index, name]), [[0, 'schön'], [1, 'step'], [2, 'step']]);
+  assert.ok(Math.abs(clip.findMarker('schön').time - 0.25) < 1e-3);
+  assert.deepEqual(clip.findMarker('step', 2), clip.markers[2]);
+  fails('invalid', "no marker 'schön'", () => clip.findMarker('schön', 1));
+  assert.deepEqual(Clip.fromBytes(bytes(hum)).markers, []);
+});
+
 test('what nothing refers to is collected', async () => {
   for (let i = 0; i < 200; ++i) { // 64 at a time
     new Engine({ sampleRate: 8000, maxPlays: 4 });

@@ -54,6 +54,15 @@ namespace Pacini
         }
 
         [StructLayout(LayoutKind.Sequential)]
+        internal struct pacini_marker_info
+        {
+            public uint struct_size;
+            public uint index;
+            public double time;
+            [MarshalAs(UnmanagedType.ByValArray, SizeConst = 128)] public byte[] name;
+        }
+
+        [StructLayout(LayoutKind.Sequential)]
         internal struct pacini_actuator
         {
             public IntPtr profile;
@@ -158,6 +167,10 @@ namespace Pacini
         [DllImport(Library, CallingConvention = C)] internal static extern int pacini_clip_reload(pacini_clip clip, byte[] bytes, UIntPtr size);
         [DllImport(Library, CallingConvention = C)] internal static extern void pacini_clip_info_init(ref pacini_clip_info info);
         [DllImport(Library, CallingConvention = C)] internal static extern int pacini_clip_get_info(pacini_clip clip, ref pacini_clip_info info);
+        [DllImport(Library, CallingConvention = C)] internal static extern int pacini_clip_count_markers(pacini_clip clip, out uint count);
+        [DllImport(Library, CallingConvention = C)] internal static extern void pacini_marker_info_init(ref pacini_marker_info info);
+        [DllImport(Library, CallingConvention = C)] internal static extern int pacini_clip_get_marker(pacini_clip clip, uint index, ref pacini_marker_info info);
+        [DllImport(Library, CallingConvention = C)] internal static extern int pacini_clip_find_marker(pacini_clip clip, byte[] name, uint index, ref pacini_marker_info info);
         [DllImport(Library, CallingConvention = C)] internal static extern int pacini_clip_release(pacini_clip clip);
 
         [DllImport(Library, CallingConvention = C)] internal static extern void pacini_engine_config_init(ref pacini_engine_config config);

@@ -152,6 +152,17 @@ namespace Pacini
         }
     }
 
+    /// <summary>A named point of time of a clip.</summary>
+    public struct Marker
+    {
+        /// <summary>From 0, in order of time.</summary>
+        public int Index;
+        /// <summary>In seconds of the clip.</summary>
+        public double Time;
+        /// <summary>At most 127 bytes of UTF-8; cut if it is longer.</summary>
+        public string Name;
+    }
+
     /// <summary>A haptic clip in memory. It can play as often as one likes, on any engine.</summary>
     public sealed class Clip : IDisposable
     {
@@ -232,6 +243,41 @@ namespace Pacini
 
         /// <summary>Memory that it takes.</summary>
         public long Bytes { get { return (long)Info.bytes; } }
+
+        /// <summary>In order of time. A loop of a WAV is two of them, "loop start" and "loop end".</summary>
+        public Marker[] Markers
+        {
+            get
+            {
+                uint count;
+                Native.Check(Native.pacini_clip_count_markers(Handle, out count));
+                var found = new Marker[count];
+                for (uint i = 0; i < count; ++i)
+                {
+                    uint index = i;
+                    found[i] = GetMarker((ref Native.pacini_marker_info info) => Native.pacini_clip_get_marker(Handle, index, ref info));
+                }
+                return found;
+            }
+        }
+
+        /// <summary>The first marker with this name, from the marker `index` on.</summary>
+        public Marker FindMarker(string name, int index = 0)
+        {
+            byte[] utf8 = Native.Utf8(name);
+            return GetMarker((ref Native.pacini_marker_info info) =>
+                Native.pacini_clip_find_marker(Handle, utf8, (uint)Math.Max(0, index), ref info));
+        }
+
+        private delegate int GetInfo(ref Native.pacini_marker_info info);
+
+        private static Marker GetMarker(GetInfo get)
+        {
+            var info = new Native.pacini_marker_info();
+            Native.pacini_marker_info_init(ref info);
+            Native.Check(get(ref info));
+            return new Marker { Index = (int)info.index, Time = info.time, Name = Native.Text(info.name) };
+        }
 
         /// <summary>Releases it; what plays of it goes on to its end.</summary>
         public void Dispose()

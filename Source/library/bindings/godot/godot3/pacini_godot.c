@@ -232,6 +232,35 @@ EXPORT godot_variant pacini_godot_clip_info(const void* arguments)
     }
 }
 
+/* clip: how many markers it has */
+EXPORT godot_variant pacini_godot_clip_count_markers(const void* arguments)
+{
+    uint32_t found = 0;
+    return pacini_clip_count_markers(to_clip(arguments, 0), &found) == PACINI_OK ? of_int(found) : of_nothing();
+}
+
+/* clip, index, which of: name, time */
+EXPORT godot_variant pacini_godot_clip_marker(const void* arguments)
+{
+    pacini_marker_info info;
+    pacini_marker_info_init(&info);
+    if (pacini_clip_get_marker(to_clip(arguments, 0), (uint32_t)to_int(arguments, 1), &info) != PACINI_OK)
+        return of_nothing();
+    return to_int(arguments, 2) == 0 ? of_text(info.name) : of_real(info.time);
+}
+
+/* clip, name, index from which on: the index */
+EXPORT godot_variant pacini_godot_clip_find_marker(const void* arguments)
+{
+    pacini_marker_info info;
+    pacini_result result;
+    utf8_text name = to_text(arguments, 1);
+    pacini_marker_info_init(&info);
+    result = pacini_clip_find_marker(to_clip(arguments, 0), name.text, (uint32_t)to_int(arguments, 2), &info);
+    forget(&name);
+    return result == PACINI_OK ? of_int(info.index) : of_nothing();
+}
+
 EXPORT godot_variant pacini_godot_clip_release(const void* arguments)
 {
     return of_result(pacini_clip_release(to_clip(arguments, 0)));
@@ -408,9 +437,9 @@ EXPORT godot_variant pacini_godot_engine_calibrate(const void* arguments)
 
 EXPORT godot_variant pacini_godot_engine_set_actuator_gain(const void* arguments)
 {
-    return of_result(pacini_engine_set_actuator_gain(to_engine(arguments, 0),
-                                                     (uint32_t)to_int(arguments, 1), to_real(arguments, 2),
-                                                     to_real(arguments, 3), to_int(arguments, 4)));
+    return of_result(pacini_engine_set_actuator_gain(to_engine(arguments, 0), (uint32_t)to_int(arguments, 1),
+                                                     to_real(arguments, 2), to_real(arguments, 3),
+                                                     to_int(arguments, 4)));
 }
 
 EXPORT godot_variant pacini_godot_group_set(const void* arguments)
@@ -422,8 +451,8 @@ EXPORT godot_variant pacini_godot_group_set(const void* arguments)
 
 EXPORT godot_variant pacini_godot_group_stop(const void* arguments)
 {
-    return of_result(pacini_group_stop(to_engine(arguments, 0), (uint32_t)to_int(arguments, 1),
-                                       to_real(arguments, 2), to_int(arguments, 3)));
+    return of_result(pacini_group_stop(to_engine(arguments, 0), (uint32_t)to_int(arguments, 1), to_real(arguments, 2),
+                                       to_int(arguments, 3)));
 }
 
 /* ---- Plays */
@@ -458,8 +487,7 @@ EXPORT godot_variant pacini_godot_play_start(const void* arguments)
 {
     const pacini_play_settings settings = settings_of(arguments, 2);
     pacini_play play = PACINI_NONE;
-    const pacini_result result =
-        pacini_play_start(to_engine(arguments, 0), to_clip(arguments, 1), &settings, &play);
+    const pacini_result result = pacini_play_start(to_engine(arguments, 0), to_clip(arguments, 1), &settings, &play);
     return of_handle(result, play.id);
 }
 
@@ -468,16 +496,15 @@ EXPORT godot_variant pacini_godot_texture_start(const void* arguments)
 {
     const pacini_play_settings settings = settings_of(arguments, 4);
     pacini_play play = PACINI_NONE;
-    const pacini_result result =
-        pacini_texture_start(to_engine(arguments, 0), to_texture(arguments, 1),
-                             to_real(arguments, 2), to_real(arguments, 3), &settings, &play);
+    const pacini_result result = pacini_texture_start(to_engine(arguments, 0), to_texture(arguments, 1),
+                                                      to_real(arguments, 2), to_real(arguments, 3), &settings, &play);
     return of_handle(result, play.id);
 }
 
 EXPORT godot_variant pacini_godot_play_set(const void* arguments)
 {
-    return of_result(pacini_play_set(to_play(arguments, 0), (int32_t)to_int(arguments, 1),
-                                     to_real(arguments, 2), to_real(arguments, 3), to_int(arguments, 4)));
+    return of_result(pacini_play_set(to_play(arguments, 0), (int32_t)to_int(arguments, 1), to_real(arguments, 2),
+                                     to_real(arguments, 3), to_int(arguments, 4)));
 }
 
 EXPORT godot_variant pacini_godot_play_stop(const void* arguments)
@@ -492,8 +519,7 @@ EXPORT godot_variant pacini_godot_play_pause(const void* arguments)
 
 EXPORT godot_variant pacini_godot_play_resume(const void* arguments)
 {
-    return of_result(
-        pacini_play_resume(to_play(arguments, 0), to_real(arguments, 1), to_int(arguments, 2)));
+    return of_result(pacini_play_resume(to_play(arguments, 0), to_real(arguments, 1), to_int(arguments, 2)));
 }
 
 EXPORT godot_variant pacini_godot_play_seek(const void* arguments)
@@ -550,8 +576,7 @@ EXPORT godot_variant pacini_godot_engine_attach(const void* arguments)
     pacini_attach_settings settings;
     pacini_attach_settings_init(&settings);
     settings.stop_on_crash = (int32_t)to_int(arguments, 2);
-    return of_result(
-        pacini_engine_attach(to_engine(arguments, 0), to_controller(arguments, 1), &settings));
+    return of_result(pacini_engine_attach(to_engine(arguments, 0), to_controller(arguments, 1), &settings));
 }
 
 EXPORT godot_variant pacini_godot_engine_detach(const void* arguments)

@@ -139,6 +139,23 @@ pub struct ClipInfo {
     pub bytes: u64,
 }
 
+/// A named point of time of a clip.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Marker {
+    /// From 0, in order of time.
+    pub index: u32,
+    /// In seconds of the clip.
+    pub time: f64,
+    /// Cut if it is longer than 127 bytes.
+    pub name: String,
+}
+
+impl Marker {
+    fn of(info: &sys::pacini_marker_info) -> Marker {
+        Marker { index: info.index, time: info.time, name: within(&info.name) }
+    }
+}
+
 /// A haptic clip in memory. It can play as often as one likes, on any engine; when it is dropped, what plays of it goes on.
 #[derive(Debug)]
 pub struct Clip(sys::pacini_clip);
@@ -186,6 +203,30 @@ impl Clip {
             CStr::from_ptr(info.name.as_ptr()).to_string_lossy().into_owned()
         };
         Ok(ClipInfo { name, duration: info.duration, events: info.events, bytes: info.bytes })
+    }
+
+    /// Its markers, in order of time. A loop of a WAV is two of them, "loop start" and "loop end".
+    pub fn markers(&self) -> Result<Vec<Marker>, Error> {
+        let mut count = 0;
+        // SAFETY: `count` outlives the call.
+        check(unsafe { sys::pacini_clip_count_markers(self.0, &mut count) })?;
+        (0..count)
+            .map(|index| {
+                let mut info = filled(sys::pacini_marker_info_init);
+                // SAFETY: the struct knows its size.
+                check(unsafe { sys::pacini_clip_get_marker(self.0, index, &mut info) })?;
+                Ok(Marker::of(&info))
+            })
+            .collect()
+    }
+
+    /// The first marker with this name, from the marker `index` on.
+    pub fn find_marker(&self, name: &str, index: u32) -> Result<Marker, Error> {
+        let name = text(name)?;
+        let mut info = filled(sys::pacini_marker_info_init);
+        // SAFETY: the struct knows its size, and the text ends with a 0.
+        check(unsafe { sys::pacini_clip_find_marker(self.0, name.as_ptr(), index, &mut info) })?;
+        Ok(Marker::of(&info))
     }
 }
 

@@ -45,6 +45,14 @@ pub struct pacini_clip_info {
 }
 
 #[repr(C)]
+pub struct pacini_marker_info {
+    pub struct_size: u32,
+    pub index: u32,
+    pub time: f64,
+    pub name: [c_char; 128],
+}
+
+#[repr(C)]
 pub struct pacini_actuator {
     pub profile: *const c_char,
     pub gain: f64,
@@ -152,6 +160,15 @@ extern "C" {
     pub fn pacini_clip_reload(clip: pacini_clip, bytes: *const c_void, size: usize) -> pacini_result;
     pub fn pacini_clip_info_init(info: *mut pacini_clip_info);
     pub fn pacini_clip_get_info(clip: pacini_clip, info: *mut pacini_clip_info) -> pacini_result;
+    pub fn pacini_clip_count_markers(clip: pacini_clip, count: *mut u32) -> pacini_result;
+    pub fn pacini_marker_info_init(info: *mut pacini_marker_info);
+    pub fn pacini_clip_get_marker(clip: pacini_clip, index: u32, info: *mut pacini_marker_info) -> pacini_result;
+    pub fn pacini_clip_find_marker(
+        clip: pacini_clip,
+        name: *const c_char,
+        index: u32,
+        info: *mut pacini_marker_info,
+    ) -> pacini_result;
     pub fn pacini_clip_release(clip: pacini_clip) -> pacini_result;
 
     pub fn pacini_engine_config_init(config: *mut pacini_engine_config);

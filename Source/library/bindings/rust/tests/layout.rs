@@ -24,6 +24,7 @@ fn layout() {
     layout!(pacini_play: id);
     layout!(pacini_controller: id);
     layout!(pacini_clip_info: struct_size, events, duration, bytes, name);
+    layout!(pacini_marker_info: struct_size, index, time, name);
     layout!(pacini_actuator: profile, gain, delay);
     layout!(pacini_engine_config: struct_size, actuator_count, sample_rate, actuators, pan_law, protect, pan_delay,
         longest_delay, strength, max_plays, max_commands, budget, budget_frames, budget_voices);

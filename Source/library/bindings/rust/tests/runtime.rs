@@ -81,6 +81,23 @@ fn a_clip_plays_and_is_changed() {
 }
 
 #[test]
+fn a_clip_has_markers() {
+    let clip = Clip::from_bytes(
+        r#"{"format": "pacini.clip", "version": 1, "duration": 1, "bands": [],
+        "markers": [{"time": 0.25, "name": "schön"}, {"time": 0.5, "name": "step"}, {"time": 0.75, "name": "step"}]}"#
+            .as_bytes(),
+    )
+    .unwrap();
+    let markers = clip.markers().unwrap();
+    assert_eq!(markers.iter().map(|one| one.name.as_str()).collect::<Vec<_>>(), ["schön", "step", "step"]);
+    assert!((markers[0].time - 0.25).abs() < 1e-3);
+    assert_eq!(clip.find_marker("schön", 0).unwrap(), markers[0]);
+    assert_eq!(clip.find_marker("step", 2).unwrap(), markers[2]);
+    fails(clip.find_marker("schön", 1), Code::Invalid, "no marker 'schön'");
+    assert_eq!(hum().markers().unwrap(), []);
+}
+
+#[test]
 fn channels_are_the_same_apart_and_interleaved() {
     let clip = hum();
     let (first, mut apart) = Engine::new(&two_actuators()).unwrap();

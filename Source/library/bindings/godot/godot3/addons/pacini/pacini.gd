@@ -115,6 +115,26 @@ class HapticClip:
 	func get_events():
 		return _native.run("clip_info", [_handle, 2])
 
+	# In order of time: index (from 0), time (s) and name of each. A loop of a WAV is two of them, "loop start" and
+	# "loop end".
+	func get_markers():
+		var markers = []
+		var count = _native.run("clip_count_markers", [_handle])
+		if count == null:
+			return null
+		for index in count:
+			markers.append(_marker(index))
+		return markers
+
+	# The first marker with this name, from the marker `index` on.
+	func find_marker(name, index = 0):
+		var found = _native.run("clip_find_marker", [_handle, name, index])
+		return _marker(found) if found != null else null
+
+	func _marker(index):
+		return {"index": index, "time": _native.run("clip_marker", [_handle, index, 1]),
+			"name": _native.run("clip_marker", [_handle, index, 0])}
+
 	# What plays of it goes on to its end.
 	func release():
 		var done = _native.run("clip_release", [_handle])
