@@ -87,9 +87,8 @@ class FolderTest(unittest.TestCase):
         return document
 
 
-@unittest.skipUnless(PYTHON.exists(), "build/python-venv is missing: bash cmake/bootstrap.sh test installs it")
-class Sources(FolderTest):
-    """What is packed of the commit alone, in a checkout of its own."""
+class CheckoutTest(FolderTest):
+    """A checkout of its own, of one commit."""
 
     def setUp(self):
         super().setUp()
@@ -107,6 +106,11 @@ class Sources(FolderTest):
 
     def git(self, *words):
         return said("git", "-c", "user.name=a", "-c", "user.email=a@example.com", *words, cwd=self.root)
+
+
+@unittest.skipUnless(PYTHON.exists(), "build/python-venv is missing: bash cmake/bootstrap.sh test installs it")
+class Sources(CheckoutTest):
+    """What is packed of the commit alone."""
 
     def test_the_sources_have_the_same_bytes_wherever_and_whenever_they_are_packed(self):
         parts = ("--parts", "source,sdist,crate")
@@ -166,6 +170,39 @@ class Sources(FolderTest):
         self.fails([self.folder / "other", "--check"], "README.md: differs from the commit; commit it first")
         shutil.rmtree(self.root / ".git")
         self.fails([self.folder / "other", "--check"], "is no checkout of Git")
+
+
+class Compiled(CheckoutTest):
+    """What is compiled. ccache compiles most of it once for all checkouts, unless a path of one is among the options;
+    what is linked, archived and written by the build is made anew."""
+
+    PROGRAMS = ["pacini", "pacini_library", "pacini_library_static"]
+
+    def build(self, root, **environment):
+        """Name to bytes of what is built."""
+        environment = {**os.environ, **environment}
+        said("cmake", "--preset", "release", cwd=root, env=environment)
+        said("ninja", "-C", "build/release", "-j2", *self.PROGRAMS, cwd=root, env=environment)
+        build = root / "build/release"
+        return {path.name: path.read_bytes() for path in [build / "bin/pacini", *sorted((build / "lib").iterdir())]}
+
+    def test_the_command_and_the_library_have_the_same_bytes_wherever_and_whenever_they_are_built(self):
+        one = self.build(self.root)
+        self.assertLessEqual({"pacini", "libpacini.so", "libpacini.a"}, set(one))
+        other = self.folder / "elsewhere/with another name"
+        said("git", "clone", "-q", self.root, other)
+        mask = os.umask(0o077)
+        self.addCleanup(os.umask, mask)
+        # Not in another language, for which ccache would compile all of it again.
+        two = self.build(other, TZ="Asia/Tokyo", USER="somebody", SOURCE_DATE_EPOCH="5")
+        self.assertEqual(set(one), set(two))
+        # The path of a source and the time are what ccache would hide.
+        hidden = "__(FILE|DATE|TIME|TIMESTAMP)__|source_location"
+        found = subprocess.run(["git", "grep", "-nE", hidden, "--", "Core", "Source"], cwd=other, capture_output=True)
+        self.assertEqual((found.returncode, found.stdout), (1, b""))
+        self.assertEqual([name for name in one if one[name] != two[name]], [])
+        for name, data in one.items():
+            self.assertNotIn(os.fsencode(self.root), data, name)
 
 
 class BuiltTest(FolderTest):
