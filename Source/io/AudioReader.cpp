@@ -358,7 +358,28 @@ struct AudioReader::State
         const auto there = frameBytes > 0 ? part().presentBytes / frameBytes : 0;
         if (const auto frames = partFrames().value_or(there); !broken && frames + 1 < there)
             warn("is damaged: {:.3f} s of {:.3f} s can be read", seconds(frames), seconds(there));
+        const auto left = passOver(part().leadFrames);
+        if (info.frames < SF_COUNT_MAX)
+            info.frames -= std::min(info.frames, static_cast<sf_count_t>(part().leadFrames - left));
         return {};
+    }
+
+    /// Reads frames of the current part and drops them; how many of these are not there.
+    std::uint64_t passOver(std::uint64_t frames)
+    {
+        constexpr std::uint64_t most = 4096;
+        const SoundLibraryCall inside;
+        std::vector<float> passed;
+        while (frames > 0)
+        {
+            passed.resize(most * static_cast<std::size_t>(info.channels));
+            const auto count =
+                sf_readf_float(sound.get(), passed.data(), static_cast<sf_count_t>(std::min(frames, most)));
+            if (count <= 0)
+                break;
+            frames -= static_cast<std::uint64_t>(count);
+        }
+        return frames;
     }
 
     void warnOfPromise(double promised, double present)
@@ -388,6 +409,11 @@ struct AudioReader::State
         }
         else if (part().isUnended && isFormat(SF_FORMAT_OGG))
             warn("lacks the mark of its end behind {:.3f} s; it may have been cut off", seconds(here));
+        if (part().shiftedFrames > 0)
+            warn(
+                "has times by which its first {:.3f} s lie before its start, more than an edit can; all of it is read; "
+                "save it anew",
+                seconds(part().shiftedFrames));
         if (part().streamsBeside == 1)
             warn("has another sound at the same time, which is left out; save it as a file of its own");
         else if (part().streamsBeside > 1)
@@ -480,16 +506,7 @@ struct AudioReader::State
         parts.insert(parts.begin() + static_cast<std::ptrdiff_t>(current) + 1, std::move(*next));
         if (!openView(false))
             return false;
-        const SoundLibraryCall inside;
-        std::vector<float> passed(4096 * static_cast<std::size_t>(info.channels));
-        for (auto left = static_cast<sf_count_t>(delivered - deliveredBefore); left > 0;)
-        {
-            const auto count = sf_readf_float(sound.get(), passed.data(), std::min<sf_count_t>(left, 4096));
-            if (count <= 0)
-                return false;
-            left -= count;
-        }
-        return true;
+        return passOver(delivered - deliveredBefore) == 0;
     }
 
     /// What of the current part and of what follows is not sound.

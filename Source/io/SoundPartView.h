@@ -53,9 +53,12 @@ struct SoundPartView
             std::fread(bytes.data(), 1, static_cast<std::size_t>(std::min<std::uint64_t>(bytes.size(), left)), file);
         place += got;
         for (const BytePatch& patch : part->patches)
-            for (std::size_t i = 0; i < patch.bytes.size(); ++i)
-                if (patch.offset + i >= from && patch.offset + i < from + got)
-                    bytes[static_cast<std::size_t>(patch.offset + i - from)] = patch.bytes[i];
+        {
+            const auto first = std::max(patch.offset, from),
+                       last = std::min(patch.offset + patch.bytes.size(), from + got);
+            for (auto at = first; at < last; ++at)
+                bytes[static_cast<std::size_t>(at - from)] = patch.bytes[static_cast<std::size_t>(at - patch.offset)];
+        }
         return got;
     }
 };

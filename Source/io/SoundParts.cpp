@@ -6,6 +6,7 @@
 #include "io/MpegFrames.h"
 #include "io/SoundCodec.h"
 #include "io/SoundTags.h"
+#include "io/VorbisTimes.h"
 
 #include <algorithm>
 #include <limits>
@@ -474,6 +475,11 @@ private:
         std::uint64_t skipped = 0;
         std::uint64_t stream = 0, nextPage = 0;
         bool isSound = false; // what `stream` is
+        const auto mendTimes = [&]
+        {
+            if (!parts.empty() && isSound)
+                mendEarlyStart(parts.back(), stream);
+        };
         for (auto offset = begin; offset < end;)
         {
             const auto head = file.at(offset, headerBytes + 255);
@@ -496,8 +502,10 @@ private:
                 if (parts.size() == mostParts)
                 {
                     parts.back().leftOutBytes += end - offset;
+                    mendTimes();
                     return;
                 }
+                mendTimes();
                 parts.emplace_back().begin = offset;
                 isSound = false;
             }
@@ -531,6 +539,24 @@ private:
             part.end = std::min(offset, end);
         }
         parts.back().skippedBytes += skipped;
+        mendTimes();
+    }
+
+    /// Lets a stream begin at 0 that begins before it, which not all decoders honour.
+    void mendEarlyStart(SoundPart& part, std::uint64_t stream)
+    {
+        auto shift = vorbisShift(file, part.begin, part.end, stream);
+        if (shift.frames == 0)
+            return;
+        part.patches = std::move(shift.patches);
+        if (shift.isEdit)
+        {
+            part.leadFrames = shift.frames;
+            return;
+        }
+        part.shiftedFrames = shift.frames;
+        part.firstTime += shift.frames;
+        part.lastTime += shift.frames;
     }
 
     /// Whether the page at `offset` begins a stream of sound.

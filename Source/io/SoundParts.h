@@ -39,6 +39,8 @@ struct SoundPart
     std::optional<std::uint64_t> countedFrames;  ///< actual length
     std::uint64_t firstTime = 0;                 ///< of an Ogg stream: the earliest and latest of its pages' times, in
     std::uint64_t lastTime = 0;                  ///< frames, those of Opus at 48 kHz
+    std::uint64_t leadFrames = 0;                ///< decoded before its first that are no sound of it
+    std::uint64_t shiftedFrames = 0;             ///< of an Ogg stream, by which its times are too early
     std::uint64_t lostPages = 0;                 ///< of an Ogg stream, which counts them
     bool endsInFrame = false;                    ///< it ends within a frame of its codec
     bool isContinued = false;                    ///< more audio of the file of chunks that the part before is of
