@@ -178,11 +178,8 @@ private:
         const Mp4Box times = inner(tables, {"stts"});
         Run all;
         for (std::uint64_t i = 0; i < rows(times, 4, 8); ++i)
-        {
-            const auto count = at(times, 8 + 8 * i, 4);
-            all.blocks += count;
-            all.ticks += static_cast<double>(count) * static_cast<double>(at(times, 12 + 8 * i, 4));
-        }
+            if (const auto count = at(times, 8 + 8 * i, 4); count > 0)
+                all.add(count, at(times, 12 + 8 * i, 4));
         std::set<std::uint64_t> known; // tracks of the movie
         for (const Mp4Box& one : children(movie, "trak"))
             known.insert(idOf(one));
@@ -205,8 +202,12 @@ private:
         const Mp4Box descriptions = inner(tables, {"stsd"});
         if (all.blocks > 0 && scale > 0 && descriptions.bytes() >= 8 + 36)
         {
+            // As a rule all blocks but the last are alike.
             const auto blocks = static_cast<double>(all.blocks);
-            checkBlocks(found, descriptions, all.ticks / blocks / static_cast<double>(scale), 0.011 + 1.0 / blocks);
+            const bool areAlike = all.differing <= 1;
+            checkBlocks(found, descriptions,
+                        (areAlike ? static_cast<double>(all.each) : all.ticks / blocks) / static_cast<double>(scale),
+                        areAlike ? 0.006 : 0.011 + 1.0 / blocks);
         }
         checkEdits(found, inner(box, {"edts", "elst"}), scale);
         return found;
@@ -218,8 +219,18 @@ private:
         std::uint64_t blocks = 0;
         double ticks = 0.0;
         std::uint64_t bytes = 0;
-        bool areSized = true; ///< all of them state how many bytes they have
-        bool isWhole = true;  ///< their tables have as many rows as they state
+        bool areSized = true;        ///< all of them state how many bytes they have
+        bool isWhole = true;         ///< their tables have as many rows as they state
+        std::uint64_t each = 0;      ///< ticks of the first block
+        std::uint64_t differing = 0; ///< blocks of other lengths than the first
+
+        void add(std::uint64_t count, std::uint64_t length)
+        {
+            each = blocks == 0 ? length : each;
+            differing += length == each ? 0 : count;
+            blocks += count;
+            ticks += static_cast<double>(count) * static_cast<double>(length);
+        }
     };
 
     /// The number that a track has in its movie.
@@ -247,8 +258,10 @@ private:
                       (run.blocks > 0 || (at(header, 1, 3) & isEmpty) != 0);
             told += run.bytes;
             areSized = areSized && run.areSized;
-            if (owner != id)
+            if (owner != id || run.blocks == 0)
                 continue;
+            all.each = all.blocks == 0 ? run.each : all.each;
+            all.differing += run.each == all.each ? run.differing : run.blocks;
             all.blocks += run.blocks;
             all.ticks += run.ticks;
         }
@@ -287,17 +300,16 @@ private:
                 bytes += (what & one) != 0 ? 4u : 0u;
             const bool isTimed = (what & 0x100u) != 0, isSized = (what & 0x200u) != 0;
             const auto there = bytes > 0 && run.bytes() > first ? (run.bytes() - first) / bytes : 0;
-            all.blocks += count;
             all.areSized = all.areSized && (isSized || size > 0);
             all.isWhole = all.isWhole && (bytes == 0 || count == there);
-            if (!isTimed)
-                all.ticks += static_cast<double>(count) * static_cast<double>(usual);
+            if (!isTimed && count > 0)
+                all.add(count, usual);
             if (!isSized)
                 all.bytes += count * size;
             for (std::uint64_t i = 0; (isTimed || isSized) && i < std::min(count, there); ++i)
             {
                 if (isTimed)
-                    all.ticks += static_cast<double>(at(run, first + i * bytes, 4));
+                    all.add(1, at(run, first + i * bytes, 4));
                 if (isSized)
                     all.bytes += at(run, first + i * bytes + (isTimed ? 4 : 0), 4);
             }

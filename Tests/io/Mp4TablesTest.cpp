@@ -185,3 +185,20 @@ TEST_CASE("No damage of an MP4's fragments shortens its sound in silence", "[io]
     CHECK(said > rounds / 20);
     CHECK(silent > rounds / 20);
 }
+
+TEST_CASE("Times of an MP4 that no block of its codec has are told, whatever table they are in", "[io][audio]")
+{
+    const TempFolder folder;
+    // 1024 frames of 16 kHz are 64 ms; by another unit of time they would be another number of frames. A unit of 32000
+    // makes 512 of them, which are blocks of AAC, too.
+    for (const std::string& whole : {mp4Bytes(60, 16000), fragmentedMp4Bytes(6, 10, 16000)})
+        for (const std::uint32_t scale : {15000u, 16001u, 18000u, 32600u, 32640u, 33000u, 48000u})
+        {
+            CAPTURE(scale);
+            auto bytes = whole;
+            bytes.replace(bytes.find("mdhd") + 16, 4, bigEndian(scale, 4));
+            const auto tracks = tracksOf(bytes, folder);
+            REQUIRE(tracks.size() == 1);
+            CHECK(tracks[0].doubts.empty() == (scale == 16001));
+        }
+}
