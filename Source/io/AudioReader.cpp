@@ -358,6 +358,11 @@ struct AudioReader::State
         const auto there = frameBytes > 0 ? part().presentBytes / frameBytes : 0;
         if (const auto frames = partFrames().value_or(there); !broken && frames + 1 < there)
             warn("is damaged: {:.3f} s of {:.3f} s can be read", seconds(frames), seconds(there));
+        if (const auto stated = part().statedFrameBytes; stated > 0 && frameBytes > 0 && stated != frameBytes)
+            warn("has a header that states frames of {} bytes, but its samples make frames of {}; read by these it "
+                 "lasts "
+                 "{:.3f} s, by the others it would last {:.3f} s; save it anew",
+                 stated, frameBytes, seconds(partFrames().value_or(there)), seconds(part().presentBytes / stated));
         const auto left = passOver(part().leadFrames);
         if (info.frames < SF_COUNT_MAX)
             info.frames -= std::min(info.frames, static_cast<sf_count_t>(part().leadFrames - left));

@@ -509,6 +509,12 @@ Result<void> FilmSound::explainEnd()
     else if (duration == Duration::estimated && !hasPicture && here < 0.5 * promised)
         warnings.push_back(
             fmt::format("lasts about {:.3f} s by its header, of which {:.3f} s can be decoded", promised, here));
+    // Of a block of AAC that has fewer channels than its header states, in ffmpeg's words.
+    if (const auto element = ending.complaint.find("ChannelElement ");
+        element != std::string::npos && ending.complaint.find(" missing", element) != std::string::npos)
+        warnings.push_back(fmt::format("has a header that states other channels than its sound has; it is read with "
+                                       "{}, of which those that it lacks are silent; save it anew",
+                                       width));
     // Beyond what makes time 0 that of the picture.
     const double added = sumOf(ending.complaint, "adding ", " audio samples of silence") / rate - std::max(late, 0.0);
     const double cut = sumOf(ending.complaint, "discarding ", " audio samples") / rate - std::max(-late, 0.0);

@@ -212,6 +212,7 @@ private:
             parts.back().leftOutBytes += later ? end - later->start : 0;
             return next;
         }
+        parts.back().statedFrameBytes = frameBytesOf(file, begin, found->sizeField);
         addHeader(parts.back(), *found);
         parts.back().silence = found->silence;
         while (const auto chunk = std::exchange(later, std::nullopt))

@@ -31,6 +31,7 @@ struct SoundPart
 
     std::optional<std::uint64_t> promisedBytes; ///< of audio, where a header is wrong about them
     std::uint64_t presentBytes = 0;             ///< of audio; 0 where it is not known
+    std::uint64_t statedFrameBytes = 0;         ///< by a header that states them beside bits and channels; 0: none
     bool isWhole = true;                        ///< fewer than promised are there, but nothing is missing
     std::uint64_t leftOutBytes = 0;             ///< unread bytes after the sound
     std::uint64_t skippedBytes = 0;             ///< before it, that are no sound and no tag

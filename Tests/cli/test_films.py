@@ -163,6 +163,25 @@ class Films(FilmTest):
         self.put("edited.m4a", bytes(content))
         self.warns("encode", "edited.m4a", "-o", "edited.json", says="has an edit list, by which 3.0")
 
+    def test_channels_that_aac_does_not_have_are_told(self):
+        self.ffmpeg("-i", "sound.wav", "-c:a", "aac", "mono.m4a")
+        self.ffmpeg("-i", "sound.wav", "-ac", "2", "-c:a", "aac", "stereo.m4a")
+        for name, entry in (("mono.m4a", 1), ("mono.m4a", 2), ("stereo.m4a", 1), ("stereo.m4a", 2)):
+            content = (self.folder / name).read_bytes()
+            place = content.index(b"mp4a") + 20
+            self.put("a.m4a", content[:place] + entry.to_bytes(2, "big") + content[place + 2:])
+            self.assertTimes(self.events("a.m4a"), HITS)  # what counts is what the codec states
+            self.assertEqual(self.said, "", (name, entry))
+        for name, channels in (("mono.m4a", 2), ("stereo.m4a", 1)):
+            content = bytearray((self.folder / name).read_bytes())
+            # The description of the codec: a mark, its length, five bits of the codec, four of the rate, four of channels.
+            place = content.index(b"\5\x80\x80\x80", content.index(b"esds")) + 6
+            content[place] = content[place] & 0x87 | channels << 3
+            self.put("b.m4a", bytes(content))
+            self.assertTimes(self.events("b.m4a"), HITS)
+            self.assertIn("warning: has a header that states other channels than its sound has; it is read with 2",
+                          self.said, name)
+
     def test_an_mp4_whose_tables_disagree_says_so(self):
         self.ffmpeg("-i", "sound.wav", "-c:a", "aac", "a.m4a")
         content = (self.folder / "a.m4a").read_bytes()

@@ -6,6 +6,8 @@
 
 #include <pacini/foundation/Random.h>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -14,6 +16,7 @@
 #include <numbers>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -682,4 +685,42 @@ TEST_CASE("The codec of an AIFC says how long its samples are, whatever number s
             CHECK(audio->samples == std::vector<float>{0.25f, -0.25f, 0.125f});
             CHECK(audio->warnings.empty());
         }
+}
+
+TEST_CASE("A header whose frames are longer or shorter than its samples is told with both lengths", "[io][audio]")
+{
+    const TempFolder folder;
+    for (const auto& [sound, place, bytes, big] :
+         {std::tuple(waveFile("RIFF"), 32u, 2, false), std::tuple(waveFile("RF64"), 68u, 2, false),
+          std::tuple(waveFile("BW64"), 68u, 2, false), std::tuple(wave64(), 76u, 2, false),
+          std::tuple(caf(), 36u, 4, true)})
+    {
+        CAPTURE(sound.name);
+        for (const std::uint64_t frame : {1u, 2u, 4u, 8u})
+        {
+            CAPTURE(frame);
+            auto changed = sound.bytes;
+            const auto stated = big ? bigEndian(frame, bytes) : littleEndian(frame, bytes);
+            changed.replace(place, static_cast<std::size_t>(bytes), stated);
+            const auto audio = readAudio(put(folder / "x", changed));
+            if (!audio.ok())
+                continue;
+            CHECK(audio->warnings.empty() == (frame == 2 && audio->samples.size() == knownFrames));
+            if (frame == 2)
+                continue;
+            REQUIRE(audio->warnings.size() == 1);
+            CHECK(audio->warnings.front().starts_with(
+                fmt::format("has a header that states frames of {} bytes, but its samples make frames of 2; ", frame)));
+            CHECK(audio->warnings.front().find(
+                      fmt::format("would last {:.3f} s", static_cast<double>(2 * knownFrames) /
+                                                             static_cast<double>(frame * rate))) != std::string::npos);
+        }
+    }
+    // A size of 0 states nothing.
+    auto none = waveFile("RIFF").bytes;
+    none.replace(32, 2, littleEndian(0, 2));
+    const auto audio = readAudio(put(folder / "x", none));
+    REQUIRE(audio.ok());
+    CHECK(audio->warnings.empty());
+    CHECK(audio->samples.size() == knownFrames);
 }
