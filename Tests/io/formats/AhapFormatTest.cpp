@@ -381,6 +381,22 @@ TEST_CASE("AHAP: parameters step, curves move, and both scale and shift events",
     REQUIRE(clip.transients[0].sharpness == 1.0);
 }
 
+TEST_CASE("AHAP: an entry that has an event, a parameter and a curve is read as three entries are", "[io][formats]")
+{
+    const std::string event = R"("Event": {"Time": 0.5, "EventType": "HapticTransient"})",
+                      parameter =
+                          R"("Parameter": {"ParameterID": "HapticIntensityControl", "ParameterValue": 0.5, "Time": 0})",
+                      curve = R"("ParameterCurve": {"ParameterID": "HapticSharpnessControl", "Time": 0,
+                          "ParameterCurveControlPoints": [{"Time": 0, "ParameterValue": -0.25}]})";
+    const auto apart = readAhap(pattern("{" + event + "}, {" + parameter + "}, {" + curve + "}"));
+    const auto together = readAhap(pattern("{" + event + ", " + parameter + ", " + curve + "}"));
+    REQUIRE(apart.ok());
+    REQUIRE(together.ok());
+    CHECK(together->clip == apart->clip);
+    REQUIRE(apart->clip.transients.size() == 1);
+    CHECK(std::abs(apart->clip.transients[0].amplitude - 0.25) < 1e-9);
+}
+
 TEST_CASE("AHAP: nothing sounds before, between and after continuous events", "[io][formats]")
 {
     const auto event = [](const char* time, const char* duration, const char* intensity)

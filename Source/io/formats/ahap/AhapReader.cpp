@@ -175,13 +175,14 @@ private:
         const JsonEntry event = entry.optional("Event");
         const JsonEntry parameter = entry.optional("Parameter");
         const JsonEntry curve = entry.optional("ParameterCurve");
+        // One each as a rule, but nothing of an entry is left out that has several.
         if (event.exists())
             readEvent(event);
-        else if (parameter.exists())
+        if (parameter.exists())
             addControl(parameter, {{timeOf(parameter), parameter.required("ParameterValue").number()}});
-        else if (curve.exists())
+        if (curve.exists())
             readCurve(curve);
-        else
+        if (!event.exists() && !parameter.exists() && !curve.exists())
             entry.fail("is neither an Event, a Parameter nor a ParameterCurve");
     }
 
