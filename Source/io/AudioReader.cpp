@@ -363,6 +363,11 @@ struct AudioReader::State
                  "lasts "
                  "{:.3f} s, by the others it would last {:.3f} s; save it anew",
                  stated, frameBytes, seconds(partFrames().value_or(there)), seconds(part().presentBytes / stated));
+        if (part().hasOtherFormat)
+            warn("has two descriptions of its samples that differ; it is read by the first, as {} channels at {} Hz, "
+                 "and "
+                 "lasts {:.3f} s; save it anew",
+                 info.channels, info.samplerate, seconds(partFrames().value_or(there)));
         const auto left = passOver(part().leadFrames);
         if (info.frames < SF_COUNT_MAX)
             info.frames -= std::min(info.frames, static_cast<sf_count_t>(part().leadFrames - left));
@@ -414,6 +419,11 @@ struct AudioReader::State
         }
         else if (part().isUnended && isFormat(SF_FORMAT_OGG))
             warn("lacks the mark of its end behind {:.3f} s; it may have been cut off", seconds(here));
+        // RFC 7845 advises 80 ms.
+        constexpr std::uint64_t mostPreSkip = 4800;
+        if (part().preSkip > mostPreSkip)
+            warn("has a header that leaves out {:.3f} s at its beginning",
+                 static_cast<double>(part().preSkip) / 48000.0);
         if (part().shiftedFrames > 0)
             warn(
                 "has times by which its first {:.3f} s lie before its start, more than an edit can; all of it is read; "

@@ -213,6 +213,7 @@ private:
             return next;
         }
         parts.back().statedFrameBytes = frameBytesOf(file, begin, found->sizeField);
+        parts.back().hasOtherFormat = hasOtherFormat(begin, found->sizeField);
         addHeader(parts.back(), *found);
         parts.back().silence = found->silence;
         while (const auto chunk = std::exchange(later, std::nullopt))
@@ -231,6 +232,23 @@ private:
             addHeader(part, *chunk);
         }
         return next;
+    }
+
+    /// Whether a WAV or W64 says twice how its samples look, and each time otherwise.
+    bool hasOtherFormat(std::uint64_t begin, std::uint64_t audio)
+    {
+        constexpr std::uint64_t largest = 4096;
+        std::optional<std::string> first;
+        for (const FileChunk& chunk : chunksOf(file, begin, audio, 0))
+        {
+            if (!file.has(chunk.offset, "fmt "))
+                continue;
+            auto content = bytesAt(chunk.content, std::min(chunk.bytes, largest));
+            if (first && content != *first)
+                return true;
+            first = std::move(content);
+        }
+        return false;
     }
 
     /// Lets a file begin later whose audio chunk libsndfile does not find: header and format are read in front of it.
@@ -518,6 +536,7 @@ private:
                 stream = file.number(offset + 14, 4, false);
                 nextPage = file.number(offset + 18, 4, false);
                 isSound = beginsSound;
+                part.preSkip = preSkipOf(offset);
             }
             else if (beginsSound)
                 ++part.streamsBeside;
@@ -558,6 +577,13 @@ private:
         part.shiftedFrames = shift.frames;
         part.firstTime += shift.frames;
         part.lastTime += shift.frames;
+    }
+
+    /// Frames at 48 kHz that the header of Opus on the page at `offset` leaves out (RFC 7845, 5.1), 0 for other sounds.
+    std::uint64_t preSkipOf(std::uint64_t offset)
+    {
+        const auto packet = offset + 27 + file.number(offset + 26, 1, true);
+        return file.has(packet, "OpusHead") ? file.number(packet + 10, 2, false) : 0;
     }
 
     /// Whether the page at `offset` begins a stream of sound.

@@ -32,6 +32,7 @@ struct SoundPart
     std::optional<std::uint64_t> promisedBytes; ///< of audio, where a header is wrong about them
     std::uint64_t presentBytes = 0;             ///< of audio; 0 where it is not known
     std::uint64_t statedFrameBytes = 0;         ///< by a header that states them beside bits and channels; 0: none
+    bool hasOtherFormat = false;                ///< a header says twice how its samples look, and differently
     bool isWhole = true;                        ///< fewer than promised are there, but nothing is missing
     std::uint64_t leftOutBytes = 0;             ///< unread bytes after the sound
     std::uint64_t skippedBytes = 0;             ///< before it, that are no sound and no tag
@@ -41,6 +42,7 @@ struct SoundPart
     std::uint64_t firstTime = 0;                 ///< of an Ogg stream: the earliest and latest of its pages' times, in
     std::uint64_t lastTime = 0;                  ///< frames, those of Opus at 48 kHz
     std::uint64_t leadFrames = 0;                ///< decoded before its first that are no sound of it
+    std::uint64_t preSkip = 0;                   ///< of Opus: frames at 48 kHz that its header leaves out
     std::uint64_t shiftedFrames = 0;             ///< of an Ogg stream, by which its times are too early
     std::uint64_t lostPages = 0;                 ///< of an Ogg stream, which counts them
     bool endsInFrame = false;                    ///< it ends within a frame of its codec

@@ -1,5 +1,6 @@
 #include "io/AudioBytes.h"
 #include "io/AudioReader.h"
+#include "io/TagBytes.h"
 #include "support/Catch.h"
 #include "support/Paths.h"
 #include "support/TempFolder.h"
@@ -723,4 +724,50 @@ TEST_CASE("A header whose frames are longer or shorter than its samples is told 
     REQUIRE(audio.ok());
     CHECK(audio->warnings.empty());
     CHECK(audio->samples.size() == knownFrames);
+}
+
+TEST_CASE("Two descriptions of the samples of a WAV that differ are told", "[io][audio]")
+{
+    const TempFolder folder;
+    for (const auto& [sound, place] : {std::pair(waveFile("RIFF"), 12u), std::pair(waveFile("RF64"), 48u)})
+    {
+        CAPTURE(sound.name);
+        const auto format = sound.bytes.substr(place, 24);
+        REQUIRE(format.starts_with("fmt "));
+        auto twice = sound.bytes, other = sound.bytes;
+        auto stereo = format;
+        stereo.replace(10, 2, littleEndian(2, 2)).replace(20, 2, littleEndian(4, 2));
+        const auto same = readAudio(put(folder / "x", twice.insert(place, format)));
+        REQUIRE(same.ok());
+        CHECK(same->warnings.empty());
+        CHECK(same->samples.size() == knownFrames);
+        const auto differing = readAudio(put(folder / "x", other.insert(place, stereo)));
+        REQUIRE(differing.ok());
+        REQUIRE(differing->warnings.size() == 1);
+        CHECK(differing->warnings.front() ==
+              "has two descriptions of its samples that differ; it is read by the first, "
+              "as 2 channels at 8000 Hz, and lasts 0.250 s; save it anew");
+    }
+}
+
+TEST_CASE("An Opus that leaves out more of its beginning than a decoder needs to settle says so", "[io][audio]")
+{
+    const TempFolder folder;
+    const auto opus = bytesOf(testFolder() / "io/audio/tone.opus");
+    const auto place = opus.find("OpusHead");
+    const auto second = opus.find("OggS", place);
+    const auto withSkip = [&](std::uint64_t frames)
+    {
+        auto packet = opus.substr(place, second - place);
+        packet.replace(10, 2, littleEndian(frames, 2));
+        return oggPageBytes(opus.substr(0, 26), opus.substr(26 + 1, static_cast<unsigned char>(opus[26])), packet, 0) +
+               opus.substr(second);
+    };
+    const auto usual = readAudio(put(folder / "x", withSkip(3840)));
+    REQUIRE(usual.ok());
+    CHECK(usual->warnings.empty());
+    const auto longer = readAudio(put(folder / "x", withSkip(24000)));
+    REQUIRE(longer.ok());
+    CHECK(longer->samples.size() < usual->samples.size());
+    CHECK(longer->warnings == std::vector<std::string>{"has a header that leaves out 0.500 s at its beginning"});
 }
