@@ -234,9 +234,9 @@ struct RetrySubcommand : Command
         addOption(*command, "input", input, "Manifest of encode, render or compare; give it before all options",
                   "MANIFEST")
             ->required();
+        command->allow_extras(); // of a manifest that cannot be retried, which run() says
         return command->footer("Options after the manifest are passed to the command.\n\nExample:\n"
                                "  pacini manifest retry clips/run.manifest.json -j 2");
-        command->allow_extras();
     }
 
     Exit run(Console& console) override

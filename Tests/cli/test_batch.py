@@ -217,6 +217,7 @@ class Batch(CommandTest):
         self.assertEqual((self.folder / "notes.json").read_text(), "{}")
         self.fails(1, ["manifest", "check", "notes.json"], "notes.json: is not a manifest")
         self.fails(1, ["manifest", "retry", "missing.json"], "missing.json: does not exist")
+        self.fails(1, ["manifest", "retry", "missing.json", "-j", "2"], "missing.json: does not exist")
         self.succeeds("encode", "in", "-o", "out", "--manifest", "run.manifest.json")
         self.fails(1, ["render", "out", "--manifest", "run.manifest.json"], "is a manifest of pacini encode")
         self.fails(1, ["manifest", "merge", "run.manifest.json", "-o", "notes.json"], "notes.json",
