@@ -255,30 +255,25 @@ struct RetrySubcommand : Command
     std::string input;
 };
 
-/// `pacini manifest`: the records of runs over many files.
-struct ManifestCommand : CommandGroup
+template <typename Subcommand>
+std::unique_ptr<Command> made()
 {
-    CLI::App* declare(CLI::App& app) override
-    {
-        auto* command = app.add_subcommand("manifest", "Merge, check and retry runs over many files");
-        command->require_subcommand(1);
-        addStep(*command, std::make_unique<MergeSubcommand>());
-        addStep(*command, std::make_unique<CheckSubcommand>());
-        addStep(*command, std::make_unique<RetrySubcommand>());
-        return command->footer(
-            "encode, render and compare write a manifest with --manifest, convert of a folder always. After\n"
-            "'encode sounds/ -o clips/ --shard 3/8 --manifest clips/run.manifest.json' on each of eight machines:\n"
-            "  pacini manifest merge clips/run.manifest.*-of-8.json -o clips/run.manifest.json\n"
-            "  pacini manifest check clips/run.manifest.json\n"
-            "  pacini manifest retry clips/run.manifest.json\n"
-            "A stopped run continues when it is started again, with any number of shards.");
-    }
-};
+    return std::make_unique<Subcommand>();
+}
 } // namespace
 
+/// `pacini manifest`: the records of runs over many files.
 std::unique_ptr<Command> manifestCommand()
 {
-    return std::make_unique<ManifestCommand>();
+    return commandGroup(
+        "manifest", "Merge, check and retry runs over many files",
+        {made<MergeSubcommand>, made<CheckSubcommand>, made<RetrySubcommand>},
+        "encode, render and compare write a manifest with --manifest, convert of a folder always. After\n"
+        "'encode sounds/ -o clips/ --shard 3/8 --manifest clips/run.manifest.json' on each of eight machines:\n"
+        "  pacini manifest merge clips/run.manifest.*-of-8.json -o clips/run.manifest.json\n"
+        "  pacini manifest check clips/run.manifest.json\n"
+        "  pacini manifest retry clips/run.manifest.json\n"
+        "A stopped run continues when it is started again, with any number of shards.");
 }
 
 } // namespace pacini::cli

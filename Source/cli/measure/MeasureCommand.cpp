@@ -1,29 +1,16 @@
-// Command group for the measurement of actuators.
+// Command group for the measurement of actuators: from a sweep to an actuator that is flat, step by step.
 
 #include "cli/CommandGroup.h"
-
-#include <memory>
 
 namespace pacini::cli
 {
 
-namespace
+std::unique_ptr<Command> measureCommand()
 {
-/// `pacini measure`: from a sweep to an actuator that is flat, step by step.
-struct MeasureCommand : CommandGroup
-{
-    CLI::App* declare(CLI::App& app) override;
-};
-} // namespace
-
-CLI::App* MeasureCommand::declare(CLI::App& app)
-{
-    auto* command = app.add_subcommand("measure", "Measure and flatten an actuator");
-    command->require_subcommand(1);
-    for (const auto make : {sweepSubcommand, analyseSubcommand, reportSubcommand, fitSubcommand, verifySubcommand,
-                            simulateSubcommand, compensateSubcommand})
-        addStep(*command, make());
-    return command->footer(
+    return commandGroup(
+        "measure", "Measure and flatten an actuator",
+        {sweepSubcommand, analyseSubcommand, reportSubcommand, fitSubcommand, verifySubcommand, simulateSubcommand,
+         compensateSubcommand},
         "From a bare actuator to a profile, with an accelerometer on it:\n"
         "  pacini measure sweep -o sweep.wav              play this, record the accelerometer\n"
         "  pacini measure analyse recorded.wav --sweep sweep.json --full-scale 5g -o mine.json\n"
@@ -32,11 +19,6 @@ CLI::App* MeasureCommand::declare(CLI::App& app)
         "  pacini measure verify flat-recorded.wav --sweep flat.json --full-scale 5g --profile mine.json\n"
         "Record the same actuator several times, attached again or on other people, and name all recordings:\nthe "
         "average leaves out outliers. 'pacini measure simulate' records without hardware.");
-}
-
-std::unique_ptr<Command> measureCommand()
-{
-    return std::make_unique<MeasureCommand>();
 }
 
 } // namespace pacini::cli
