@@ -121,6 +121,21 @@ Result<std::optional<Controller>> chosenController(const std::vector<Controller>
     return std::optional(meant.front());
 }
 
+Result<FoundController> findController(const std::string& named)
+{
+    const auto connected = devices::connectedControllers();
+    if (!connected)
+        return connected.error();
+    const auto chosen = chosenController(*connected, named);
+    if (!chosen)
+        return chosen.error();
+    return FoundController{*chosen,
+                           {ErrorCode::io, "",
+                            connected->empty()
+                                ? "no supported game controller is connected; connect one, or wait for it with --wait"
+                                : "no such controller is connected; 'pacini devices' lists the connected ones"}};
+}
+
 std::string shownName(const Controller& controller)
 {
     return printable(controller.name.empty() ? controller.path : controller.name);
@@ -186,13 +201,6 @@ Result<OpenedController> openedController(const Controller& controller, DualSens
     else if (made.model.samples == devices::DualSenseSamples::none)
         made.lesser = "refuses samples";
     return made;
-}
-
-Error notConnected(const std::vector<Controller>& connected)
-{
-    return {ErrorCode::io, "",
-            connected.empty() ? "no supported game controller is connected; connect one, or wait for it with --wait"
-                              : "no such controller is connected; 'pacini devices' lists the connected ones"};
 }
 
 } // namespace pacini::cli

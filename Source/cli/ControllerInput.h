@@ -38,6 +38,16 @@ namespace pacini::cli
 [[nodiscard]] Result<std::optional<devices::Controller>>
 chosenController(const std::vector<devices::Controller>& connected, const std::string& named);
 
+/// What chosenController() finds among those that are connected now.
+struct FoundController
+{
+    std::optional<devices::Controller> controller;
+    Error missing; ///< why there is none, for commands that can wait for one
+};
+
+/// Looks for the named controller. Errors: those of devices::connectedControllers() and chosenController().
+[[nodiscard]] Result<FoundController> findController(const std::string& named);
+
 /// Way in which a DualSense plays.
 enum class DualSenseWay
 {
@@ -75,8 +85,5 @@ struct OpenedController
 /// Opens one of `connected`, to play in `way`, or where that is not possible by rumble. Errors: those of
 /// OpenController::open() and modelOf(), with the controller's name. [worker]
 [[nodiscard]] Result<OpenedController> openedController(const devices::Controller& controller, DualSenseWay way);
-
-/// Why chosenController() found none of `connected`, for commands that can wait for one.
-[[nodiscard]] Error notConnected(const std::vector<devices::Controller>& connected);
 
 } // namespace pacini::cli

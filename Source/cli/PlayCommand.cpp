@@ -199,22 +199,19 @@ Result<std::optional<OpenedController>> PlayCommand::openDevice(Console& console
     int refused = 0;
     for (bool told = false;; told = true)
     {
-        const auto connected = devices::connectedControllers();
-        if (!connected)
-            return connected.error();
-        const auto chosen = chosenController(*connected, device);
-        if (!chosen)
-            return chosen.error();
-        if (*chosen)
+        const auto found = findController(device);
+        if (!found)
+            return found.error();
+        if (found->controller)
         {
-            auto opened = openedController(**chosen, way());
+            auto opened = openedController(*found->controller, way());
             if (opened)
                 return std::optional(std::move(opened).value());
             if (!wait || ++refused > patience)
                 return opened.error();
         }
         else if (!wait)
-            return notConnected(*connected);
+            return found->missing;
         if (!told)
             console.note("Waiting for a controller ...");
         if (interruption.wait(pause))
@@ -242,17 +239,15 @@ Result<devices::ControllerModel> PlayCommand::listedModel() const
 {
     if (!like.empty())
         return playedIn(modelNamed(like), way());
-    const auto connected = devices::connectedControllers();
-    if (!connected)
-        return connected.error();
-    const auto chosen = chosenController(*connected, device);
-    if (!chosen)
-        return chosen.error();
-    if (!*chosen)
+    const auto found = findController(device);
+    if (!found)
+        return found.error();
+    const auto& controller = found->controller;
+    if (!controller)
         return Error{ErrorCode::io, "", "no such controller is connected; choose a kind with --like"};
-    if (!(*chosen)->waveforms && (*chosen)->haptics != devices::ControllerHaptics::dualSense)
-        return devices::usualModel((*chosen)->haptics, (*chosen)->transport);
-    const auto opened = openedController(**chosen, way()); // only it can tell its waveforms, or its firmware
+    if (!controller->waveforms && controller->haptics != devices::ControllerHaptics::dualSense)
+        return devices::usualModel(controller->haptics, controller->transport);
+    const auto opened = openedController(*controller, way()); // only it can tell its waveforms, or its firmware
     if (!opened)
         return opened.error();
     return opened->model;

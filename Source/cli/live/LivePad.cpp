@@ -175,15 +175,10 @@ Result<void> LivePad::openOne(const devices::Controller& controller)
 Result<void> LivePad::open()
 {
     lastLook = std::chrono::steady_clock::now();
-    const auto connected = devices::connectedControllers();
-    if (!connected)
-        return connected.error();
-    const auto chosen = chosenController(*connected, wanted);
-    if (!chosen)
-        return chosen.error();
-    if (!*chosen)
-        return notConnected(*connected);
-    return openOne(**chosen);
+    const auto found = findController(wanted);
+    if (!found)
+        return found.error();
+    return found->controller ? openOne(*found->controller) : Result<void>(found->missing);
 }
 
 Result<void> LivePad::takeResult()
