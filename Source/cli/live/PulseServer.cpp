@@ -11,11 +11,11 @@
 #include <cstdlib>
 #include <span>
 #include <thread>
-#include <type_traits>
 #include <utility>
 
 #if defined(PACINI_HAS_PULSE)
-#include <dlfcn.h>
+#include "cli/live/OpenedLibrary.h"
+
 #include <pulse/pulseaudio.h>
 #include <pulse/simple.h>
 #endif
@@ -31,29 +31,6 @@ Error missing()
 {
     return {ErrorCode::io, "", "needs PulseAudio's library; install it (libpulse0)"};
 }
-
-/// Functions of a library that is opened when it is wanted, as RtAudio is.
-class OpenedLibrary
-{
-public:
-    explicit OpenedLibrary(const char* name) : handle(::dlopen(name, RTLD_NOW | RTLD_LOCAL)), isThere(handle != nullptr)
-    {
-    }
-
-    template <typename Function>
-    void find(Function& function, const char* name)
-    {
-        void* const found = handle != nullptr ? ::dlsym(handle, name) : nullptr;
-        function = reinterpret_cast<Function>(found);
-        isThere = isThere && found != nullptr;
-    }
-
-private:
-    void* handle;
-
-public:
-    bool isThere;
-};
 
 struct PulseLibrary : OpenedLibrary
 {
@@ -91,12 +68,6 @@ struct PulseLibrary : OpenedLibrary
     decltype(&pa_proplist_gets) property;
 };
 
-const PulseLibrary& pulse()
-{
-    static const PulseLibrary opened;
-    return opened;
-}
-
 struct SimpleLibrary : OpenedLibrary
 {
     SimpleLibrary() : OpenedLibrary("libpulse-simple.so.0")
@@ -113,10 +84,14 @@ struct SimpleLibrary : OpenedLibrary
     decltype(&pa_simple_free) close;
 };
 
+const PulseLibrary& pulse()
+{
+    return openedLibrary<PulseLibrary>();
+}
+
 const SimpleLibrary& simple()
 {
-    static const SimpleLibrary opened;
-    return opened;
+    return openedLibrary<SimpleLibrary>();
 }
 
 template <typename Info>

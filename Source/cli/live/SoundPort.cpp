@@ -13,11 +13,11 @@
 #include <optional>
 #include <string_view>
 #include <system_error>
-#include <type_traits>
 #include <utility>
 
 #if defined(PACINI_HAS_RTAUDIO)
-#include <dlfcn.h>
+#include "cli/live/OpenedLibrary.h"
+
 #include <rtaudio_c.h>
 #endif
 
@@ -47,23 +47,16 @@ std::string_view systemName(rtaudio_api_t api)
 
 /// RtAudio's functions for C. It is opened when it is wanted: what it links, such as JACK's and PulseAudio's libraries,
 /// would make the start of every command half as long again. Nothing is missing without it but sound devices.
-struct RtAudioLibrary
+struct RtAudioLibrary : OpenedLibrary
 {
-    RtAudioLibrary()
-    {
 #if defined(__APPLE__)
-        void* library = ::dlopen("librtaudio.6.dylib", RTLD_NOW | RTLD_LOCAL);
+    static constexpr const char* file = "librtaudio.6.dylib";
 #else
-        void* library = ::dlopen("librtaudio.so.6", RTLD_NOW | RTLD_LOCAL);
+    static constexpr const char* file = "librtaudio.so.6";
 #endif
-        isThere = library != nullptr;
-        const auto find = [&](auto& function, const char* name)
-        {
-            function = library != nullptr
-                           ? reinterpret_cast<std::remove_reference_t<decltype(function)>>(::dlsym(library, name))
-                           : nullptr;
-            isThere = isThere && function != nullptr;
-        };
+
+    RtAudioLibrary() : OpenedLibrary(file)
+    {
         find(systemCount, "rtaudio_get_num_compiled_apis");
         find(systems, "rtaudio_compiled_api");
         find(error, "rtaudio_error");
@@ -80,7 +73,6 @@ struct RtAudioLibrary
         find(showWarnings, "rtaudio_show_warnings");
     }
 
-    bool isThere = false;
     decltype(&rtaudio_get_num_compiled_apis) systemCount;
     decltype(&rtaudio_compiled_api) systems;
     decltype(&rtaudio_error) error;
@@ -99,8 +91,7 @@ struct RtAudioLibrary
 
 const RtAudioLibrary& library()
 {
-    static const RtAudioLibrary opened;
-    return opened;
+    return openedLibrary<RtAudioLibrary>();
 }
 
 std::vector<rtaudio_api_t> compiledSystems()
