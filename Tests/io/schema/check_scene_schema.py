@@ -5,9 +5,7 @@ check_scene_schema.py SCENE_TOOL SCHEMA CLIP_SCHEMA TEXTURE_SCHEMA DEMO_SCENES  
 """
 import json
 import re
-import subprocess
 import sys
-import tempfile
 from pathlib import Path
 
 import check_schema as common
@@ -35,17 +33,11 @@ def bundled(schema, **inside):
 
 def check_written(tool, validator, schema, demo):
     documents = []
-    with tempfile.TemporaryDirectory() as folder:
-        subprocess.run([tool, "write", folder], check=True)
-        for path in sorted(Path(folder).iterdir()) + sorted(demo.glob("*.scene.json")):
-            document = common.strict_json(path.read_bytes())
-            problems = [error.message for error in validator.iter_errors(document)]
-            check(not problems, f"{path.name} breaks the schema: {problems[:3]}")
-            common.same_order(document, schema["properties"], path.name)
-            for kind, single in (("plays", "play"), ("changes", "change")):
-                for item in document.get(kind, []):
-                    common.same_order(item, schema["$defs"][single]["properties"], f"{path.name}: {kind}")
-            documents.append(document)
+    for name, document in common.written(tool, validator, schema, beside=demo.glob("*.scene.json")):
+        for kind, single in (("plays", "play"), ("changes", "change")):
+            for item in document.get(kind, []):
+                common.same_order(item, schema["$defs"][single]["properties"], f"{name}: {kind}")
+        documents.append(document)
     check(len(documents) >= 21, "not all scenes are there")
     return documents[:20]
 
@@ -64,8 +56,7 @@ def main():
     small = [document for document in documents if len(json.dumps(document)) < 60000]
     check(len(small) > 5, "the samples are too large")
     common.check_agreement(tool, validator, small, 20260103, beyond_schema, least=(50, 200, 10), rounds=1000)
-    print("\n".join(common.failures) if common.failures else "schema and library agree")
-    return 1 if common.failures else 0
+    return common.result()
 
 
 if __name__ == "__main__":

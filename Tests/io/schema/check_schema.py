@@ -97,25 +97,31 @@ def same_order(document, properties, where):
     check(list(document) == order, f"{where}: keys are {list(document)}, the schema has {list(properties)}")
 
 
-def check_written(tool, validator, schema):
-    documents = []
+def written(tool, validator, schema, beside=(), order=None):
+    """Name and content of each sample that the tool writes, in this order, and of the files `beside`. All of them keep
+    to the schema, and to the order of its members."""
     with tempfile.TemporaryDirectory() as folder:
         subprocess.run([tool, "write", folder], check=True)
-        paths = sorted(Path(folder).iterdir(), key=lambda p: int(p.stem))
-        check(len(paths) == 20, "not all sample clips were written")
-        for path in paths:
+        for path in sorted(Path(folder).iterdir(), key=order) + sorted(beside):
             document = strict_json(path.read_bytes())
-            problems = [e.message for e in validator.iter_errors(document)]
-            check(not problems, f"written clip {path.name} breaks the schema: {problems[:3]}")
+            problems = [error.message for error in validator.iter_errors(document)]
+            check(not problems, f"{path.name} breaks the schema: {problems[:3]}")
             same_order(document, schema["properties"], path.name)
-            check(set(document) == set(schema["properties"]), f"{path.name}: members differ from the schema's")
-            for kind, single in (("bands", "band"), ("transients", "transient"), ("noise", "noiseBand"), ("markers", "marker")):
-                for item in document[kind]:
-                    same_order(item, schema["$defs"][single]["properties"], f"{path.name}: {kind}")
-                    check(set(item) | UNWRITTEN == set(schema["$defs"][single]["properties"]) | UNWRITTEN,
-                          f"{path.name}: {kind}: members differ")
-                    check(all(item.get(name, 1) != 0 for name in UNWRITTEN), f"{path.name}: {kind}: writes a default")
-            documents.append(document)
+            yield path.name, document
+
+
+def check_written(tool, validator, schema):
+    documents = []
+    for name, document in written(tool, validator, schema, order=lambda path: int(path.stem)):
+        check(set(document) == set(schema["properties"]), f"{name}: members differ from the schema's")
+        for kind, single in (("bands", "band"), ("transients", "transient"), ("noise", "noiseBand"), ("markers", "marker")):
+            for item in document[kind]:
+                same_order(item, schema["$defs"][single]["properties"], f"{name}: {kind}")
+                check(set(item) | UNWRITTEN == set(schema["$defs"][single]["properties"]) | UNWRITTEN,
+                      f"{name}: {kind}: members differ")
+                check(all(item.get(member, 1) != 0 for member in UNWRITTEN), f"{name}: {kind}: writes a default")
+        documents.append(document)
+    check(len(documents) == 20, "not all sample clips were written")
     return documents
 
 
@@ -198,17 +204,26 @@ def check_agreement(tool, validator, documents, seed, is_beyond, least, rounds):
         check(counts[name] >= wanted, f"only {counts[name]} changes where {name}: the test has become weak")
 
 
-def main():
-    tool, schema_path, broken = sys.argv[1], Path(sys.argv[2]), Path(sys.argv[3])
-    schema = strict_json(schema_path.read_bytes())
+def opened_schema(path):
+    schema = strict_json(Path(path).read_bytes())
     check_schema_itself(schema)
+    return schema
+
+
+def result():
+    """The exit code, once all was checked."""
+    print("\n".join(failures) if failures else "schema and library agree")
+    return 1 if failures else 0
+
+
+def main():
+    tool, schema, broken = sys.argv[1], opened_schema(sys.argv[2]), Path(sys.argv[3])
     validator = Draft202012Validator(schema)
     documents = check_written(tool, validator, schema)
     check_broken(tool, validator, broken)
     small = [d for d in documents if d["bands"] and len(json.dumps(d)) < 20000]
     check_agreement(tool, validator, small, 20260101, beyond_schema, least=(100, 300, 10), rounds=1500)
-    print("\n".join(failures) if failures else "schema and library agree")
-    return 1 if failures else 0
+    return result()
 
 
 if __name__ == "__main__":

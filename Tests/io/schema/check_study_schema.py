@@ -4,10 +4,7 @@
 check_study_schema.py STUDY_TOOL SCHEMA     exit 0 when both agree
 """
 
-import subprocess
 import sys
-import tempfile
-from pathlib import Path
 
 import check_schema as common
 from check_schema import Draft202012Validator, check
@@ -53,19 +50,13 @@ def beyond_schema(where, message):
 
 def check_written(tool, validator, schema):
     documents, used = [], set()
-    with tempfile.TemporaryDirectory() as folder:
-        subprocess.run([tool, "write", folder], check=True)
-        for path in sorted(Path(folder).iterdir()):
-            document = common.strict_json(path.read_bytes())
-            problems = [error.message for error in validator.iter_errors(document)]
-            check(not problems, f"{path.name} breaks the schema: {problems[:3]}")
-            common.same_order(document, schema["properties"], path.name)
-            used.update(document)
-            for kind, entries in (("stimulus", document.get("stimuli", [])), ("block", document["blocks"])):
-                for entry in entries:
-                    common.same_order(entry, schema["$defs"][kind]["properties"], f"{path.name}: {kind}")
-                    used.update(f"{kind}.{member}" for member in entry)
-            documents.append(document)
+    for name, document in common.written(tool, validator, schema):
+        used.update(document)
+        for kind, entries in (("stimulus", document.get("stimuli", [])), ("block", document["blocks"])):
+            for entry in entries:
+                common.same_order(entry, schema["$defs"][kind]["properties"], f"{name}: {kind}")
+                used.update(f"{kind}.{member}" for member in entry)
+        documents.append(document)
     known = set(schema["properties"])
     for kind in ("stimulus", "block"):
         known.update(f"{kind}.{member}" for member in schema["$defs"][kind]["properties"])
@@ -74,14 +65,11 @@ def check_written(tool, validator, schema):
 
 
 def main():
-    tool, schema_path = sys.argv[1], Path(sys.argv[2])
-    schema = common.strict_json(schema_path.read_bytes())
-    common.check_schema_itself(schema)
+    tool, schema = sys.argv[1], common.opened_schema(sys.argv[2])
     validator = Draft202012Validator(schema)
     documents = check_written(tool, validator, schema)
     common.check_agreement(tool, validator, documents, 20261127, beyond_schema, least=(100, 300, 10), rounds=1500)
-    print("\n".join(common.failures) if common.failures else "schema and library agree")
-    return 1 if common.failures else 0
+    return common.result()
 
 
 if __name__ == "__main__":
