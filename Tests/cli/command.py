@@ -12,6 +12,7 @@ import shutil
 import struct
 import subprocess
 import tempfile
+import time
 import unittest
 from pathlib import Path
 
@@ -97,6 +98,21 @@ class CommandTest(unittest.TestCase):
         options = {"cwd": self.folder, "stdout": subprocess.PIPE, "stderr": subprocess.PIPE,
                    "stdin": subprocess.DEVNULL, "timeout": LONGEST, **options}
         return subprocess.run([COMMAND, *arguments], **options)
+
+    def started(self, *arguments, until, **options):
+        """Runs the command in the background; returns the process once `until` holds, before which it may not end."""
+        process = subprocess.Popen([COMMAND, *arguments], cwd=self.folder, stdout=subprocess.PIPE,
+                                   stderr=subprocess.PIPE, **options)
+        end = time.monotonic() + 60
+        while not until():
+            self.assertLess(time.monotonic(), end, "nothing is being written")
+            self.assertIsNone(process.poll(), "ended too early")
+            time.sleep(0.002)
+        return process
+
+    def writes(self, beginning=""):
+        """Whether a temporary with this beginning is in the folder."""
+        return any(name.startswith(beginning) and ".pacini-" in name for name in os.listdir(self.folder))
 
     def names(self):
         """All files below the folder, as text; none may be a temporary."""

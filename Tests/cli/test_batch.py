@@ -3,11 +3,9 @@ import hashlib
 import json
 import os
 import random
-import subprocess
-import time
 import unittest
 
-from command import COMMAND, CommandTest, noise, sine, wav
+from command import CommandTest, noise, sine, wav
 
 
 class Batch(CommandTest):
@@ -153,14 +151,11 @@ class Batch(CommandTest):
         for i in range(60):
             self.put(f"in/{i:03}.wav", wav(noise(48000 * 2, seed=i)))
         line = ["encode", "in", "-o", "out", "--format", "packed", "--manifest", "run.manifest.json", "-j", "1"]
-        process = subprocess.Popen([COMMAND, *line], cwd=self.folder, stdout=subprocess.DEVNULL)
         manifest = self.folder / "run.manifest.json"
-        until = time.monotonic() + 60
-        while not manifest.exists() or manifest.read_bytes().count(b'"sha256"') < 10:
-            self.assertLess(time.monotonic(), until)
-            self.assertIsNone(process.poll(), "ended too early")
+        process = self.started(
+            *line, until=lambda: manifest.exists() and manifest.read_bytes().count(b'"sha256"') >= 10)
         process.kill()
-        process.wait()
+        process.communicate()
         # What it did not come to is known by name.
         done = self.run_command("manifest", "check", "run.manifest.json", "--json")
         self.assertEqual((done.returncode, json.loads(done.stdout)["files"]), (1, 60))

@@ -1,15 +1,12 @@
 """End to end: scenes with pacini render."""
 import json
 import math
-import os
 import signal
 import struct
-import subprocess
-import time
 import unittest
 from pathlib import Path
 
-from command import COMMAND, SANITIZED, SOURCE, CommandTest, read_float_wav, rms
+from command import SANITIZED, SOURCE, CommandTest, read_float_wav, rms
 from test_memory import peak_of
 
 RATE = 8000
@@ -184,13 +181,7 @@ class Scenes(CommandTest):
     def test_a_signal_half_way_leaves_no_output(self):
         self.tone()
         self.scene(duration=3600, actuators=8, plays=[{"clip": "tone.json", "loop": True}] * 4)
-        process = subprocess.Popen([COMMAND, "render", "a.scene.json", "-o", "out.wav"], cwd=self.folder,
-                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE)
-        until = time.monotonic() + 60
-        while not any(".pacini-" in name for name in os.listdir(self.folder)):
-            self.assertLess(time.monotonic(), until, "nothing is being written")
-            self.assertIsNone(process.poll(), "ended too early")
-            time.sleep(0.002)
+        process = self.started("render", "a.scene.json", "-o", "out.wav", until=self.writes)
         process.send_signal(signal.SIGTERM)
         process.communicate(timeout=60)
         self.assertEqual(process.returncode, -signal.SIGTERM)

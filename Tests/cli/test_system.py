@@ -1,10 +1,10 @@
 """End to end: what the system does to the command. Full disks, closed streams, signals, rights, strange names."""
+import contextlib
 import json
 import os
 import shutil
 import signal
 import subprocess
-import time
 import unittest
 
 from command import COMMAND, SANITIZED, CommandTest, noise, sine, wav, wav_header
@@ -70,39 +70,38 @@ class Disks(CommandTest):
             self.assertEqual((self.folder / output).read_text(), "old")
         self.fails(1, ["convert", "clip.json", "/dev/full", "--format", "json"], "/dev/full: the disk is full")
 
-    @unittest.skipUnless(os.geteuid() == 0, "needs root to mount a small disk")
-    def test_a_small_disk_that_is_really_full(self):
-        self.clip(seconds=60)
-        small = self.folder / "small"
-        small.mkdir()
-        if subprocess.run(["mount", "-t", "tmpfs", "-o", "size=64k", "pacini-test", str(small)],
+    @contextlib.contextmanager
+    def small_disk(self):
+        """The folder "small", which is a disk of 64 kB."""
+        disk = self.folder / "small"
+        disk.mkdir()
+        if subprocess.run(["mount", "-t", "tmpfs", "-o", "size=64k", "pacini-test", str(disk)],
                           stderr=subprocess.DEVNULL).returncode != 0:
             self.skipTest("mounting is not allowed here")
         try:
+            yield disk
+        finally:
+            subprocess.run(["umount", str(disk)], check=True)
+
+    @unittest.skipUnless(os.geteuid() == 0, "needs root to mount a small disk")
+    def test_a_small_disk_that_is_really_full(self):
+        self.clip(seconds=60)
+        with self.small_disk() as disk:
             self.fails(1, ["render", "clip.json", "-o", "small/out.wav"],
                        "pacini: clip.json: small/out.wav: the disk is full; free some space")
-            self.assertEqual(os.listdir(small), [])
-        finally:
-            subprocess.run(["umount", str(small)], check=True)
+            self.assertEqual(os.listdir(disk), [])
 
     @unittest.skipUnless(os.geteuid() == 0, "needs root to mount a small disk")
     def test_a_full_disk_stops_a_batch_at_once_with_one_line(self):
         for i in range(12):
             self.clip(f"in/{i:02}.json", seconds=60)
-        small = self.folder / "small"
-        small.mkdir()
-        if subprocess.run(["mount", "-t", "tmpfs", "-o", "size=64k", "pacini-test", str(small)],
-                          stderr=subprocess.DEVNULL).returncode != 0:
-            self.skipTest("mounting is not allowed here")
-        try:
+        with self.small_disk() as disk:
             for jobs in ("1", "4"):
                 done = self.fails(1, ["render", "in", "-o", "small", "--json", "-j", jobs], "the disk is full")
                 report = json.loads(done.stdout)
                 self.assertEqual(len(report["failures"]), 12)
                 self.assertIn("was skipped", report["failures"][-1]["message"])
-                self.assertEqual(os.listdir(small), [])
-        finally:
-            subprocess.run(["umount", str(small)], check=True)
+                self.assertEqual(os.listdir(disk), [])
 
     def test_outputs_that_cannot_be_are_named(self):
         self.put("a.wav", wav(sine(100, 0.2)))
@@ -187,13 +186,7 @@ class Names(CommandTest):
 class Signals(CommandTest):
     def interrupted(self, *numbers, start=None):
         """Renders for long, sends the signals once the temporary is there; returns the exit code."""
-        process = subprocess.Popen([COMMAND, "render", "clip.json", "-o", "out.wav"], cwd=self.folder,
-                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, preexec_fn=start)
-        until = time.monotonic() + 60
-        while not any(".pacini-" in name for name in os.listdir(self.folder)):
-            self.assertLess(time.monotonic(), until, "nothing is being written")
-            self.assertIsNone(process.poll(), "ended too early")
-            time.sleep(0.002)
+        process = self.started("render", "clip.json", "-o", "out.wav", until=self.writes, preexec_fn=start)
         for number in numbers:
             process.send_signal(number)
         try:
@@ -226,13 +219,9 @@ class Signals(CommandTest):
         for i in range(8):
             self.clip(f"in/{i}.json", seconds=600)
         for attempt in range(20):
-            process = subprocess.Popen([COMMAND, "render", "in", "-o", "out", "-j", "8"], cwd=self.folder,
-                                       stdout=subprocess.PIPE, stderr=subprocess.PIPE)
             out = self.folder / "out"
-            until = time.monotonic() + 60
-            while not out.exists() or len(os.listdir(out)) < 8:
-                self.assertLess(time.monotonic(), until, "nothing is being written")
-                self.assertIsNone(process.poll(), "ended too early")
+            process = self.started("render", "in", "-o", "out", "-j", "8",
+                                   until=lambda: out.exists() and len(os.listdir(out)) >= 8)
             process.send_signal(signal.SIGTERM)
             process.send_signal((signal.SIGTERM, signal.SIGINT)[attempt % 2])
             process.communicate(timeout=60)
@@ -246,14 +235,10 @@ class Signals(CommandTest):
                   ".a.wav.pacini-1234567890.tmp", ".strange.pacini-00000000.tmp"]
         for name in theirs:
             self.put(name, "mine")
-        process = subprocess.Popen([COMMAND, "render", "long.json", "-o", "out.wav"], cwd=self.folder,
-                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        process = self.started("render", "long.json", "-o", "out.wav", until=lambda: self.writes(".out.wav"))
         try:
-            until = time.monotonic() + 60
-            while not any(name.startswith(".out.wav") for name in os.listdir(self.folder)):
-                self.assertLess(time.monotonic(), until, "nothing is being written")
             self.run_command("render", "short.json")
-            self.assertTrue(any(name.startswith(".out.wav") for name in os.listdir(self.folder)))
+            self.assertTrue(self.writes(".out.wav"))
             self.assertIsNone(process.poll(), "ended too early")
         finally:
             process.terminate()

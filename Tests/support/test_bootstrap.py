@@ -3,9 +3,10 @@ import json
 import os
 import re
 import subprocess
-import tempfile
 import unittest
 from pathlib import Path
+
+from folder_test import FolderTest
 
 ROOT = Path(__file__).resolve().parents[2]
 BOOTSTRAP = ROOT / "cmake" / "bootstrap.sh"
@@ -13,13 +14,11 @@ DOCUMENTS = "\n".join(path.read_text(encoding="utf-8") for path in
                       [*ROOT.glob("*.md"), *(ROOT / "Resources/docs").glob("*.md")])
 
 
-class Bootstrap(unittest.TestCase):
+class Bootstrap(FolderTest):
     """With programs of our own in the place of the system's: nothing is installed."""
 
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = Path(folder.name)
+        super().setUp()
         self.log = self.folder / "log"
         self.program("dpkg-query", "exit 1")  # nothing is installed
         self.program("id", "echo 0")

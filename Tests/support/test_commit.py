@@ -2,19 +2,18 @@
 knows."""
 import re
 import subprocess
-import tempfile
 import unittest
 from pathlib import Path
+
+from folder_test import FolderTest
 
 ROOT = Path(__file__).resolve().parents[2]
 SCRIPT = ROOT / "cmake/WriteCommit.cmake"
 
 
-class Commit(unittest.TestCase):
+class Commit(FolderTest):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = Path(folder.name)
+        super().setUp()
         self.source = self.folder / "pacini"
         (self.source / "cmake").mkdir(parents=True)
         for name in (".gitattributes", "cmake/commit.txt"):

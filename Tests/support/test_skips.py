@@ -2,9 +2,10 @@
 import os
 import subprocess
 import sys
-import tempfile
 import unittest
 from pathlib import Path
+
+from folder_test import FolderTest
 
 HERE = Path(__file__).resolve().parent
 TESTS = os.environ["PACINI_TESTS"]
@@ -14,12 +15,7 @@ def run(*arguments, **options):
     return subprocess.run([str(a) for a in arguments], capture_output=True, text=True, timeout=300, **options)
 
 
-class Skips(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = Path(folder.name)
-
+class Skips(FolderTest):
     def python(self, name, *bodies):
         methods = "".join(f"    def test_{i}(self):\n        {body}\n" for i, body in enumerate(bodies))
         (self.folder / f"{name}.py").write_text(f"import unittest\n\nclass Some(unittest.TestCase):\n    pass\n{methods}")

@@ -9,6 +9,8 @@ import tempfile
 import unittest
 from pathlib import Path
 
+from folder_test import FolderTest
+
 try:
     import yaml
 except ImportError:
@@ -80,13 +82,11 @@ class Steps(unittest.TestCase):
 
 
 @unittest.skipUnless(yaml, "python3-yaml is missing")
-class Release(unittest.TestCase):
+class Release(FolderTest):
     """The steps of release.yml, in a folder with what they would find."""
 
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = Path(folder.name)
+        super().setUp()
         shutil.copy(ROOT / "CMakeLists.txt", self.folder)
         self.steps = {step.get("name"): step["run"] for where, _, step in steps()
                       if where.startswith("release.yml") and "run" in step}

@@ -1,0 +1,11 @@
+"""A test with a folder of its own. Tests find it by run_tests.py, which lies beside it."""
+import tempfile
+import unittest
+from pathlib import Path
+
+
+class FolderTest(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
