@@ -58,6 +58,13 @@ class Player(threading.Thread):
         except (BrokenPipeError, ValueError):
             pass
 
+    def end(self, process):
+        """Ends the sound that `process` reads."""
+        self.over = True
+        self.join()
+        process.stdin.close()
+        process.stdin = None
+
 
 def delays_of(controller, pulses):
     """Seconds from each pulse to the next report that is not silent."""
@@ -84,10 +91,7 @@ def check_delay(controller):
     before = memory_of(process)
     time.sleep(SECONDS)
     after = memory_of(process)
-    player.over = True
-    player.join()
-    process.stdin.close()
-    process.stdin = None
+    player.end(process)
     code, out, error = ended(process)
     check("it ends with the sound", code == 0 and not error, str(error))
     delays = delays_of(controller, player.begun[:-1])
@@ -142,10 +146,7 @@ def check_unplugging(controller):
     check("and waits", process.poll() is None)
     controller.clear()
     check("it plays when it is back", controller.wait_for(4))
-    player.over = True
-    player.join()
-    process.stdin.close()
-    process.stdin = None
+    player.end(process)
     code, out, error = ended(process)
     error = error.decode()
     check("both are told", code == 0 and error.count("\n") == 1 and "unplugged" in error and "Wireless Controller" in error
@@ -176,10 +177,7 @@ def check_waiting(controller):
     check("--wait waits", process.poll() is None)
     controller.connect()
     check("and plays when the controller comes", controller.wait_for(2))
-    player.over = True
-    player.join()
-    process.stdin.close()
-    process.stdin = None
+    player.end(process)
     check("to the end", ended(process)[0] == 0)
 
 

@@ -13,7 +13,7 @@ import tempfile
 import time
 from pathlib import Path
 
-from hid_test import check, clip, ended, main_under_umockdev, run, start
+from hid_test import check, check_unplugging, clip, ended, main_under_umockdev, run, start
 
 BY_HIDAPI = "--by-hidapi" in sys.argv
 NEUTRAL = bytes.fromhex("0001404000014040")
@@ -86,17 +86,6 @@ def check_second_program(controller, path):
     ended(process)
 
 
-def check_unplugging(controller, path):
-    controller.clear()
-    process = start("play", path, "--loop")
-    check("it plays until it is unplugged", controller.wait_for(20))
-    controller.unplug()
-    code, _, error = ended(process)
-    check("unplugging is an error in one line", code == 1 and error.count("\n") == 1
-          and "unplugged" in error and "Pro Controller" in error and error.startswith("pacini: "), error)
-    controller.clear()
-
-
 def check_messages(path):
     for arguments, code, part in ((["--device", "2"], 1, "no such controller"),
                                   (["--device", "xbox"], 1, "no such controller"),
@@ -128,7 +117,7 @@ def claims(devices):
                 check_signal(controller, long, number)
             check_second_program(controller, long)
         check_messages(short)
-        check_unplugging(controller, long)
+        check_unplugging(controller, long, "Pro Controller")
 
 
 if __name__ == "__main__":

@@ -12,7 +12,7 @@ import tempfile
 import time
 from pathlib import Path
 
-from hid_test import check, clip, ended, main_under_umockdev, run, start
+from hid_test import check, check_unplugging, clip, ended, main_under_umockdev, run, start
 
 DEVICE = sys.argv[2]
 SAMPLES = 0x88
@@ -96,16 +96,6 @@ def check_signal(device, path, number):
     check(f"{number.name}: it is stopped at once", silent and code == -number, f"{code} {error} {[report[:10] for report in last]}")
 
 
-def check_unplugging(device, path):
-    device.clear()
-    process = start("play", path, "--loop")
-    check("it plays until it is unplugged", device.wait_for(40))
-    device.unplug()
-    code, _, error = ended(process)
-    check("unplugging is an error in one line", code == 1 and error.count("\n") == 1 and "unplugged" in error
-          and "Steam" in error, error)
-
-
 def claims(devices):
     with tempfile.TemporaryDirectory() as name:
         short, long = clip(Path(name), "short.json", 2.0), clip(Path(name), "long.json", 20.0)
@@ -120,7 +110,7 @@ def claims(devices):
         (check_motors if DEVICE == "deck" else check_samples)(device, short)
         for number in (signal.SIGINT, signal.SIGTERM) + (() if "--by-hidapi" in sys.argv else (signal.SIGSEGV,)):
             check_signal(device, long, number)
-        check_unplugging(device, long)
+        check_unplugging(device, long, "Steam", reports=40)
 
 
 if __name__ == "__main__":

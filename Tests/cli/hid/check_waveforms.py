@@ -10,7 +10,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from hid_test import check, clip, ended, main_under_umockdev, run, start
+from hid_test import check, check_unplugging, clip, ended, main_under_umockdev, run, start
 
 CLICK, BUZZ, RUMBLE, RELEASE, INK = 0x1003, 0x1004, 0x1005, 0x1007, 0x100B
 STOP = 2  # the ordinal that all devices have
@@ -62,17 +62,6 @@ def check_signal(device, path, number):
           f"{code} {error} {device.writes[-1]}")
 
 
-def check_unplugging(device, path):
-    device.clear()
-    process = start("play", path, "--loop")
-    check("it plays until it is unplugged", device.wait_for(20))
-    device.unplug()
-    code, _, error = ended(process)
-    check("unplugging is an error in one line", code == 1 and error.count("\n") == 1 and "unplugged" in error
-          and "Haptic Touchpad" in error, error)
-    device.clear()
-
-
 def claims(devices):
     with tempfile.TemporaryDirectory() as name:
         short, long = clip(Path(name), "short.json", 2.0), clip(Path(name), "long.json", 20.0)
@@ -98,7 +87,7 @@ def claims(devices):
         check("one that does not tell its waveforms is refused in one line",
               code == 1 and error.count("\n") == 1 and "Haptic Touchpad" in error, error)
         device.device["features"] = {5: struct.pack("<B3H3B", 5, RUMBLE, CLICK, BUZZ, 0, 15, 0)}
-        check_unplugging(device, long)
+        check_unplugging(device, long, "Haptic Touchpad")
 
 
 if __name__ == "__main__":

@@ -49,6 +49,18 @@ def run(*arguments):
     return ended(start(*arguments))
 
 
+def check_unplugging(device, path, name, reports=20):
+    """Unplugging a device after so many reports of a clip is an error of one line that names it."""
+    device.clear()
+    process = start("play", path, "--loop")
+    check("it plays until it is unplugged", device.wait_for(reports))
+    device.unplug()
+    code, _, error = ended(process)
+    check("unplugging is an error in one line", code == 1 and error.count("\n") == 1 and "unplugged" in error
+          and name in error and error.startswith("pacini: "), error)
+    device.clear()
+
+
 def main_under_umockdev(claims):
     """Runs `claims`, which gets the module of devices, in a process that umockdev wraps; then exits."""
     if "umockdev" not in os.environ.get("LD_PRELOAD", ""):
