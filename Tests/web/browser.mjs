@@ -1,6 +1,8 @@
 // What the tests in a browser share: claims, waiting, the browser of the system, a phone that notes what it is told.
-import { existsSync } from 'node:fs'
+import { spawn } from 'node:child_process'
+import { existsSync, rmSync } from 'node:fs'
 import { join } from 'node:path'
+import { fileURLToPath } from 'node:url'
 
 let failed = 0
 export const failures = () => failed
@@ -24,6 +26,17 @@ export const launch = async (modules, args = [], options = {}) => {
     executablePath: ['/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome'].find(existsSync),
     args: ['--no-sandbox', '--headless=new', '--disable-gpu', ...args], ...options
   })
+}
+
+/** The server of the page's folder, on a port of this machine. */
+export const serve = (page, port) =>
+  spawn('python3', ['-B', fileURLToPath(new URL('../../Source/web/serve.py', import.meta.url)), page, String(port)])
+
+/** Ends what a test started, and removes its folder. */
+export const tidyUp = async (folder, browser, ...servers) => {
+  for (const server of servers) server.kill()
+  await browser.close()
+  rmSync(folder, { recursive: true, force: true })
 }
 
 /** From the next page on, `vibrations` holds what a page made the phone do: `{at: ms since 1970, pattern}`. */

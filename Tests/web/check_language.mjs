@@ -3,13 +3,11 @@
 //
 // check_language.mjs PAGE MODULES SOUND.wav [PICTURES]    PAGE: the built folder; MODULES: the folder with puppeteer-core and axe-core;
 // PICTURES: a folder for pictures. Exit 0, 1 on a failed check.
-import { spawn } from 'node:child_process'
-import { cpSync, mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs'
+import { cpSync, mkdtempSync, readdirSync, readFileSync, writeFileSync } from 'node:fs'
 import { tmpdir } from 'node:os'
-import { dirname, join } from 'node:path'
-import { fileURLToPath } from 'node:url'
+import { join } from 'node:path'
 
-import { check, failures, launch, until, wait } from './browser.mjs'
+import { check, failures, launch, serve, tidyUp, until, wait } from './browser.mjs'
 
 const [page, modules, sound, pictures] = process.argv.slice(2)
 const folder = mkdtempSync(join(tmpdir(), 'pacini-language-'))
@@ -21,8 +19,7 @@ cpSync(page, marked, { recursive: true, filter: (path) => !/\.(br|gz)$/.test(pat
 const table = JSON.parse(readFileSync(join(page, 'texts/de.js'), 'utf8').replace(/^[^{]*/, ''))
 writeFileSync(join(marked, 'texts/de.js'), `export default ${JSON.stringify(Object.fromEntries(Object.entries(table)
   .map(([key, value]) => [key, key === ', ' ? value : `⟦${value}⟧`])))}`)
-const servers = [[page, port], [marked, port + 1]].map(([of, at]) =>
-  spawn('python3', ['-B', join(dirname(fileURLToPath(import.meta.url)), '../../Source/web/serve.py'), of, String(at)]))
+const servers = [serve(page, port), serve(marked, port + 1)]
 const browser = await launch(modules, ['--autoplay-policy=no-user-gesture-required'], { userDataDir: join(folder, 'profile') })
 const problems = []
 
@@ -206,8 +203,6 @@ try {
   check('axe finds nothing', violations.length === 0, violations.join(' '))
   check('no errors in the browser', problems.length === 0, problems.join('\n'))
 } finally {
-  for (const server of servers) server.kill()
-  await browser.close()
-  rmSync(folder, { recursive: true, force: true })
+  await tidyUp(folder, browser, ...servers)
 }
 process.exit(failures() ? 1 : 0)

@@ -4,20 +4,19 @@
 // check_page.mjs PAGE MODULES PACINI LIVE SOUND.wav [PICTURES]    PAGE: the built folder; MODULES: the folder with
 // puppeteer-core and axe-core; LIVE: pacini_live_reference; PICTURES: a folder for pictures in three sizes. Exit 0, 1 on a
 // failed check.
-import { execFileSync, spawn } from 'node:child_process'
+import { execFileSync } from 'node:child_process'
 import { existsSync, mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs'
 import { tmpdir } from 'node:os'
 import { dirname, join } from 'node:path'
 import { fileURLToPath } from 'node:url'
 
-import { check, failures, launch, until, wait } from './browser.mjs'
+import { check, failures, launch, serve, tidyUp, until, wait } from './browser.mjs'
 
 const [page, modules, program, live, sound, pictures] = process.argv.slice(2)
 const folder = mkdtempSync(join(tmpdir(), 'pacini-page-'))
 const port = 20000 + process.pid % 20000
 const place = `http://127.0.0.1:${port}/`
-const serve = () => spawn('python3', ['-B', join(dirname(fileURLToPath(import.meta.url)), '../../Source/web/serve.py'), page, String(port)])
-let server = serve()
+let server = serve(page, port)
 const axe = readFileSync(join(modules, 'node_modules/axe-core/axe.min.js'), 'utf8') // a tag of it is against the page's policy
 
 const browser = await launch(modules, ['--autoplay-policy=no-user-gesture-required', '--use-fake-device-for-media-stream',
@@ -259,7 +258,7 @@ try {
   await drop(bytes, 'again.wav')
   check('and analyses', await analysed())
   problems.length = quiet
-  server = serve()
+  server = serve(page, port)
   await until(async () => (await fetch(place).catch(() => undefined))?.ok)
 
   // The live translator in an audio worklet: sample for sample what the same class gives outside of browsers.
@@ -422,8 +421,6 @@ try {
   check('no request leaves the page\'s place', elsewhere.length === 0, elsewhere.join(' '))
   check('and nothing went wrong unseen', problems.length === 0, problems.join('\n'))
 } finally {
-  await browser.close()
-  server.kill()
-  rmSync(folder, { recursive: true, force: true })
+  await tidyUp(folder, browser, server)
 }
 process.exit(failures() ? 1 : 0)

@@ -2,12 +2,12 @@
 //
 // check_phone.mjs MODULES PACINI SOUND.wav    MODULES: the folder with puppeteer-core and axe-core. Exit 0, 1 on a failed check.
 import { execFileSync, spawn } from 'node:child_process'
-import { mkdtempSync, readFileSync, rmSync } from 'node:fs'
+import { mkdtempSync, readFileSync } from 'node:fs'
 import { connect } from 'node:net'
 import { tmpdir } from 'node:os'
 import { join } from 'node:path'
 
-import { check, failures, launch, noteVibrations, until, wait } from './browser.mjs'
+import { check, failures, launch, noteVibrations, tidyUp, until, wait } from './browser.mjs'
 
 const [modules, program, sound] = process.argv.slice(2)
 const { touchesOf } = await import('../../Source/web/page/vibration.js')
@@ -203,8 +203,6 @@ try {
   console.log(`     off by ${off[Math.floor(off.length / 2)].toFixed(1)} ms in the middle, ${off.at(-1).toFixed(1)} at most, of ${off.length}`)
   check('the program says where it was', nextUrl.startsWith(place) && JSON.parse(report).address.startsWith(place))
 } finally {
-  server.kill()
-  await browser.close()
-  rmSync(folder, { recursive: true, force: true })
+  await tidyUp(folder, browser, server)
 }
 process.exit(failures() ? 1 : 0)

@@ -4,20 +4,19 @@
 // check_visit.mjs PAGE MODULES PACINI SOUNDS [PICTURES]    PAGE: the built folder; MODULES: the folder with puppeteer-core; SOUNDS: a
 // folder with WAV and AIFF files. Exit 0, 1 on a failed check.
 import { execFileSync, spawn } from 'node:child_process'
-import { closeSync, ftruncateSync, mkdtempSync, openSync, readdirSync, readFileSync, rmSync, writeFileSync, writeSync } from 'node:fs'
+import { closeSync, ftruncateSync, mkdtempSync, openSync, readdirSync, readFileSync, writeFileSync, writeSync } from 'node:fs'
 import { tmpdir } from 'node:os'
 import { dirname, join } from 'node:path'
 import { fileURLToPath } from 'node:url'
 
-import { check, failures, launch, until, wait } from './browser.mjs'
+import { check, failures, launch, serve, tidyUp, until, wait } from './browser.mjs'
 
 const [page, modules, program, sounds, pictures] = process.argv.slice(2)
 const folder = mkdtempSync(join(tmpdir(), 'pacini-visit-'))
 const port = 20000 + process.pid % 20000
 const place = `http://127.0.0.1:${port}/`
 const source = join(dirname(fileURLToPath(import.meta.url)), '../../Source/web')
-const serve = () => spawn('python3', ['-B', join(source, 'serve.py'), page, String(port)])
-let server = serve()
+let server = serve(page, port)
 const browser = await launch(modules, ['--autoplay-policy=no-user-gesture-required'], { userDataDir: join(folder, 'profile') })
 const problems = []
 
@@ -325,8 +324,6 @@ try {
   check('and the sounds of its cards', await until(() => first.tab.$eval('#name', ({ value }) => value === 'rain')), await first.text('error'))
   check('nothing went wrong unseen', problems.length === 0, problems.join('\n'))
 } finally {
-  await browser.close()
-  server.kill()
-  rmSync(folder, { recursive: true, force: true })
+  await tidyUp(folder, browser, server)
 }
 process.exit(failures() ? 1 : 0)

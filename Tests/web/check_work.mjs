@@ -3,19 +3,18 @@
 //
 // check_work.mjs PAGE MODULES PACINI SOUND.wav OTHER.wav [PICTURES]    PAGE: the built folder; MODULES: the folder with
 // puppeteer-core; two sounds of different lengths. Exit 0, 1 on a failed check.
-import { execFileSync, spawn } from 'node:child_process'
-import { mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs'
+import { execFileSync } from 'node:child_process'
+import { mkdtempSync, readdirSync, readFileSync, writeFileSync } from 'node:fs'
 import { tmpdir } from 'node:os'
-import { dirname, join } from 'node:path'
-import { fileURLToPath } from 'node:url'
+import { join } from 'node:path'
 
-import { check, failures, launch, until, wait } from './browser.mjs'
+import { check, failures, launch, serve, tidyUp, until, wait } from './browser.mjs'
 
 const [page, modules, program, sound, otherSound, pictures] = process.argv.slice(2)
 const folder = mkdtempSync(join(tmpdir(), 'pacini-work-'))
 const port = 20000 + process.pid % 20000
 const place = `http://127.0.0.1:${port}/?fresh`
-const server = spawn('python3', ['-B', join(dirname(fileURLToPath(import.meta.url)), '../../Source/web/serve.py'), page, String(port)])
+const server = serve(page, port)
 const browser = await launch(modules, ['--autoplay-policy=no-user-gesture-required', '--use-fake-device-for-media-stream',
   '--use-fake-ui-for-media-stream'], { userDataDir: join(folder, 'profile') })
 const problems = []
@@ -470,8 +469,6 @@ try {
   }
   check('nothing went wrong unseen', problems.length === 0, problems.join('\n'))
 } finally {
-  await browser.close()
-  server.kill()
-  rmSync(folder, { recursive: true, force: true })
+  await tidyUp(folder, browser, server)
 }
 process.exit(failures() ? 1 : 0)
