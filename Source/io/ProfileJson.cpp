@@ -1,8 +1,7 @@
 #include "io/ProfileJson.h"
 
-#include "io/FieldsReader.h"
+#include "io/FieldsDocument.h"
 #include "io/FieldsWriter.h"
-#include "io/JsonTree.h"
 #include "io/ProfileFields.h"
 
 #include <utility>
@@ -12,19 +11,9 @@ namespace pacini
 
 Result<Profile> readProfileJson(std::string_view text, ReadWarnings* warnings)
 {
-    const auto document = readJsonObject(text, largestProfileText, "is not a profile, as it is not a JSON object");
-    if (!document)
-        return document.error();
-    FieldsReader reader(*document, warnings);
-    reader.format(profileFormatName, profileFormatVersion);
-    Profile profile;
-    profileFields::visitFields(profile, reader);
-    reader.finish();
-    if (reader.error)
-        return *reader.error;
-    if (auto valid = validate(profile); !valid)
-        return valid.error();
-    return profile;
+    return validated(readDocument<Profile>(
+        text, {"a profile", profileFormatName, profileFormatVersion, largestProfileText}, warnings,
+        [](auto& profile, auto& reader) { profileFields::visitFields(profile, reader); }));
 }
 
 std::string profileJson(const Profile& profile)

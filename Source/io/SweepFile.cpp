@@ -1,10 +1,9 @@
 #include "io/SweepFile.h"
 
 #include "io/AtomicFile.h"
-#include "io/FieldsReader.h"
+#include "io/FieldsDocument.h"
 #include "io/FieldsWriter.h"
 #include "io/InputFile.h"
-#include "io/JsonTree.h"
 
 #include <cmath>
 #include <utility>
@@ -37,19 +36,14 @@ void visitFields(AnySweep& file, Visitor& visitor)
 
 Result<SweepFile> readSweepJson(std::string_view text)
 {
-    const auto document =
-        readJsonObject(text, largestSweepText, "is not the description of a sweep, as it is not a JSON object");
-    if (!document)
-        return document.error();
-    FieldsReader reader(*document);
-    reader.format(sweepFormatName, sweepFormatVersion);
-    SweepFile file;
-    visitFields(file, reader);
-    if (reader.error)
-        return *reader.error;
-    if (auto valid = validate(file.sweep); !valid)
+    auto file = readDocument<SweepFile>(
+        text, {"the description of a sweep", sweepFormatName, sweepFormatVersion, largestSweepText}, nullptr,
+        [](auto& read, auto& reader) { visitFields(read, reader); });
+    if (!file)
+        return file;
+    if (auto valid = validate(file->sweep); !valid)
         return valid.error();
-    if (!(std::abs(file.gain) <= largestSweepGain))
+    if (!(std::abs(file->gain) <= largestSweepGain))
         return Error{ErrorCode::invalidData, "gain", "must be -200 to 200 dB"};
     return file;
 }

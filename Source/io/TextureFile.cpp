@@ -1,9 +1,8 @@
 #include "io/TextureFile.h"
 
-#include "io/FieldsReader.h"
+#include "io/FieldsDocument.h"
 #include "io/FieldsWriter.h"
 #include "io/InputFile.h"
-#include "io/JsonTree.h"
 #include "io/TextureFields.h"
 
 #include <utility>
@@ -13,19 +12,9 @@ namespace pacini
 
 Result<Texture> readTextureJson(std::string_view text, ReadWarnings* warnings)
 {
-    const auto document = readJsonObject(text, largestTextureText, "is not a texture, as it is not a JSON object");
-    if (!document)
-        return document.error();
-    FieldsReader reader(*document, warnings);
-    reader.format(textureFormatName, textureFormatVersion);
-    Texture texture;
-    textureFields::content(texture, reader);
-    reader.finish();
-    if (reader.error)
-        return *reader.error;
-    if (auto valid = validate(texture); !valid)
-        return valid.error();
-    return texture;
+    return validated(
+        readDocument<Texture>(text, {"a texture", textureFormatName, textureFormatVersion, largestTextureText},
+                              warnings, [](auto& texture, auto& reader) { textureFields::content(texture, reader); }));
 }
 
 std::string textureJson(const Texture& texture)

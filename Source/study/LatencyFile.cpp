@@ -1,10 +1,9 @@
 #include "study/LatencyFile.h"
 
 #include "io/AtomicFile.h"
-#include "io/FieldsReader.h"
+#include "io/FieldsDocument.h"
 #include "io/FieldsWriter.h"
 #include "io/InputFile.h"
-#include "io/JsonTree.h"
 
 #include <system_error>
 #include <utility>
@@ -52,17 +51,9 @@ Result<std::vector<MeasuredLatency>> readLatencies(const std::filesystem::path& 
 
 Result<std::vector<MeasuredLatency>> latenciesOfText(std::string_view text)
 {
-    const auto document =
-        readJsonObject(text, largestLatencyFile, "is not a list of measured delays, as it is not a JSON object");
-    if (!document)
-        return document.error();
-    FieldsReader reader(*document);
-    reader.format(latencyFormatName, latencyFormatVersion);
-    std::vector<MeasuredLatency> list;
-    visitList(list, reader);
-    if (reader.error)
-        return *reader.error;
-    return list;
+    return readDocument<std::vector<MeasuredLatency>>(
+        text, {"a list of measured delays", latencyFormatName, latencyFormatVersion, largestLatencyFile}, nullptr,
+        [](auto& list, auto& reader) { visitList(list, reader); });
 }
 
 Result<void> keepLatency(const std::filesystem::path& folder, const MeasuredLatency& measured)

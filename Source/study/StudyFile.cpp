@@ -1,9 +1,8 @@
 #include "study/StudyFile.h"
 
-#include "io/FieldsReader.h"
+#include "io/FieldsDocument.h"
 #include "io/FieldsWriter.h"
 #include "io/InputFile.h"
-#include "io/JsonTree.h"
 #include "study/StudyFields.h"
 
 #include <pacini/analysis/methods/Method.h>
@@ -265,33 +264,24 @@ Result<void> validate(const Study& study)
 
 Result<Study> readStudyJson(std::string_view text, ReadWarnings* warnings)
 {
-    const auto document = readJsonObject(text, largestStudyText, "is not a study, as it is not a JSON object");
-    if (!document)
-        return document.error();
-    FieldsReader reader(*document, warnings);
-    reader.format(studyFormatName, studyFormatVersion);
-    Study study;
-    double seed = static_cast<double>(study.seed);
-    reader.number("seed", seed, Need::usual);
-    if (!(seed >= 0.0 && seed <= largestSeed && std::trunc(seed) == seed))
-        reader.fail("seed", "must be a whole number, 0 to 2^53");
-    else
-        study.seed = static_cast<std::uint64_t>(seed);
-    fields::visitStudy(study, reader);
-    reader.finish();
-    if (reader.error)
-        return *reader.error;
-    if (auto valid = validate(study); !valid)
-        return valid.error();
-    return study;
+    return validated(readDocument<Study>(text, {"a study", studyFormatName, studyFormatVersion, largestStudyText},
+                                         warnings,
+                                         [](auto& study, auto& reader)
+                                         {
+                                             double seed = static_cast<double>(study.seed);
+                                             reader.number("seed", seed, Need::usual);
+                                             if (!(seed >= 0.0 && seed <= largestSeed && std::trunc(seed) == seed))
+                                                 reader.fail("seed", "must be a whole number, 0 to 2^53");
+                                             else
+                                                 study.seed = static_cast<std::uint64_t>(seed);
+                                             fields::visitStudy(study, reader);
+                                         }));
 }
 
 Result<Study> readStudy(const std::filesystem::path& path, ReadWarnings* warnings)
 {
     const auto text = readWholeFile(path, largestStudyText);
-    if (!text)
-        return text.error();
-    return readStudyJson(*text, warnings);
+    return text ? readStudyJson(*text, warnings) : text.error();
 }
 
 std::string studyJson(const Study& study)
