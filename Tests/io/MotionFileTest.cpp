@@ -1,6 +1,7 @@
 #include "io/MotionFile.h"
 
 #include "support/Catch.h"
+#include "support/Refused.h"
 
 #include <string>
 
@@ -30,10 +31,7 @@ TEST_CASE("A wrong line of a table of speeds is named")
 {
     const auto where = [](const std::string& text)
     {
-        const auto motion = readMotionTable(text);
-        REQUIRE_FALSE(motion);
-        CHECK_FALSE(motion.error().message.empty());
-        return motion.error().where;
+        return test::refusedAt(readMotionTable(text));
     };
     CHECK(where("").empty());
     CHECK(where("time,speed\n").empty());

@@ -1,6 +1,7 @@
 #include "io/ResponseTable.h"
 
 #include "support/Catch.h"
+#include "support/Refused.h"
 
 #include <pacini/foundation/Random.h>
 
@@ -49,10 +50,7 @@ TEST_CASE("A wrong line of a response is named with what is wrong in it")
 {
     const auto where = [](const std::string& text)
     {
-        const auto read = readResponseTable(text);
-        REQUIRE_FALSE(read);
-        CHECK_FALSE(read.error().message.empty());
-        return read.error().where;
+        return test::refusedAt(readResponseTable(text));
     };
     CHECK(where("") == "points");
     CHECK(where("f,dB\n10,0\n20,0\n") == "points");

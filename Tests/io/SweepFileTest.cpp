@@ -2,6 +2,7 @@
 
 #include "support/Catch.h"
 #include "support/ChangedText.h"
+#include "support/Refused.h"
 
 #include <pacini/foundation/Random.h>
 
@@ -46,10 +47,7 @@ TEST_CASE("A description of a sweep with something missing or wrong is refused a
     REQUIRE(readSweepJson(good));
     const auto where = [](const std::string& text)
     {
-        const auto read = readSweepJson(text);
-        REQUIRE_FALSE(read);
-        CHECK_FALSE(read.error().message.empty());
-        return read.error().where;
+        return test::refusedAt(readSweepJson(text));
     };
     for (const char* name : {"format", "version", "lowFrequency", "highFrequency", "duration", "fadeIn", "fadeOut",
                              "pause", "levels", "markerDuration", "sampleRate"})

@@ -3,6 +3,7 @@
 #include "support/Catch.h"
 #include "support/ChangedText.h"
 #include "support/RandomTexture.h"
+#include "support/Refused.h"
 
 #include <pacini/texture/TexturePlayer.h>
 
@@ -34,10 +35,7 @@ TEST_CASE("A texture with something missing or wrong is refused at its name")
     REQUIRE(readTextureJson(good));
     const auto where = [](const std::string& text)
     {
-        const auto read = readTextureJson(text);
-        REQUIRE_FALSE(read);
-        CHECK_FALSE(read.error().message.empty());
-        return read.error().where;
+        return test::refusedAt(readTextureJson(text));
     };
     for (const char* name : {"format", "version", "pitch", "levelBySpeed", "levelByForce", "nodes"})
         CHECK(where(changed(good, std::string("\"") + name + "\"", "\"other\"")) == name);

@@ -2,6 +2,7 @@
 
 #include "study/StudyTemplates.h"
 #include "support/Catch.h"
+#include "support/ChangedText.h"
 
 #include <array>
 #include <string>
@@ -10,17 +11,11 @@
 
 using namespace pacini;
 using namespace pacini::study;
+using test::changed;
 
 namespace
 {
 const std::vector<std::string> sounds{"sounds/a.wav", "sounds/b.wav", "sounds/a.wav", "c.wav"};
-
-std::string changed(std::string text, const std::string& from, const std::string& to)
-{
-    const auto at = text.find(from);
-    REQUIRE(at != std::string::npos);
-    return text.replace(at, from.size(), to);
-}
 } // namespace
 
 TEST_CASE("Every template is a study that comes back as it was written")
