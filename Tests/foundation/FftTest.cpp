@@ -7,6 +7,19 @@
 
 using namespace pacini;
 
+namespace
+{
+/// Real and imaginary parts within +-1.
+std::vector<std::complex<double>> complexNoise(std::size_t n, std::uint64_t seed)
+{
+    Random random(seed);
+    std::vector<std::complex<double>> x(n);
+    for (auto& v : x)
+        v = {random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0)};
+    return x;
+}
+} // namespace
+
 TEST_CASE("Real transform equals the definition summed in long double", "[foundation]")
 {
     for (std::size_t n : {2u, 6u, 16u, 30u, 100u})
@@ -34,10 +47,8 @@ TEST_CASE("Complex inverse undoes forward up to the size", "[foundation]")
 {
     const std::size_t n = 60;
     ComplexFft<double> fft(n);
-    Random random(3);
-    std::vector<std::complex<double>> x(n), y(n), z(n);
-    for (auto& v : x)
-        v = {random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0)};
+    const auto x = complexNoise(n, 3);
+    std::vector<std::complex<double>> y(n), z(n);
     fft.forward(x, y);
     fft.inverse(y, z);
     for (std::size_t i = 0; i < n; ++i)
@@ -87,10 +98,8 @@ TEST_CASE("Transforms know their sizes, and complex ones equal the definition in
     RealFft<float> real(n);
     CHECK(real.size() == n);
     CHECK(real.bins() == n / 2 + 1);
-    Random random(8);
-    std::vector<std::complex<double>> x(n), forward(n), inverse(n);
-    for (auto& v : x)
-        v = {random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0)};
+    const auto x = complexNoise(n, 8);
+    std::vector<std::complex<double>> forward(n), inverse(n);
     fft.forward(x, forward);
     fft.inverse(x, inverse);
     for (std::size_t k = 0; k < n; ++k)

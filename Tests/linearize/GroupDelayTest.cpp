@@ -1,9 +1,8 @@
+#include "linearize/MeasuredOn.h"
 #include "support/Catch.h"
 
 #include <pacini/actuator/BodyChain.h>
 #include <pacini/linearize/GroupDelay.h>
-#include <pacini/linearize/SimulatedRig.h>
-#include <pacini/linearize/SweepAnalysis.h>
 
 #include <algorithm>
 #include <cmath>
@@ -20,13 +19,7 @@ SweepMeasurement measuredOn(const RigParams& rig)
     SweepParams sweep;
     sweep.duration = 10.0;
     sweep.levels = {-12.0};
-    MeasurementParams measurement;
-    measurement.fullScale = {rig.range};
-    measurement.harmonics = 1;
-    const auto recording = recordOnRig(makeSweepSignal(sweep).value(), rig);
-    const auto result = analyseSweeps(recording, rig.sampleRate, sweep, measurement);
-    REQUIRE(result.ok());
-    return result.value();
+    return test::measuredOn(rig, sweep);
 }
 } // namespace
 

@@ -1,27 +1,13 @@
+#include "linearize/MeasuredOn.h"
 #include "support/Catch.h"
 
 #include <pacini/actuator/Wearer.h>
 #include <pacini/linearize/ResponseFeatures.h>
-#include <pacini/linearize/SimulatedRig.h>
-#include <pacini/linearize/SweepAnalysis.h>
 
 #include <cmath>
 
 using namespace pacini;
-
-namespace
-{
-SweepMeasurement measuredOn(const RigParams& rig, const SweepParams& sweep)
-{
-    MeasurementParams measurement;
-    measurement.fullScale = {rig.range};
-    measurement.harmonics = 1;
-    const auto recording = recordOnRig(makeSweepSignal(sweep).value(), rig);
-    const auto result = analyseSweeps(recording, rig.sampleRate, sweep, measurement);
-    REQUIRE(result.ok());
-    return result.value();
-}
-} // namespace
+using test::measuredOn;
 
 TEST_CASE("The average over fourteen measured wearers is right though two wear the band loosely", "[linearize]")
 {
