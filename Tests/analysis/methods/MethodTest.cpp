@@ -59,6 +59,18 @@ std::vector<std::pair<std::string, std::vector<float>>> awkwardSounds(double fs)
     return sounds;
 }
 
+/// Checks all methods with such an output on all of these sounds, at low and high rates.
+void onAwkwardSounds(MethodOutput output, const auto& check)
+{
+    for (const double fs : {8000.0, 44100.0, 384000.0})
+        for (const auto& [name, sound] : awkwardSounds(fs))
+            for (const Method method : methodsThatMake(output))
+            {
+                CAPTURE(fs, name, std::string(methodInfo(method).name));
+                check(method, sound, fs);
+            }
+}
+
 template <typename Params, typename Change>
 Params paramsWith(Change change)
 {
@@ -88,19 +100,17 @@ TEST_CASE("Every method is in the table once, under its own name", "[methods]")
 
 TEST_CASE("Every clip is valid, as long as its sound and named after its method", "[methods]")
 {
-    for (const double fs : {8000.0, 44100.0, 384000.0})
-        for (const auto& [name, sound] : awkwardSounds(fs))
-            for (const Method method : methodsThatMake(MethodOutput::clip))
-            {
-                const Clip clip = translateToClip(method, sound, fs);
-                CAPTURE(fs, name, std::string(methodInfo(method).name));
-                const auto valid = validate(clip);
-                CHECK((valid ? "valid" : valid.error().text()) == "valid");
-                CHECK(clip.duration == Approx(static_cast<double>(sound.size()) / fs).margin(0.0));
-                CHECK(clip.name.empty());
-                CHECK(encoderText(clip, "method", "") == methodInfo(method).name);
-                CHECK(!clip.bands.empty());
-            }
+    onAwkwardSounds(MethodOutput::clip,
+                    [](Method method, const auto& sound, double fs)
+                    {
+                        const Clip clip = translateToClip(method, sound, fs);
+                        const auto valid = validate(clip);
+                        CHECK((valid ? "valid" : valid.error().text()) == "valid");
+                        CHECK(clip.duration == Approx(static_cast<double>(sound.size()) / fs).margin(0.0));
+                        CHECK(clip.name.empty());
+                        CHECK(encoderText(clip, "method", "") == methodInfo(method).name);
+                        CHECK(!clip.bands.empty());
+                    });
 }
 
 TEST_CASE("Priorities rank the bands of every clip by energy", "[methods]")
@@ -153,15 +163,13 @@ TEST_CASE("Silence costs no breakpoint and plays as silence", "[methods]")
 
 TEST_CASE("Signals are as long as the sound and finite", "[methods]")
 {
-    for (const double fs : {8000.0, 44100.0, 384000.0})
-        for (const auto& [name, sound] : awkwardSounds(fs))
-            for (const Method method : methodsThatMake(MethodOutput::signal))
-            {
-                const auto out = translateToSignal(method, sound, fs);
-                CAPTURE(fs, name, std::string(methodInfo(method).name));
-                CHECK(out.size() == sound.size());
-                CHECK(allFinite(out));
-            }
+    onAwkwardSounds(MethodOutput::signal,
+                    [](Method method, const auto& sound, double fs)
+                    {
+                        const auto out = translateToSignal(method, sound, fs);
+                        CHECK(out.size() == sound.size());
+                        CHECK(allFinite(out));
+                    });
 }
 
 TEST_CASE("Curves have as many points as the active time allows", "[methods]")
