@@ -2,6 +2,8 @@
 
 // A straightforward player of HJIF files, from what is known of the reference synthesiser.
 
+#include "VoicePlayer.h"
+
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -43,7 +45,7 @@ inline std::vector<float> playHjif(const std::string& text, double fs)
                     sum[n] += level * std::sin(2.0 * tau * (static_cast<double>(n) / fs - position / ticks) / length);
                 continue;
             }
-            std::vector<std::pair<double, double>> amplitude, frequency;
+            PlayerPoints amplitude, frequency;
             for (const Json& keyframe : effect.at("keyframes"))
             {
                 const double at = position + keyframe.at("relative_position").get<double>();
@@ -52,26 +54,14 @@ inline std::vector<float> playHjif(const std::string& text, double fs)
                 if (keyframe.contains("frequency_modulation"))
                     frequency.emplace_back(at, keyframe.at("frequency_modulation").get<double>());
             }
-            std::size_t nextAmplitude = 0, nextFrequency = 0;
-            const auto valueAt = [](const auto& points, std::size_t& i, double t)
-            {
-                while (i < points.size() && points[i].first <= t)
-                    ++i;
-                if (i == 0)
-                    return points.front().second;
-                if (i == points.size())
-                    return points.back().second;
-                const auto& [t0, v0] = points[i - 1];
-                const auto& [t1, v1] = points[i];
-                return v0 + (v1 - v0) * (t - t0) / (t1 - t0);
-            };
+            PointReader level(amplitude), hertz(frequency);
             double phase = effect.at("phase").get<double>();
             const double end = position + effect.at("keyframes").back().at("relative_position").get<double>();
             for (std::size_t n = frameOf(position); n < frameOf(end); ++n)
             {
                 const double t = static_cast<double>(n) / fs * ticks;
-                sum[n] += valueAt(amplitude, nextAmplitude, t) * std::sin(phase);
-                phase += tau * valueAt(frequency, nextFrequency, t) / fs;
+                sum[n] += level.at(t) * std::sin(phase);
+                phase += tau * hertz.at(t) / fs;
             }
         }
         for (double& sample : sum)
