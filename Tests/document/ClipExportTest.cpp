@@ -2,16 +2,14 @@
 
 #include "io/AudioWriter.h"
 #include "support/Catch.h"
+#include "support/Render.h"
 #include "support/ShippedProfile.h"
 #include "support/TempFolder.h"
 
 #include <pacini/actuator/Strength.h>
-#include <pacini/synthesis/CompilePlan.h>
-#include <pacini/synthesis/ScenePlayer.h>
 
 #include <filesystem>
 #include <memory>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,6 +18,18 @@ using namespace pacini;
 using test::bytesOf;
 using test::put;
 using test::TempFolder;
+
+namespace
+{
+Clip hum()
+{
+    Clip clip;
+    clip.name = "hum";
+    clip.duration = 0.5;
+    clip.bands = {{100.0, 150.0, 220.0, 0, {{0.0, 0.5}, {0.5, 0.5}}, {}}};
+    return clip;
+}
+} // namespace
 
 TEST_CASE("An export never has the name of the recording that its clip was made from", "[document]")
 {
@@ -44,10 +54,7 @@ TEST_CASE("An export never has the name of the recording that its clip was made 
 TEST_CASE("The drive signal of an export is the one that is rendered with the same strength", "[document]")
 {
     const TempFolder folder;
-    Clip clip;
-    clip.name = "hum";
-    clip.duration = 0.5;
-    clip.bands = {{100.0, 150.0, 220.0, 0, {{0.0, 0.5}, {0.5, 0.5}}, {}}};
+    const Clip clip = hum();
     const Profile profile = test::shippedProfile("lra-175");
     std::string before;
     for (const double strength : {0.0, standardStrength, 1.0})
@@ -63,16 +70,10 @@ TEST_CASE("The drive signal of an export is the one that is rendered with the sa
         choice.params.strength = strength;
         REQUIRE(exportClips({std::make_shared<const Clip>(clip)}, choice));
 
-        Scene scene;
-        scene.clips = {clip};
-        scene.plays.emplace_back();
         CompileParams params;
         params.sampleRate = 8000.0;
         params.adaptation.strength = strength; // as `pacini render --strength` has it
-        ScenePlayer player(compilePlan(scene, &profile, params).value(), {.sampleRate = 8000.0});
-        std::vector<float> rendered(static_cast<std::size_t>(player.totalFrames()));
-        std::span<float> out(rendered);
-        player.process(std::span(&out, 1));
+        const auto rendered = test::drive(clip, profile, params, {.sampleRate = 8000.0});
         REQUIRE(writeAudio(folder / "rendered.wav", rendered, {.sampleRate = 8000}));
         CHECK(bytesOf(folder / "hum.wav") == bytesOf(folder / "rendered.wav"));
         CHECK(std::exchange(before, bytesOf(folder / "hum.wav")) != bytesOf(folder / "hum.wav"));
@@ -82,11 +83,7 @@ TEST_CASE("The drive signal of an export is the one that is rendered with the sa
 TEST_CASE("An export replaces nothing before the user was asked, and a sound of the project never", "[document]")
 {
     const TempFolder folder;
-    Clip clip;
-    clip.name = "hum";
-    clip.duration = 0.5;
-    clip.bands = {{100.0, 150.0, 220.0, 0, {{0.0, 0.5}, {0.5, 0.5}}, {}}};
-    const std::vector<std::shared_ptr<const Clip>> clips{std::make_shared<const Clip>(clip)};
+    const std::vector<std::shared_ptr<const Clip>> clips{std::make_shared<const Clip>(hum())};
     for (const ClipFormat& format : exportFormats())
     {
         CAPTURE(format.name);

@@ -64,6 +64,28 @@ float largest(std::span<const float> samples)
     return most;
 }
 
+/// The first frames of a clip in an engine, from the start.
+std::vector<float> playedBy(PreviewEngine& engine, const std::shared_ptr<const Clip>& clip)
+{
+    engine.set(playbackOf(clip));
+    engine.play(0.0);
+    REQUIRE(engine.service());
+    return run(engine, 40000);
+}
+
+/// The same frames as they are rendered.
+std::vector<float> renderedFrames(const Clip& clip, const Profile* profile = nullptr, const CompileParams& params = {})
+{
+    Scene scene;
+    scene.clips = {clip};
+    scene.plays.emplace_back();
+    ScenePlayer player(compilePlan(scene, profile, params).value());
+    std::vector<float> frames(40000);
+    std::span<float> out(frames);
+    player.process(std::span(&out, 1));
+    return frames;
+}
+
 /// The largest second difference: a click is a jump of value or slope.
 float roughness(std::span<const float> samples)
 {
@@ -78,18 +100,8 @@ TEST_CASE("A preview from the start is what is rendered, bit for bit")
 {
     const auto clip = tone(1.0, 0.5);
     PreviewEngine engine(fs);
-    engine.set(playbackOf(clip));
-    engine.play(0.0);
-    REQUIRE(engine.service());
-    const auto heard = run(engine, 40000);
-
-    Scene scene;
-    scene.clips = {*clip};
-    scene.plays.emplace_back();
-    ScenePlayer player(compilePlan(scene).value());
-    std::vector<float> rendered(40000);
-    std::span<float> out(rendered);
-    player.process(std::span(&out, 1));
+    const auto heard = playedBy(engine, clip);
+    const auto rendered = renderedFrames(*clip);
     CHECK(largest(rendered) > 0.4f);
     CHECK(std::equal(heard.begin(), heard.end(), rendered.begin()));
 }
@@ -104,20 +116,10 @@ TEST_CASE("A preview with a strength is what is rendered with it, and another on
         CAPTURE(strength);
         PreviewEngine engine(fs);
         engine.setRow(rowOf(profile, strength));
-        engine.set(playbackOf(clip));
-        engine.play(0.0);
-        REQUIRE(engine.service());
-        const auto heard = run(engine, 40000);
-
-        Scene scene;
-        scene.clips = {*clip};
-        scene.plays.emplace_back();
+        const auto heard = playedBy(engine, clip);
         CompileParams params;
         params.adaptation.strength = strength; // as `pacini render --strength` has it
-        ScenePlayer player(compilePlan(scene, profile.get(), params).value());
-        std::vector<float> rendered(40000);
-        std::span<float> out(rendered);
-        player.process(std::span(&out, 1));
+        const auto rendered = renderedFrames(*clip, profile.get(), params);
         REQUIRE(largest(rendered) > 0.05f);
         CHECK(std::equal(heard.begin(), heard.end(), rendered.begin()));
         if (flattest.empty())

@@ -4,6 +4,7 @@
 #include "document/RecentFiles.h"
 #include "io/AudioWriter.h"
 #include "support/Catch.h"
+#include "support/ChangedText.h"
 #include "support/RandomProfile.h"
 #include "support/TempFolder.h"
 
@@ -14,6 +15,7 @@
 #include <limits>
 
 using namespace pacini;
+using test::changed;
 
 namespace
 {
@@ -104,13 +106,6 @@ Project fullProject(const std::filesystem::path& folder)
     project.clips.push_back(std::make_shared<const ClipItem>(item));
     return project;
 }
-
-std::string with(std::string text, const std::string& from, const std::string& to)
-{
-    const auto at = text.find(from);
-    REQUIRE(at != std::string::npos);
-    return text.replace(at, from.size(), to);
-}
 } // namespace
 
 TEST_CASE("A project with every kind of entry reads back as it was written")
@@ -146,7 +141,7 @@ TEST_CASE(
     "A project from before there was a strength plays its actuator as it did; without an actuator it has the usual one")
 {
     std::string text = projectJson(fullProject("/"));
-    text = with(text, "\"strength\": 0.25", "\"other\": 0");
+    text = changed(text, "\"strength\": 0.25", "\"other\": 0");
     const auto read = readProjectJson(text);
     REQUIRE(read);
     CHECK(read->project.profile.embedded);
@@ -166,17 +161,17 @@ TEST_CASE("Damaged projects are refused with the place")
         REQUIRE_FALSE(read);
         return read.error();
     };
-    CHECK(errorOf(with(text, "\"pacini.project\"", "\"pacini.clip\"")).where == "format");
-    CHECK(errorOf(with(text, "\"version\": 1", "\"version\": 2")).code == ErrorCode::unsupportedVersion);
-    CHECK(errorOf(with(text, "\"source\": 4", "\"source\": 5")).where == "clips[0].source");
-    CHECK(errorOf(with(text, "\"strength\": 0.25", "\"strength\": 1.25")).where == "profile.strength");
-    CHECK(errorOf(with(text, "\"id\": 8", "\"id\": 7")).where == "clips[1].id");
-    CHECK(errorOf(with(text, "\"id\": 4", "\"id\": 3")).where == "sources[1].id");
-    CHECK(errorOf(with(text, "\"kind\": \"fade\"", "\"kind\": \"fades\"")).where == "clips[0].edits[7].kind");
-    CHECK(errorOf(with(text, "\"time\": 0, \"amplitude\": 0.4", "\"time\": -1, \"amplitude\": 0.4")).where ==
+    CHECK(errorOf(changed(text, "\"pacini.project\"", "\"pacini.clip\"")).where == "format");
+    CHECK(errorOf(changed(text, "\"version\": 1", "\"version\": 2")).code == ErrorCode::unsupportedVersion);
+    CHECK(errorOf(changed(text, "\"source\": 4", "\"source\": 5")).where == "clips[0].source");
+    CHECK(errorOf(changed(text, "\"strength\": 0.25", "\"strength\": 1.25")).where == "profile.strength");
+    CHECK(errorOf(changed(text, "\"id\": 8", "\"id\": 7")).where == "clips[1].id");
+    CHECK(errorOf(changed(text, "\"id\": 4", "\"id\": 3")).where == "sources[1].id");
+    CHECK(errorOf(changed(text, "\"kind\": \"fade\"", "\"kind\": \"fades\"")).where == "clips[0].edits[7].kind");
+    CHECK(errorOf(changed(text, "\"time\": 0, \"amplitude\": 0.4", "\"time\": -1, \"amplitude\": 0.4")).where ==
           "clips[0].clip.envelope[0].time");
-    CHECK(errorOf(with(text, "\"edit\": 20", "\"edit\": 21")).where == "clips[0].unfitting[0].edit");
-    CHECK(errorOf(with(text, "\"embedded\": \"", "\"embedded\": \"?")).where == "sources[1].embedded");
+    CHECK(errorOf(changed(text, "\"edit\": 20", "\"edit\": 21")).where == "clips[0].unfitting[0].edit");
+    CHECK(errorOf(changed(text, "\"embedded\": \"", "\"embedded\": \"?")).where == "sources[1].embedded");
     CHECK(errorOf(text.substr(0, text.size() / 2)).where.find("line") == 0);
     CHECK_FALSE(readProjectJson(""));
     CHECK_FALSE(readProjectJson("[]"));
