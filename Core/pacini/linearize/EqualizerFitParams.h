@@ -34,6 +34,16 @@ struct EqualizerFitParams
     bool operator==(const EqualizerFitParams&) const = default;
 };
 
+/// The high-pass, of order 5, that keeps an actuator from what is below `frequency` Hz, where it would travel furthest.
+[[nodiscard]] inline EqualizerSection protectingHighpass(double frequency)
+{
+    EqualizerSection section;
+    section.type = EqualizerType::highpass;
+    section.frequency = frequency;
+    section.order = 5;
+    return section;
+}
+
 /// Result of an equalizer fit.
 struct EqualizerFit
 {

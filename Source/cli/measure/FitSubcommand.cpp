@@ -189,13 +189,7 @@ EqualizerFitParams FitSubcommand::paramsFor(const std::optional<Profile>& profil
     params.boostOutside = boostOutside;
     params.shelves = !peaksOnly;
     if (highpass)
-    {
-        EqualizerSection section;
-        section.type = EqualizerType::highpass;
-        section.frequency = *highpass;
-        section.order = 5;
-        params.highpass = section;
-    }
+        params.highpass = protectingHighpass(*highpass);
     return params;
 }
 

@@ -9,8 +9,7 @@
 #include "io/AudioFile.h"
 #include "io/Fingerprint.h"
 
-#include <pacini/actuator/Wearer.h>
-#include <pacini/linearize/SimulatedRig.h>
+#include <pacini/linearize/RigSettings.h>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -53,11 +52,8 @@ struct SimulateSubcommand : Command
 
     std::string input, output, profile = "l5-wristband";
     unsigned wearer = 0, wearers = 0;
-    double mass = 0.0, contact = 0.0, latency = 12.0, drift = 50.0, noise = 250.0, distortion = 0.0;
-    double range = 5.0; ///< g, of the ADXL325
-    int axes = 3;
-    int bits = 12;
-    std::uint64_t seed = 1;
+    RigSettings settings;
+    double latency = 1e3 * settings.latency; ///< ms
     OverwriteOptions overwriting;
 };
 } // namespace
@@ -78,24 +74,28 @@ CLI::App* SimulateSubcommand::declare(CLI::App& app)
               "Record wearers 1 to N into separate files: OUT-01.wav, OUT-02.wav and so on",
               wholeNumberFrom(1u, simulatedWearers), "N")
         ->excludes(one);
-    addOption(*command, "--mass", mass, "Mass that is attached to the device, g", numberFrom(0.0, 5000.0), "G");
-    addOption(*command, "--contact", contact, "Level of a loose or a tight fit, dB", numberFrom(-60.0, 20.0), "DB");
+    addOption(*command, "--mass", settings.mass, "Mass that is attached to the device, g", numberFrom(0.0, 5000.0),
+              "G");
+    addOption(*command, "--contact", settings.contact, "Level of a loose or a tight fit, dB", numberFrom(-60.0, 20.0),
+              "DB");
     addPreset(*command, "--latency", latency, "Latency of player and recorder together, ms", numberFrom(0.0, 1000.0),
               "MS");
-    addPreset(*command, "--drift", drift,
+    addPreset(*command, "--drift", settings.drift,
               "Deviation of the recorder's clock from the player's, ppm; positive is faster",
               numberFrom(-5000.0, 5000.0), "PPM");
-    addPreset(*command, "--noise", noise, "Noise of the sensor, \u00b5g per root of Hz (ADXL325: 250)",
+    addPreset(*command, "--noise", settings.noise, "Noise of the sensor, \u00b5g per root of Hz (ADXL325: 250)",
               numberFrom(0.0, 1e6), "D");
-    addPreset(*command, "--range", range, "Acceleration at which the sensor clips, gravity included, g (ADXL325: 5)",
-              numberFrom(0.1, 10000.0), "G");
-    addPreset(*command, "--axes", axes,
+    addPreset(*command, "--range", settings.range,
+              "Acceleration at which the sensor clips, gravity included, g (ADXL325: 5)", numberFrom(0.1, 10000.0),
+              "G");
+    addPreset(*command, "--axes", settings.axes,
               "Axes of the sensor: 3, with a random orientation on every wearer, or 1, along the movement",
               oneOf({"1", "3"}), "N");
-    addPreset(*command, "--bits", bits, "Resolution of the converter", wholeNumberFrom(4, 24), "N");
-    addOption(*command, "--distortion", distortion,
+    addPreset(*command, "--bits", settings.bits, "Resolution of the converter", wholeNumberFrom(4, 24), "N");
+    addOption(*command, "--distortion", settings.distortion,
               "Third-order distortion of the actuator: factor of the cube of the drive", numberFrom(-1.0, 1.0), "A");
-    addPreset(*command, "--seed", seed, "Seed of the noise and of the sensor's orientation", countingNumber(), "N");
+    addPreset(*command, "--seed", settings.seed, "Seed of the noise and of the sensor's orientation", countingNumber(),
+              "N");
     overwriting.declare(*command);
     return command->footer("Examples:\n  pacini measure simulate sweep.wav -o rec.wav\n"
                            "  pacini measure simulate sweep.wav -o rec.wav --wearers 14      fourteen recordings");
@@ -118,6 +118,8 @@ Exit SimulateSubcommand::record(Console& console) const
         return Exit::failed;
     const auto& [actuator, sound] = *opened;
 
+    RigSettings given = settings;
+    given.latency = 1e-3 * latency;
     std::vector<std::string> clipped;
     const unsigned first = wearers > 0 ? 1 : wearer;
     const unsigned last = wearers > 0 ? wearers : wearer;
@@ -133,20 +135,7 @@ Exit SimulateSubcommand::record(Console& console) const
         const auto existing = mayReplace(target, origin, overwriting.of(wearers == 0));
         if (!existing)
             return console.fail(input, existing.error());
-        RigParams rig;
-        rig.body = bodyOn(who, *actuator.body);
-        rig.body->deviceMass += 1e-3 * mass;
-        rig.resonance = actuator.resonance;
-        rig.contact = contact;
-        rig.polynomial = {0.0, 1.0, 0.0, distortion};
-        rig.range = range * standardGravity;
-        rig.axes = static_cast<std::size_t>(axes);
-        rig.noiseDensity = noise * 1e-6 * standardGravity;
-        rig.bits = bits;
-        rig.latency = 1e-3 * latency;
-        rig.driftPpm = drift;
-        rig.seed = seed + who;
-        rig.sampleRate = sound.sampleRate;
+        const RigParams rig = rigOn(who, actuator, given, sound.sampleRate);
         console.progress(static_cast<double>(who - first) / static_cast<double>(last - first + 1), target);
         const auto channels = recordOnRig(sound.samples, rig);
         if (std::any_of(channels.begin(), channels.end(), clips))
@@ -168,14 +157,14 @@ Exit SimulateSubcommand::record(Console& console) const
         files.push_back({{"input", input}, {"output", target}, {"wearer", who}});
     }
     console.endProgress();
-    console.addToReport({{"files", files}, {"fullScale", range * standardGravity}});
+    console.addToReport({{"files", files}, {"fullScale", settings.range * standardGravity}});
     if (!clipped.empty())
         console.warning(
             clipped.size() == 1 ? clipped.front() : fmt::format("{} and {} more", clipped.front(), clipped.size() - 1),
             fmt::format("the sensor of {:g} g clips; play the sweep at a lower level, or take a sensor of a "
                         "wider --range",
-                        range));
-    console.note(fmt::format("analyse with --full-scale {:g}g", range));
+                        settings.range));
+    console.note(fmt::format("analyse with --full-scale {:g}g", settings.range));
     return Exit::ok;
 }
 

@@ -12,7 +12,7 @@
 #include <pacini/linearize/MeasuredProfile.h>
 #include <pacini/linearize/MeasurementFindings.h>
 #include <pacini/linearize/PlacementAverage.h>
-#include <pacini/linearize/SimulatedRig.h>
+#include <pacini/linearize/RigSettings.h>
 #include <pacini/linearize/SweepAnalysis.h>
 #include <pacini/linearize/Verification.h>
 
@@ -112,19 +112,17 @@ nb::object simulate(const SoundArray& array, double rate, const ProfileHandle& p
     within("distortion", distortion, -1.0, 1.0);
     within("range", range, 0.1, 10000.0);
     within("bits", bits, 4, 24);
-    RigParams rig;
-    rig.body = bodyOn(wearer, *actuator.body);
-    rig.resonance = actuator.resonance;
-    rig.contact = contact;
-    rig.polynomial = {0.0, 1.0, 0.0, distortion};
-    rig.range = range * standardGravity;
-    rig.axes = static_cast<std::size_t>(axes);
-    rig.noiseDensity = noise * 1e-6 * standardGravity;
-    rig.bits = bits;
-    rig.latency = latency;
-    rig.driftPpm = drift;
-    rig.seed = seed + wearer;
-    rig.sampleRate = rate;
+    const RigParams rig = rigOn(wearer, actuator,
+                                {.contact = contact,
+                                 .latency = latency,
+                                 .drift = drift,
+                                 .noise = noise,
+                                 .distortion = distortion,
+                                 .range = range,
+                                 .axes = axes,
+                                 .bits = bits,
+                                 .seed = seed},
+                                rate);
     std::vector<float> played = monoOf(sound);
     if (const auto wrong = std::find_if(played.begin(), played.end(),
                                         [](float sample) { return !areWithinLimit(std::span(&sample, 1)); });
@@ -253,13 +251,7 @@ std::pair<nb::dict, std::optional<ProfileHandle>> fit(std::vector<double> freque
     params.boostOutside = boostOutside;
     params.shelves = shelves;
     if (highpass)
-    {
-        EqualizerSection section;
-        section.type = EqualizerType::highpass;
-        section.frequency = *highpass;
-        section.order = 5;
-        params.highpass = section;
-    }
+        params.highpass = protectingHighpass(*highpass);
     const EqualizerFit found =
         take(abandonable([response = std::move(response), params] { return fitEqualizer(response, params); }));
     nb::list list;
