@@ -535,6 +535,12 @@ class Profile(StudyTest):
         self.succeeds("study", "check", "deeper/simulated")
         self.fails(1, ["study", "profile", "simulated", "P999", "-o", "other.json"], "P999")
         self.assertFalse((self.folder / "other.json").exists())
+        # A session that cannot be read is named, as by study report and study export.
+        (self.folder / "simulated/sessions/P777.jsonl").write_text("torn\n")
+        for step in (["profile", "simulated", "P001", "-o", "again.json"], ["export", "simulated", "-o", "tables"]):
+            done = self.run_command("study", *step)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertIn(b"P777.jsonl", done.stderr, step)
 
 
 class Latency(StudyTest):

@@ -4,7 +4,6 @@
 #include "cli/study/OpenStudy.h"
 #include "io/AtomicFile.h"
 #include "study/StudyExport.h"
-#include "study/StudyResults.h"
 
 #include <fmt/format.h>
 
@@ -33,10 +32,9 @@ struct ExportSubcommand : Command
 
     Exit run(Console& console) override
     {
-        const auto results = study::readResults(named);
+        const auto results = openResults(console, named);
         if (!results)
-            return console.fail(named, results.error());
-        console.warnings(named, results->warnings);
+            return Exit::failed;
         std::error_code failed;
         if (fs::exists(output, failed) && !fs::is_empty(output, failed))
             return console.fail(output, {ErrorCode::io, "", "exists and is not empty; name a new folder"});

@@ -34,6 +34,18 @@ std::optional<OpenedStudy> openStudy(Console& console, const std::string& named)
     return opened;
 }
 
+std::optional<study::StudyResults> openResults(Console& console, const std::string& named)
+{
+    auto results = study::readResults(named);
+    if (!results)
+    {
+        console.error(named, results.error());
+        return std::nullopt;
+    }
+    console.warnings(named, results->warnings);
+    return std::move(*results);
+}
+
 std::string actuatorOf(const study::Study& study, const std::filesystem::path& folder, const std::string& given)
 {
     std::error_code unknown;

@@ -4,6 +4,7 @@
 
 #include "cli/Console.h"
 #include "study/Study.h"
+#include "study/StudyResults.h"
 
 #include <CLI/CLI.hpp>
 
@@ -27,6 +28,9 @@ struct OpenedStudy
 
 /// The study in a folder or file; nothing when it cannot be read, and the console has said why.
 [[nodiscard]] std::optional<OpenedStudy> openStudy(Console& console, const std::string& named);
+
+/// The answers in the folder of a study; nothing when they cannot be read, and the console has said why.
+[[nodiscard]] std::optional<study::StudyResults> openResults(Console& console, const std::string& named);
 
 /// The actuator that `given` (--profile) names, else that of the study: a shipped name, or a file, which counts from
 /// the study's folder.

@@ -34,9 +34,9 @@ struct ProfileSubcommand : Command
 
     Exit run(Console& console) override
     {
-        const auto results = study::readResults(named);
+        const auto results = openResults(console, named);
         if (!results)
-            return console.fail(named, results.error());
+            return Exit::failed;
         const std::string actuator = actuatorOf(results->study, study::studyFileOf(named).parent_path(), profile);
         if (actuator.empty())
             return console.fail("",
