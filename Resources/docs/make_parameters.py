@@ -109,7 +109,11 @@ def play_schema(play):
         "character": {
             "description": "The editor's live controls. Encoding does not need them.",
             "type": "object",
-            "properties": entries(play["character"])}}
+            "properties": entries(play["character"])},
+        "live": {
+            "description": "Live parameters of plugin and `pacini live`. Encoding does not need them.",
+            "type": "object",
+            "properties": entries(play["live"])}}
 
 
 def schema(described, methods, presets, play):

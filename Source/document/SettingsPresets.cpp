@@ -13,20 +13,57 @@
 namespace pacini
 {
 
-std::vector<std::string> SettingsPresets::names() const
+namespace
+{
+std::string textOf(const std::filesystem::path& path)
+{
+    const std::u8string text = path.u8string();
+    return {text.begin(), text.end()};
+}
+} // namespace
+
+std::vector<std::string> SettingsPresets::stems() const
 {
     std::vector<std::string> found;
     std::error_code failed;
     for (std::filesystem::directory_iterator at(home, failed), end; !failed && at != end; at.increment(failed))
-        if (const auto& path = at->path(); path.extension() == ".json")
-        {
-            const std::u8string stem = path.stem().u8string();
-            if (std::string name(stem.begin(), stem.end()); !presetNameDefect(name, longestName))
-                found.push_back(std::move(name));
-        }
+        if (const auto& path = at->path(); path.extension() == ".json" && !textOf(path.filename()).starts_with('.'))
+            found.push_back(textOf(path.stem()));
     std::sort(found.begin(), found.end());
     found.resize(std::min(found.size(), most));
     return found;
+}
+
+std::vector<std::string> SettingsPresets::names() const
+{
+    std::vector<std::string> found = stems();
+    std::erase_if(found, [](const std::string& name) { return presetNameDefect(name, longestName).has_value(); });
+    return found;
+}
+
+std::vector<Error> SettingsPresets::misnamed() const
+{
+    std::vector<Error> found;
+    for (const std::string& name : stems())
+        if (const auto defect = presetNameDefect(name, longestName))
+            found.push_back({defect->code, name + ".json", defect->message});
+    return found;
+}
+
+Result<std::string> SettingsPresets::text(const std::string& name) const
+{
+    if (auto defect = presetNameDefect(name, longestName))
+        return *std::move(defect);
+    std::error_code unknown;
+    if (!std::filesystem::is_regular_file(pathOf(name), unknown)) // a pipe would be waited for
+        return Error{ErrorCode::io, {}, "is no file that can be read"};
+    return readWholeFile(pathOf(name), largestSettingsText);
+}
+
+bool SettingsPresets::exists(const std::string& name) const
+{
+    std::error_code unknown;
+    return !presetNameDefect(name, longestName) && std::filesystem::exists(pathOf(name), unknown);
 }
 
 std::filesystem::path SettingsPresets::pathOf(const std::string& name) const
@@ -41,7 +78,7 @@ Result<void> SettingsPresets::save(const std::string& name, const std::string& s
     std::error_code failed;
     std::filesystem::create_directories(home, failed);
     if (failed)
-        return Error{ErrorCode::io, home.string(), failed.message()};
+        return Error{ErrorCode::io, textOf(home), failed.message()};
     const auto written = writeFileAtomically(pathOf(name), settings, replace ? Existing::replace : Existing::keep);
     if (!written)
         return written.error();
@@ -50,8 +87,9 @@ Result<void> SettingsPresets::save(const std::string& name, const std::string& s
 
 Result<void> SettingsPresets::rename(const std::string& name, const std::string& wanted) const
 {
-    if (auto defect = presetNameDefect(wanted, longestName))
-        return *std::move(defect);
+    for (const std::string& each : {name, wanted})
+        if (auto defect = presetNameDefect(each, longestName))
+            return *std::move(defect);
     std::error_code failed, unknown;
     const auto from = pathOf(name), to = pathOf(wanted);
     // Where capitals do not count, another spelling of the name is the same file.
@@ -65,6 +103,8 @@ Result<void> SettingsPresets::rename(const std::string& name, const std::string&
 
 Result<void> SettingsPresets::remove(const std::string& name) const
 {
+    if (auto defect = presetNameDefect(name, longestName))
+        return *std::move(defect);
     std::error_code failed;
     if (!std::filesystem::remove(pathOf(name), failed))
         return Error{ErrorCode::io, name, failed ? failed.message() : "is not there any more"};
@@ -93,7 +133,7 @@ Result<EncoderParams> readAnalysisSettings(const std::filesystem::path& path)
 
 std::string outputSettings(const OutputSettings& settings)
 {
-    return playbackSettingsJson({settings, {}}).dump(2) + "\n";
+    return playbackSettingsJson({settings, {}, {}}).dump(2) + "\n";
 }
 
 Result<OutputSettings> readOutputSettings(const std::filesystem::path& path)
@@ -108,7 +148,7 @@ Result<OutputSettings> readOutputSettings(const std::filesystem::path& path)
 
 std::string characterSettings(const CharacterSettings& settings)
 {
-    return playbackSettingsJson({{}, settings}).dump(2) + "\n";
+    return playbackSettingsJson({{}, settings, {}}).dump(2) + "\n";
 }
 
 Result<CharacterSettings> readCharacterSettings(const std::filesystem::path& path)
@@ -116,9 +156,26 @@ Result<CharacterSettings> readCharacterSettings(const std::filesystem::path& pat
     const auto settings = readSettingsFile(path);
     if (!settings)
         return settings.error();
-    if (!settings->playback.character)
-        return Error{ErrorCode::invalidData, "character", "is missing: these are no settings of the character"};
-    return *settings->playback.character;
+    if (settings->playback.character)
+        return *settings->playback.character;
+    if (settings->playback.live)
+        return characterOf(*settings->playback.live);
+    return Error{ErrorCode::invalidData, "character", "is missing: these are no settings of the character"};
+}
+
+std::string liveSettings(const TranslatorParams& params)
+{
+    return playbackSettingsJson({{}, {}, params}).dump(2) + "\n";
+}
+
+Result<TranslatorParams> readLiveSettings(std::string_view text)
+{
+    const auto settings = readSettings(text);
+    if (!settings)
+        return settings.error();
+    if (!settings->playback.live)
+        return Error{ErrorCode::invalidData, "live", "is missing: these are no settings of live parameters"};
+    return *settings->playback.live;
 }
 
 } // namespace pacini

@@ -2,6 +2,7 @@
 
 #include "io/Settings.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace pacini
@@ -30,6 +31,15 @@ nlohmann::ordered_json entryDescriptions(const Table& table)
 }
 } // namespace
 
+CharacterSettings characterOf(const TranslatorParams& params)
+{
+    CharacterSettings character;
+    character.gain = std::clamp(params.intensity, CharacterSettings::leastGain, CharacterSettings::mostGain);
+    character.transposition =
+        std::clamp(params.transposition, -CharacterSettings::mostTransposition, CharacterSettings::mostTransposition);
+    return character;
+}
+
 void readPlaybackSettings(FieldsReader& reader, PlaybackSettings& settings)
 {
     OutputSettings outputs;
@@ -45,6 +55,8 @@ void readPlaybackSettings(FieldsReader& reader, PlaybackSettings& settings)
     reader.optionalObject("character", settings.character,
                           [&](CharacterSettings& character)
                           { readParametersOf(reader, characterParameters, character); });
+    reader.optionalObject("live", settings.live,
+                          [&](TranslatorParams& params) { readParametersOf(reader, translatorParameters, params); });
 }
 
 nlohmann::ordered_json playbackSettingsJson(const PlaybackSettings& settings)
@@ -62,6 +74,8 @@ nlohmann::ordered_json playbackSettingsJson(const PlaybackSettings& settings)
     }
     if (settings.character)
         document["character"] = entriesOf(characterParameters, *settings.character);
+    if (settings.live)
+        document["live"] = entriesOf(translatorParameters, *settings.live);
     return document;
 }
 
@@ -72,7 +86,8 @@ nlohmann::ordered_json playbackDescriptionsJson()
     return {{"pan", entryDescriptions(panParameters)},
             {"outputs", outputs},
             {"most", OutputSettings::most},
-            {"character", entryDescriptions(characterParameters)}};
+            {"character", entryDescriptions(characterParameters)},
+            {"live", descriptionsJson(infosOf(translatorParameters))}};
 }
 
 } // namespace pacini

@@ -1,11 +1,13 @@
 #pragma once
 
-// Parts of settings files that say how clips are played: haptic outputs and live character.
+// Parts of settings files that say how clips are played, haptic outputs and live character, and how a sound is
+// translated while it plays.
 
 #include "io/GivenParameters.h"
 #include "io/SceneFields.h"
 
 #include <pacini/foundation/Description.h>
+#include <pacini/realtime/TranslatorParams.h>
 #include <pacini/synthesis/PanLaw.h>
 
 #include <nlohmann/json.hpp>
@@ -137,21 +139,26 @@ inline constexpr std::array panParameters{
         return pan;
     }()};
 
-/// Parts of a settings document that say how clips are played; none where the document has none.
+/// The character that plays clips as live parameters play a sound, as far as there is one: gain and transposition,
+/// within their ranges.
+[[nodiscard]] CharacterSettings characterOf(const TranslatorParams& params);
+
+/// Parts of a settings document that say how something is played; none where the document has none.
 struct PlaybackSettings
 {
     std::optional<OutputSettings> outputs;
     std::optional<CharacterSettings> character;
+    std::optional<TranslatorParams> live; ///< entries by translatorParameters
     bool operator==(const PlaybackSettings&) const = default;
 };
 
-/// The entries `pan`, `outputs` and `character` of a settings document; errors are stored in the reader.
+/// The entries `pan`, `outputs`, `character` and `live` of a settings document; errors are stored in the reader.
 void readPlaybackSettings(FieldsReader& reader, PlaybackSettings& settings);
 
 /// A settings document with these entries.
 [[nodiscard]] nlohmann::ordered_json playbackSettingsJson(const PlaybackSettings& settings);
 
-/// Descriptions of `pan`, of the entries of `outputs` and of those of `character`.
+/// Descriptions of `pan`, and of the entries of `outputs`, `character` and `live`.
 [[nodiscard]] nlohmann::ordered_json playbackDescriptionsJson();
 
 } // namespace pacini

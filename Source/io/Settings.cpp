@@ -91,7 +91,7 @@ void readSettingsFields(FieldsReader& reader, Settings& settings)
     reader.object("export", settings.exporting, Need::optional,
                   [&](GivenParameters& into) { readParameters(reader, exportParameterInfos(), into); });
 #if PACINI_PLAYBACK_PASSED_OVER // on the web page, which is loaded for this and plays otherwise
-    for (const char* name : {"pan", "outputs", "character"})
+    for (const char* name : {"pan", "outputs", "character", "live"})
         reader.passOver(name);
 #else
     readPlaybackSettings(reader, settings.playback);

@@ -29,7 +29,7 @@ struct Settings
     GivenParameters encode;
     GivenParameters exporting; ///< part `export`
     bool hasEncode = false;    ///< the document has a part `encode`
-    PlaybackSettings playback; ///< parts `pan`, `outputs` and `character`
+    PlaybackSettings playback; ///< parts `pan`, `outputs`, `character` and `live`
 };
 
 /// The method of this name, a2vt where it is empty. Errors: invalidArgument, with the nearest name.

@@ -150,6 +150,8 @@ TEST_CASE("Parts that say how clips are played come back, are no unknown keys, a
     PlaybackSettings wanted;
     wanted.outputs = OutputSettings{{{2, "", -3.5, 0.0, 0.0}, {-1, "erm-coin", 0.0, 0.012, 0.75}}, PanLaw::delay};
     wanted.character = CharacterSettings{-6.5, 0.7, 7.0, 0.5};
+    wanted.live.emplace().attack = 12.5;
+    wanted.live->texture = {-6.25, true};
     auto document = playbackSettingsJson(wanted);
     ReadWarnings strict(true);
     const auto read = readSettings(document.dump(), &strict);
@@ -174,6 +176,8 @@ TEST_CASE("Parts that say how clips are played come back, are no unknown keys, a
           "pan: must be off, constantPower, delay or both, not 'dealy'; did you mean delay?");
     CHECK(message(R"("character": {"speed": 9})") == "character.speed: must be 0.25 to 4");
     CHECK(message(R"("character": [])") == "character: must be an object in braces");
+    CHECK(message(R"("live": {"attack": 201})") == "live.attack: must be 0 to 200 ms");
+    CHECK(message(R"("live": {"textureMuted": 1})") == "live.textureMuted: must be true or false");
 
     // The schema has all that is written.
     const auto schema = nlohmann::json::parse(
@@ -185,6 +189,8 @@ TEST_CASE("Parts that say how clips are played come back, are no unknown keys, a
         CHECK(properties["outputs"]["items"]["properties"].contains(name));
     for (const auto& [name, entry] : document["character"].items())
         CHECK(properties["character"]["properties"].contains(name));
+    for (const auto& [name, entry] : document["live"].items())
+        CHECK(properties["live"]["properties"].contains(name));
 }
 
 TEST_CASE("Exports take what changes something in their format, within one range", "[settings][formats]")

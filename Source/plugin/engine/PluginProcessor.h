@@ -9,7 +9,6 @@
 #include "plugin/engine/PluginState.h"
 #include "plugin/engine/SetupWorker.h"
 #include "plugin/engine/TableParameter.h"
-#include "plugin/engine/UserPresets.h"
 
 #include <juce_audio_processors/juce_audio_processors.h>
 

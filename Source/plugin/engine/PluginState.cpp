@@ -3,7 +3,7 @@
 
 #include "io/JsonTree.h"
 #include "io/ProfileJson.h"
-#include "plugin/engine/UserPresets.h"
+#include "io/Settings.h"
 
 #include <pacini/foundation/Clamp.h>
 
@@ -68,7 +68,7 @@ void readSettings(const Json& tree, PluginSettings& settings, std::string& note)
         readValues(*named, settings.values, note);
     settings.preset.program = sizeOf(tree, "program");
     if (const auto user = tree.find("preset"); user != tree.end() && user->is_string())
-        if (auto name = user->get<std::string>(); name.size() <= UserPresets::longestName)
+        if (auto name = user->get<std::string>(); name.size() <= SettingsPresets::longestName)
             settings.preset.user = std::move(name);
     const auto readContent = [&note](const Json& from, const std::string& name, const std::string& what)
     {
@@ -155,28 +155,34 @@ Result<ReadState> readState(std::string_view text)
     return read;
 }
 
-std::string presetText(const TranslatorParams& params)
-{
-    ParameterValues values;
-    values.setTranslator(params);
-    Json tree;
-    tree["format"] = stateFormatName;
-    tree["version"] = stateFormatVersion;
-    Json& named = tree["parameters"];
-    for (const ParameterRow& row : parameterTable)
-        if (isOfTranslator(row))
-            named[row.id] = values[row.parameter];
-    return tree.dump(2) + "\n";
-}
-
 Result<TranslatorParams> readPreset(std::string_view text)
 {
+    const auto tree = readJsonTree(text, largestSettingsText);
+    if (!tree)
+        return tree.error();
+    if (!tree->is_object() || tree->value("format", Json()) != Json(stateFormatName))
+        return readLiveSettings(text);
     const auto read = readState(text);
     if (!read)
         return read.error();
     if (!read->note.empty())
         return Error{ErrorCode::invalidData, "parameters", read->note};
     return read->state.values.translator();
+}
+
+PresetListing presetsIn(const SettingsPresets& files)
+{
+    PresetListing found;
+    found.broken = files.misnamed();
+    for (std::string& name : files.names())
+    {
+        const auto text = files.text(name);
+        if (const auto params = text ? readPreset(*text) : Result<TranslatorParams>(text.error()))
+            found.presets.push_back({std::move(name), *params});
+        else
+            found.broken.push_back({params.error().code, name + ".json", params.error().text()});
+    }
+    return found;
 }
 
 } // namespace pacini::plugin

@@ -3,6 +3,7 @@
 
 // Plugin state: what a host's session keeps of the plugin, as JSON.
 
+#include "document/SettingsPresets.h"
 #include "plugin/engine/EditHistory.h"
 #include "plugin/engine/ParameterValues.h"
 
@@ -13,6 +14,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace pacini::plugin
 {
@@ -73,11 +75,24 @@ struct ReadState
 /// then.
 [[nodiscard]] Result<ReadState> readState(std::string_view text);
 
-/// A preset of a user: a state that names the translator's parameters only.
-[[nodiscard]] std::string presetText(const TranslatorParams& params);
+/// A preset of the user; as the shipped ones it leaves routing, actuators and bypass as they are.
+struct UserPreset
+{
+    std::string name;
+    TranslatorParams params;
+};
 
-/// The translator's part of a state, of a preset or of a whole session. Errors as in readState(), and invalidData for
-/// one with defects: a preset is used as a whole or not at all.
+/// The live parameters in a settings file, see readLiveSettings(), or in a state, which presets of earlier versions
+/// and whole sessions are. Errors as there and in readState(), and invalidData for a state with defects: a preset is
+/// used as a whole or not at all.
 [[nodiscard]] Result<TranslatorParams> readPreset(std::string_view text);
+
+/// Presets in a folder.
+struct PresetListing
+{
+    std::vector<UserPreset> presets; ///< by name
+    std::vector<Error> broken;       ///< files that cannot be used, `where` their names
+};
+[[nodiscard]] PresetListing presetsIn(const SettingsPresets& files);
 
 } // namespace pacini::plugin

@@ -37,7 +37,7 @@ PresetBox::PresetBox(Plugin& wanted, std::function<void(std::unique_ptr<editor::
 
 void PresetBox::reload()
 {
-    listing = files.list();
+    listing = presetsIn(files);
     clear(juce::dontSendNotification);
     for (int i = 0; i < processor.getNumPrograms(); ++i)
         addItem(nameOf(i + 1), i + 1);
@@ -104,7 +104,11 @@ PresetBox::Shown PresetBox::now() const
     const auto found = std::find_if(listing.presets.begin(), listing.presets.end(),
                                     [&](const UserPreset& each) { return each.name == choice.user; });
     if (!choice.user.empty() && found != listing.presets.end())
-        return {userIds + static_cast<int>(found - listing.presets.begin()), params != found->params};
+    {
+        ParameterValues values; // without the bypass, which a preset leaves as it is
+        values.setTranslator(found->params);
+        return {userIds + static_cast<int>(found - listing.presets.begin()), params != values.translator()};
+    }
     const auto program = static_cast<std::size_t>(choice.program);
     return {choice.program + 1, params != translatorPresets()[program].params};
 }
@@ -164,7 +168,8 @@ void PresetBox::save()
 
 void PresetBox::write(const juce::String& name, bool replace)
 {
-    if (const auto saved = files.save(name.toStdString(), processor.values().translator(), replace); !saved)
+    if (const auto saved = files.save(name.toStdString(), liveSettings(processor.values().translator()), replace);
+        !saved)
         return tell(tr("Preset not saved"), saved.error());
     processor.noteSavedPreset(name.toStdString());
     reload();

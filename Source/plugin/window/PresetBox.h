@@ -3,8 +3,8 @@
 
 // Menu of the presets: the shipped ones, the user's own, saving and deleting.
 
+#include "document/SettingsPresets.h"
 #include "editor/clip/sheets/SheetOver.h"
-#include "plugin/engine/UserPresets.h"
 #include "plugin/window/Plugin.h"
 
 #include <juce_gui_basics/juce_gui_basics.h>
@@ -50,8 +50,8 @@ private:
 
     Plugin& processor;
     std::function<void(std::unique_ptr<editor::Sheet>)> ask;
-    UserPresets files;
-    UserPresets::Listing listing;
+    SettingsPresets files;
+    PresetListing listing;
     Shown shown;
 };
 

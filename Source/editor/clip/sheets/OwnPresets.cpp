@@ -8,7 +8,6 @@
 #include "editor/clip/sheets/NameSheet.h"
 
 #include <memory>
-#include <system_error>
 #include <utility>
 
 namespace pacini::editor
@@ -225,8 +224,7 @@ void OwnPresets::open(const std::filesystem::path& file, const juce::String& nam
 
 void OwnPresets::saveAs(const juce::String& name)
 {
-    std::error_code unknown;
-    if (!std::filesystem::exists(files.pathOf(name.toStdString()), unknown))
+    if (!files.exists(name.toStdString()))
         return write(name, false);
     view.ask(std::make_unique<MessageSheet>(
         tr("Replace the preset {0}?", {name}), "There is a preset of this name.",
