@@ -26,7 +26,7 @@ for _, track in ipairs(tracks) do
 end
 Session:maybe_enable_record(true)
 Session:request_roll(ARDOUR.TransportRequestSource.TRS_UI)
-sleep(4)
+sleep(6)
 Session:request_stop(false, false, ARDOUR.TransportRequestSource.TRS_UI)
 sleep(2)
 Session:disable_record(false, false)
