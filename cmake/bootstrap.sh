@@ -23,7 +23,7 @@ build_packages=(g++ cmake ninja-build ccache pkg-config nlohmann-json3-dev libfm
 # The plugin, the hosts that it is tried in, and a game controller that does not exist.
 plugin_packages=(juce-modules-source libjack-jackd2-dev fonts-roboto-unhinted fonts-dejavu-core)
 host_packages=(python3-venv python3-dev liblilv-dev lv2-dev xvfb xauth xdotool imagemagick x11-utils jackd2 jack-tools ardour
-    qtractor umockdev gir1.2-umockdev-1.0 python3-gi pulseaudio pulseaudio-utils)
+    jalv qtractor umockdev gir1.2-umockdev-1.0 python3-gi pulseaudio pulseaudio-utils)
 # The Debian package, and the bare root that it is tried in.
 package_packages=(dpkg-dev file)
 # What makes the packages for Rust and Node.js, and tells the commit.
