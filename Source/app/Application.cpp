@@ -6,6 +6,7 @@
 #include "app/Display.h"
 #include "app/Settings.h"
 #include "app/StandaloneWindow.h"
+#include "editor/LanguageProblem.h"
 #include "editor/Translation.h"
 #include "io/SoundLibraryCall.h"
 
@@ -40,6 +41,7 @@ public:
         if (!choices.fresh)
             settings = std::make_unique<juce::PropertiesFile>(settingsOptions());
         editor::useLanguage({});
+        editor::tellLanguageProblem("Pacini");
         processor = std::make_unique<plugin::Plugin>();
         rig = std::make_unique<AudioDevices>(*processor);
         Routing routing;

@@ -143,9 +143,19 @@ bool hasEmbeddedFont() noexcept
     return PACINI_EMBEDDED_FONT != 0;
 }
 
+namespace
+{
+std::optional<bool> assumedJapanese;
+}
+
+void assumeJapaneseFont(std::optional<bool> there)
+{
+    assumedJapanese = there;
+}
+
 bool findJapaneseFont()
 {
-    return japaneseFont().isThere();
+    return assumedJapanese.value_or(japaneseFont().isThere());
 }
 
 void useFontOf(const juce::String& language)

@@ -5,6 +5,8 @@
 
 #include <juce_gui_basics/juce_gui_basics.h>
 
+#include <optional>
+
 namespace pacini::editor
 {
 
@@ -17,6 +19,9 @@ void installFonts();
 
 /// Whether this system has a font with the characters of Japanese.
 [[nodiscard]] bool findJapaneseFont();
+
+/// For tests: whether there is one, whatever is installed; as it is from nothing on. [message]
+void assumeJapaneseFont(std::optional<bool> there);
 
 /// Fonts from now on suit this language: Japanese is set in its own font as a whole. [message]
 void useFontOf(const juce::String& language);

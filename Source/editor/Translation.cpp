@@ -41,6 +41,12 @@ struct Table
     std::vector<Template> templates;
 };
 
+juce::String& askedFor()
+{
+    static juce::String code;
+    return code;
+}
+
 Table& tableNow()
 {
     static Table table;
@@ -114,9 +120,9 @@ juce::String textOfFile(const juce::String& code)
     return {};
 }
 
-/// The code of the system's language, perhaps with more behind it. On Linux JUCE has the English name of the locale's
+/// The code of the system's language with more behind it. On Linux JUCE has the English name of the locale's
 /// language, of which "Ge" is left.
-juce::String systemLanguage()
+juce::String systemLocale()
 {
 #if JUCE_LINUX || JUCE_BSD
     for (const char* name : {"LC_ALL", "LC_MESSAGES", "LANG"})
@@ -182,12 +188,23 @@ void useTranslations(const juce::String& text)
 
 void useLanguage(const juce::String& code)
 {
-    const auto wanted = (code.isNotEmpty() ? code : systemLanguage()).substring(0, 2).toLowerCase();
+    askedFor() = code;
+    const auto wanted = code.isNotEmpty() ? code.substring(0, 2).toLowerCase() : systemLanguage();
     const juce::String text = canShow(wanted) ? textOfFile(wanted) : juce::String();
     useTranslations(text);
     if (text.isNotEmpty())
         tableNow().code = wanted;
     useFontOf(tableNow().code);
+}
+
+juce::String languageAskedFor()
+{
+    return askedFor();
+}
+
+juce::String systemLanguage()
+{
+    return systemLocale().substring(0, 2).toLowerCase();
 }
 
 juce::String languageInUse()

@@ -21,8 +21,14 @@ namespace pacini::editor
 [[nodiscard]] bool canShow(const juce::String& code);
 
 /// From now on: the language with this code, "en" for none, or the system's when it is empty. English when no font can
-/// show it. Windows that are open stay as they are. [message]
+/// show it, which LanguageProblem.h tells. Windows that are open stay as they are. [message]
 void useLanguage(const juce::String& code);
+
+/// The code that useLanguage() was last given; empty: the system's language.
+[[nodiscard]] juce::String languageAskedFor();
+
+/// The code that the system's language begins with, of which there may be no texts.
+[[nodiscard]] juce::String systemLanguage();
 
 /// The same with a table as the files of Resources/translations have it.
 void useTranslations(const juce::String& table);

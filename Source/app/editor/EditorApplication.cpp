@@ -10,6 +10,7 @@
 #include "app/editor/EditorWindow.h"
 #include "app/editor/PreviewDevices.h"
 #include "app/editor/StudyWindow.h"
+#include "editor/LanguageProblem.h"
 #include "editor/Text.h"
 #include "editor/Translation.h"
 #include "io/ProfileFile.h"
@@ -102,12 +103,14 @@ public:
         if (!options.study.empty())
         {
             editor::useLanguage(language);
+            editor::tellLanguageProblem("PaciniEditor");
             return runStudyAlone(absolute(options.study), editor::toText(options.deviceType), options.fullScreen,
                                  std::move(profiles));
         }
         session = std::make_unique<editor::Session>(folders, std::move(profiles));
         openDevices(editor::toText(options.deviceType));
         editor::useLanguage(language);
+        editor::tellLanguageProblem("PaciniEditor");
         window = std::make_unique<EditorWindow>(*session, *rig, hostServices(home, options));
         auto& view = window->view();
         const bool firstRun = settings && settings->isFirstRun();

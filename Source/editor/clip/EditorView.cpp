@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/clip/EditorView.h"
 
+#include "editor/LanguageProblem.h"
 #include "editor/Text.h"
 #include "editor/Translation.h"
 #include "editor/clip/commands/ContextMenu.h"
@@ -127,6 +128,11 @@ EditorView::EditorView(Session& shared, HostServices around)
         notice.show(tr("Nothing is spoken: spd-say is missing. Install the package speech-dispatcher."));
     };
     translateTexts(body);
+    if (const auto problem = languageProblem(); problem.isNotEmpty())
+    {
+        notice.showAdvice(problem);
+        speak(problem);
+    }
     subscriptions.on({&open.model.contentChanged, &open.model.projectChanged, &open.sounds.workChanged},
                      [this] { arrange(); });
     subscriptions.on({&open.outputs.changed}, [this] { resized(); });

@@ -13,7 +13,7 @@ namespace pacini::editor
 
 namespace
 {
-constexpr int shownFor = 6000, shownWithButtonFor = 15000; // ms
+constexpr int shownFor = 6000, shownWithButtonFor = 15000, advisedFor = 30000; // ms
 constexpr int folderWidth = 18 * grid;
 } // namespace
 
@@ -32,6 +32,12 @@ void NoticeBar::show(const juce::String& text)
 {
     folderButton.setVisible(false);
     tell(text, shownFor);
+}
+
+void NoticeBar::showAdvice(const juce::String& text)
+{
+    folderButton.setVisible(false);
+    tell(text, advisedFor);
 }
 
 void NoticeBar::showWritten(const std::vector<std::filesystem::path>& files)

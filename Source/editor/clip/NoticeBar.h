@@ -17,6 +17,8 @@ public:
     NoticeBar();
 
     void show(const juce::String& text);
+    /// The same for longer: there is something to do.
+    void showAdvice(const juce::String& text);
     /// What was written, with a button that shows where.
     void showWritten(const std::vector<std::filesystem::path>& files);
     [[nodiscard]] const juce::String& text() const noexcept { return words; }

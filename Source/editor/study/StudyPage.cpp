@@ -2,6 +2,7 @@
 #include "editor/study/StudyPage.h"
 
 #include "editor/ActuatorItem.h"
+#include "editor/LanguageProblem.h"
 #include "editor/Text.h"
 #include "editor/Translation.h"
 #include "io/ProfileFile.h"
@@ -236,10 +237,15 @@ void StudyPage::addLanguageBox()
     {
         juce::StringArray shown;
         for (const auto& code : codes)
-            shown.add(languageName(code));
+            shown.add(languageChoice(code));
         const int selected = std::max(0, codes.indexOf(language));
         language = codes[selected];
-        addBox(tr("Language"), shown, selected, [this, codes](int index) { language = codes[index]; });
+        addBox(tr("Language"), shown, selected,
+               [this, codes](int index)
+               {
+                   language = codes[index];
+                   status.setText(missingFont(language));
+               });
     }
 }
 
@@ -337,6 +343,8 @@ void StudyPage::buildSetUp()
         status.setText(tr("No audio device is open."));
     else if (!measured)
         status.setText(toText(measured.error().text()));
+    else
+        status.setText(programLanguage == language ? languageProblem() : missingFont(language));
 }
 
 void StudyPage::buildDelay()

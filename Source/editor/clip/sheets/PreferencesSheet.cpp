@@ -2,6 +2,7 @@
 #include "editor/clip/sheets/PreferencesSheet.h"
 
 #include "editor/Controls.h"
+#include "editor/LanguageProblem.h"
 #include "editor/Text.h"
 #include "editor/Theme.h"
 #include "editor/Translation.h"
@@ -116,13 +117,24 @@ void PreferencesSheet::addLanguages()
     for (const auto& code : languages())
     {
         codes.add(code);
-        names.add(canShow(code) ? languageName(code) : tr("{0} (needs a font)", {juce::String("Japanese")}));
+        names.add(languageChoice(code));
     }
     codes.add({});
     names.add("System default");
     addChoice("Language", "Interface language; takes effect at the next start", names,
               std::max(0, codes.indexOf(view.hostServices().language)),
-              [this, codes](int i) { view.hostServices().chooseLanguage(codes[i]); });
+              [this, codes](int i)
+              {
+                  view.hostServices().chooseLanguage(codes[i]);
+                  lack.setText(missingFont(codes[i].isEmpty() ? systemLanguage() : codes[i]),
+                               juce::dontSendNotification);
+                  resized();
+              });
+    lack.setFont(smallFont());
+    lack.setTitle("Language");
+    addAndMakeVisible(lack);
+    lack.setText(missingFont(languageAskedFor().isEmpty() ? systemLanguage() : languageAskedFor()),
+                 juce::dontSendNotification);
 }
 
 void PreferencesSheet::add(const juce::String& name, std::unique_ptr<juce::Component> control)
@@ -166,6 +178,10 @@ void PreferencesSheet::addSwitch(const juce::String& name, const juce::String& h
 
 void PreferencesSheet::layOut(juce::Rectangle<int> area)
 {
+    if (lack.getText().isNotEmpty())
+        lack.setBounds(area.removeFromBottom(4 * grid));
+    else
+        lack.setBounds({});
     const int step = std::min(preferenceRowHeight + grid / 2, area.getHeight() / static_cast<int>(rows.size()));
     for (const auto& row : rows)
     {

@@ -40,6 +40,7 @@ private:
 
     EditorView& view;
     std::vector<std::unique_ptr<Row>> rows;
+    juce::Label lack; ///< what the language needs before it is shown
 };
 
 } // namespace pacini::editor
