@@ -2,6 +2,7 @@
 #include "plugin/window/PluginWindow.h"
 
 #include "editor/Controls.h"
+#include "editor/LanguageProblem.h"
 #include "editor/Text.h"
 #include "editor/Translation.h"
 #include "editor/clip/commands/KeyText.h"
@@ -85,6 +86,7 @@ PluginWindow::PluginWindow(Plugin& shown)
     : AudioProcessorEditor(shown),
       processor(shown),
       tooltips(this, 600),
+      languageNote(editor::languageProblem()),
       settings(shown.userFolder()),
       presets(shown, [this](std::unique_ptr<editor::Sheet> sheet) { ask(std::move(sheet)); }),
       inputMeter("Input", "Peak of the input sound", {.low = -60.0f, .high = 6.0f, .warnAbove = 0.0f}),
@@ -453,6 +455,8 @@ juce::String PluginWindow::statusText() const
         return editor::translateMessage(note);
     if (processor.isBypassedByHost())
         return editor::tr("Bypassed by the host");
+    if (languageNote.isNotEmpty())
+        return languageNote;
     const double milliseconds = 1000.0 * processor.latency() / processor.sampleRate();
     return editor::tr("{0}, latency {1} ms, load {2} %",
                       {editor::tr(processor.actuatorName()), editor::numberText(milliseconds, 2),

@@ -87,6 +87,7 @@ private:
     Plugin& processor;
     editor::Look look;
     juce::TooltipWindow tooltips;
+    const juce::String languageNote; ///< see languageProblem(), of the time when all texts were set
     std::vector<editor::Refreshed*> refreshed;
     int focusOrder = 0;
 
