@@ -104,6 +104,25 @@ inline void prepareLabel(juce::Label& label, const juce::String& text, const juc
     return std::max(least, font.getStringWidth(button.getButtonText()) + 24);
 }
 
+/// The width of a menu that shows all of each item.
+[[nodiscard]] inline int boxWidth(juce::ComboBox& box)
+{
+    const auto font = box.getLookAndFeel().getComboBoxFont(box);
+    int widest = 0;
+    for (int i = 0; i < box.getNumItems(); ++i)
+        widest = std::max(widest, font.getStringWidth(box.getItemText(i)));
+    return widest + 32; // the arrow and both ends
+}
+
+/// A menu and its name on one line; the menu alone where its items leave no room for the name.
+inline void placeNamed(juce::Label& name, int nameWidth, juce::ComboBox& box, juce::Rectangle<int> line)
+{
+    const bool room = boxWidth(box) <= line.getWidth() - nameWidth;
+    name.setVisible(room);
+    name.setBounds(room ? line.removeFromLeft(nameWidth) : juce::Rectangle<int>());
+    box.setBounds(line);
+}
+
 /// The width of a column of labels that shows all of their texts, `least` to `most`.
 [[nodiscard]] inline int labelsWidth(std::initializer_list<const juce::Label*> labels, int least, int most)
 {

@@ -188,4 +188,12 @@ juce::Font titleFont()
     return fontOf(type::title, juce::Font::bold);
 }
 
+juce::Font fittingFont(const juce::String& text, int width, std::initializer_list<juce::Font> fonts)
+{
+    for (const juce::Font& font : fonts)
+        if (font.getStringWidth(text) <= width)
+            return font;
+    return *(fonts.end() - 1);
+}
+
 } // namespace pacini::editor

@@ -5,6 +5,7 @@
 
 #include <juce_gui_basics/juce_gui_basics.h>
 
+#include <initializer_list>
 #include <optional>
 
 namespace pacini::editor
@@ -34,5 +35,8 @@ void useFontOf(const juce::String& language);
 [[nodiscard]] juce::Font smallFont();
 [[nodiscard]] juce::Font usualFont();
 [[nodiscard]] juce::Font titleFont();
+
+/// The first of some fonts, the largest first, in which a text is no wider than that; the last where none is.
+[[nodiscard]] juce::Font fittingFont(const juce::String& text, int width, std::initializer_list<juce::Font> fonts);
 
 } // namespace pacini::editor

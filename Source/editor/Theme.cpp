@@ -286,7 +286,7 @@ void Look::drawButtonText(juce::Graphics& g, juce::TextButton& button, bool high
     g.setColour(coloursOf(button, palette(), highlighted, down).text);
     const auto area = button.getLocalBounds().reduced(grid / 2, 0);
     // In less type before it is cut.
-    g.setFont(usualFont().getStringWidth(button.getButtonText()) <= area.getWidth() ? usualFont() : smallFont());
+    g.setFont(fittingFont(button.getButtonText(), area.getWidth(), {usualFont(), smallFont()}));
     g.drawText(button.getButtonText(), area, juce::Justification::centred, true);
 }
 
@@ -349,7 +349,7 @@ void Look::positionComboBoxText(juce::ComboBox& box, juce::Label& label)
 void Look::drawComboBoxTextWhenNothingSelected(juce::Graphics& g, juce::ComboBox& box, juce::Label& label)
 {
     g.setColour(palette().dim.withMultipliedAlpha(box.isEnabled() ? 1.0f : disabledAlpha));
-    g.setFont(getComboBoxFont(box));
+    g.setFont(fittingFont(box.getTextWhenNothingSelected(), label.getWidth(), {getComboBoxFont(box), smallFont()}));
     g.drawText(box.getTextWhenNothingSelected(), label.getBounds(), juce::Justification::centredLeft, true);
 }
 
@@ -556,9 +556,10 @@ void Look::drawLabel(juce::Graphics& g, juce::Label& label)
         return;
     g.fillAll(label.findColour(juce::Label::backgroundColourId));
     g.setColour(label.findColour(juce::Label::textColourId).withMultipliedAlpha(label.isEnabled() ? 1.0f : 0.6f));
-    const juce::Font font = getLabelFont(label);
-    // The text of a menu has one line, however tall its box is.
+    // The text of a menu has one line, however tall its box is, in less type before it is cut.
     const bool ofBox = dynamic_cast<const juce::ComboBox*>(label.getParentComponent()) != nullptr;
+    const juce::Font font =
+        ofBox ? fittingFont(label.getText(), label.getWidth(), {label.getFont(), smallFont()}) : getLabelFont(label);
     const int lines = ofBox ? 1 : std::max(1, label.getHeight() / juce::roundToInt(font.getHeight()));
     g.setFont(font);
     g.drawFittedText(label.getText(), label.getLocalBounds(), label.getJustificationType(), lines);

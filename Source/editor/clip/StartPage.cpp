@@ -393,8 +393,9 @@ void StartPage::paint(juce::Graphics& g)
     if (drop.getHeight() < dropHeight)
         text.translate(0, -grid);
     g.setColour(p.text);
-    g.setFont(titleFont());
-    g.drawFittedText(tr("Drop a sound or a clip here"), text.removeFromTop(4 * grid), juce::Justification::centred, 1);
+    const auto invitation = tr("Drop a sound or a clip here");
+    g.setFont(fittingFont(invitation, text.getWidth(), {titleFont(), usualFont().boldened()}));
+    g.drawFittedText(invitation, text.removeFromTop(4 * grid), juce::Justification::centred, 1);
     g.setColour(p.dim);
     g.setFont(smallFont());
     g.drawFittedText(tr("It becomes curves and events to shape, feel and export."), text.removeFromTop(4 * grid),

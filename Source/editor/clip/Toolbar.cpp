@@ -18,6 +18,7 @@ constexpr int plainDrive = 1; // menus know no item 0; profiles follow
 constexpr int fromFile = 100000;
 constexpr int sliderWidth = 124;
 constexpr int iconWidth = 34, playWidth = 52;
+constexpr int leastClips = 104, mostActuatorLeast = 200;
 constexpr int leastHeard = 76, mostHeard = 140, leastLabel = 28;
 constexpr int leastMenus = 240;   // of the three menus together: with less, the zoom is left out
 constexpr int leastChoices = 300; // of the three menus together: with less, labels are left out
@@ -215,10 +216,18 @@ void Toolbar::resized()
     int labels = 4 * 4;
     for (const juce::Label* label : {&clipLabel, &heardLabel, &profileLabel, &strengthLabel})
         labels += widthOf(*label);
-    const bool labelled = rest - labels >= leastChoices;
+    // What an actuator is called is shown before labels are, in less type where need be.
+    int actuatorLeast = 0;
+    for (int i = 0; i < profile.getNumItems(); ++i)
+        actuatorLeast = std::max(actuatorLeast, smallFont().getStringWidth(profile.getItemText(i)) + 4 * grid);
+    const bool labelled =
+        rest - labels >= std::max(leastChoices, leastHeard + leastClips + std::min(actuatorLeast, mostActuatorLeast));
     rest = std::max(leastHeard, labelled ? rest - labels : rest);
     const int heardNow = std::clamp(rest * 22 / 100, leastHeard, mostHeard);
-    const int clipsNow = std::min(space::widestBox, (rest - heardNow) * 2 / 5);
+    // Names of clips are cut before those of actuators are.
+    const int actuatorNeeds = std::min(boxWidth(profile), space::widestBox);
+    const int clipsNow = std::clamp(rest - heardNow - actuatorNeeds, leastClips,
+                                    std::max(leastClips, std::min(space::widestBox, (rest - heardNow) * 2 / 5)));
     const auto putLabel = [&](juce::Label& label)
     {
         label.setVisible(labelled);

@@ -209,7 +209,7 @@ void PlotLane::paintHead(juce::Graphics& g)
     const bool technical = viewState.viewOptions().technicalTerms;
     const auto name = tr(technical ? look.name : designerWord(look.name));
     // "1.25 kHz" has the room of "864 Hz" beside buttons.
-    g.setFont(usualFont().getStringWidth(name) <= text.getWidth() ? usualFont() : smallFont());
+    g.setFont(fittingFont(name, text.getWidth(), {usualFont(), smallFont(), captionFont()}));
     g.drawFittedText(name, two ? text.removeFromTop(nameHeight) : text, juce::Justification::centredLeft, 1);
     if (!two)
         return;

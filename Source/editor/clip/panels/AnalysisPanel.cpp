@@ -395,8 +395,7 @@ void AnalysisPanel::resized()
         return next;
     };
     line = row();
-    presetLabel.setBounds(line.removeFromLeft(labels));
-    preset.setBounds(line);
+    placeNamed(presetLabel, labels, preset, line);
     for (const Which which : {bands, low, high})
     {
         line = row();
@@ -404,8 +403,7 @@ void AnalysisPanel::resized()
         knob(which).setBounds(line);
     }
     line = row();
-    spacingLabel.setBounds(line.removeFromLeft(labels));
-    spacing.setBounds(line);
+    placeNamed(spacingLabel, labels, spacing, line);
     for (const Which which : {detail, sensitivity, audible, bits})
     {
         line = row();

@@ -226,10 +226,15 @@ void PlayPanel::resized()
     {
         auto line = from.removeFromTop(playRowHeight);
         from.removeFromTop(grid);
-        label.setBounds(line.removeFromLeft(&control == &preset || &control == &pan ? boxLabels : labels));
+        label.setBounds(line.removeFromLeft(labels));
         control.setBounds(line);
     };
-    put(inside, presetLabel, preset);
+    const auto putBox = [&](juce::Rectangle<int>& from, juce::Label& label, juce::ComboBox& box)
+    {
+        placeNamed(label, boxLabels, box, from.removeFromTop(playRowHeight));
+        from.removeFromTop(grid);
+    };
+    putBox(inside, presetLabel, preset);
     for (Row* row : {&gain, &intensity, &pitch, &speed})
         put(inside, row->label, row->slider);
     auto line = inside.removeFromTop(playRowHeight + 4);
@@ -237,7 +242,7 @@ void PlayPanel::resized()
     inside.removeFromTop(grid);
     note.setBounds(inside);
     inside = insideOfCard(rowCard);
-    put(inside, panLabel, pan);
+    putBox(inside, panLabel, pan);
     put(inside, position.label, position.slider);
 }
 

@@ -15,6 +15,7 @@
 #include <array>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 namespace pacini::editor
 {
@@ -395,40 +396,78 @@ void SceneSheet::write(const std::filesystem::path& file)
     writeAfterAsking({file}, filesOf(session.model.document()), writeIt, ask, failed);
 }
 
+namespace
+{
+struct Placed
+{
+    juce::Component* one;
+    int width;
+    bool staysWithNext = false; ///< a name, which is on the line of what it names
+};
+
+/// Puts controls side by side, on as many lines as they need. Returns the lines; with `measureOnly` nothing moves.
+int placeInLines(const std::vector<Placed>& all, juce::Rectangle<int> area, bool measureOnly)
+{
+    int x = 0, line = 0;
+    for (std::size_t i = 0; i < all.size(); ++i)
+    {
+        const bool pair = all[i].staysWithNext && i + 1 < all.size();
+        const int needs = all[i].width + (pair ? grid + all[i + 1].width : 0);
+        if (x > 0 && x + needs > area.getWidth())
+        {
+            x = 0;
+            ++line;
+        }
+        if (!measureOnly)
+            all[i].one->setBounds(area.getX() + x, area.getY() + line * controlHeight + 1,
+                                  std::min(all[i].width, area.getWidth() - x), controlHeight - 2);
+        x += all[i].width + grid;
+    }
+    return line + 1;
+}
+} // namespace
+
 void SceneSheet::layOut(juce::Rectangle<int> area)
 {
-    auto row = area.removeFromTop(controlHeight);
-    const auto put = [&row](juce::Component& one, int width)
+    const auto name = [](juce::Label& label)
     {
-        one.setBounds(row.removeFromLeft(width).withSizeKeepingCentre(width, controlHeight - 2));
-        row.removeFromLeft(grid);
+        return Placed{&label, labelsWidth({&label}, 5 * grid, 24 * grid), true};
     };
-    put(playButton, 9 * grid);
-    put(clipsLabel, 8 * grid);
-    put(clips, 24 * grid);
-    put(removeButton, 11 * grid);
-    put(fitButton, 7 * grid);
-    put(actuatorsLabel, 9 * grid);
-    put(actuators, 8 * grid);
-    put(lawLabel, 8 * grid);
-    put(law, 14 * grid);
-    exportButton.setBounds(row.removeFromRight(16 * grid).withSizeKeepingCentre(16 * grid, controlHeight - 2));
-    row.removeFromRight(grid);
-    openButton.setBounds(row.removeFromRight(15 * grid).withSizeKeepingCentre(15 * grid, controlHeight - 2));
+    const auto button = [](juce::TextButton& one, int least)
+    {
+        return Placed{&one, buttonWidth(one, least)};
+    };
+    const auto take = [&area](const std::vector<Placed>& all, bool atFoot)
+    {
+        const int height = controlHeight * placeInLines(all, area, true);
+        placeInLines(all, atFoot ? area.removeFromBottom(height) : area.removeFromTop(height), false);
+    };
+    take({button(playButton, 9 * grid),
+          name(clipsLabel),
+          {&clips, 24 * grid},
+          button(removeButton, 11 * grid),
+          button(fitButton, 7 * grid),
+          name(actuatorsLabel),
+          {&actuators, 8 * grid},
+          name(lawLabel),
+          {&law, std::max(14 * grid, boxWidth(law))},
+          button(openButton, 15 * grid),
+          button(exportButton, 16 * grid)},
+         false);
     area.removeFromTop(grid);
     note.setBounds(area.removeFromBottom(3 * grid));
-    curve.setBounds(area.removeFromBottom(15 * grid));
+    curve.setBounds(area.removeFromBottom(std::min(15 * grid, area.getHeight() / 4)));
     area.removeFromBottom(grid / 2);
-    row = area.removeFromBottom(controlHeight);
-    put(parameterLabel, 6 * grid);
-    put(parameter, 14 * grid);
-    put(valueLabel, 6 * grid);
-    put(value, 26 * grid);
-    put(removeCurveButton, 16 * grid);
-    put(repeatsLabel, 8 * grid);
-    put(repeats, 11 * grid);
-    put(priorityLabel, 8 * grid);
-    put(priority, 18 * grid);
+    take({name(parameterLabel),
+          {&parameter, std::max(14 * grid, boxWidth(parameter))},
+          name(valueLabel),
+          {&value, 26 * grid},
+          button(removeCurveButton, 16 * grid),
+          name(repeatsLabel),
+          {&repeats, 11 * grid},
+          name(priorityLabel),
+          {&priority, 18 * grid}},
+         true);
     area.removeFromBottom(grid / 2);
     line.setBounds(area);
 }

@@ -460,9 +460,11 @@ void ExportSheet::layOut(juce::Rectangle<int> area)
         return line;
     };
     auto line = row(formatLabel);
-    format.setBounds(line.removeFromLeft(std::min(space::widestBox, line.getWidth() / 2)));
+    // What a format is called says what it is, so all of it is shown.
+    const int also = buttonWidth(alsoButton, 18 * grid);
+    format.setBounds(line.removeFromLeft(std::min(boxWidth(format), line.getWidth() - also - grid)));
     line.removeFromLeft(grid);
-    alsoButton.setBounds(line.removeFromLeft(18 * grid));
+    alsoButton.setBounds(line.removeFromLeft(also));
     line = row(rateLabel);
     rate.setBounds(line.removeFromLeft(20 * grid));
     line.removeFromLeft(2 * grid);

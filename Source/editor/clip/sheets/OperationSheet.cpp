@@ -115,6 +115,14 @@ public:
         return field.choices.empty() ? static_cast<juce::Component&>(number) : choice;
     }
 
+    /// The width that the name needs; all rows of a sheet have the same.
+    [[nodiscard]] int nameWidth(int most) const { return labelsWidth({&name}, operationLabelWidth, most); }
+    void setNameWidth(int width)
+    {
+        labelWidth = width;
+        resized();
+    }
+
     const OperationField field;
 
 private:
@@ -147,7 +155,7 @@ private:
     void resized() override
     {
         auto area = getLocalBounds();
-        name.setBounds(area.removeFromLeft(operationLabelWidth));
+        name.setBounds(area.removeFromLeft(labelWidth));
         if (!field.choices.empty())
             return choice.setBounds(area);
         unit.setBounds(area.removeFromRight(unitWidth).withTrimmedLeft(grid / 2));
@@ -157,6 +165,7 @@ private:
         number.applyColourToAllText(paletteFor(*this).text);
     }
 
+    int labelWidth = operationLabelWidth;
     juce::Label name, unit;
     Slider slider;
     juce::TextEditor number;
@@ -312,8 +321,12 @@ void OperationSheet::layOut(juce::Rectangle<int> area)
     scopeLabel.setColour(juce::Label::textColourId, p.dim);
     problem.setColour(juce::Label::textColourId, p.warning);
     scopeLabel.setBounds(area.removeFromTop(textHeight));
+    int labels = operationLabelWidth;
+    for (const auto& row : rows)
+        labels = std::max(labels, row->nameWidth(area.getWidth() / 2));
     for (const auto& row : rows)
     {
+        row->setNameWidth(labels);
         row->setBounds(area.removeFromTop(operationRowHeight));
         area.removeFromTop(grid);
     }
