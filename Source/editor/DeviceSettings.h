@@ -3,6 +3,7 @@
 
 // Choice of the audio device, its rate, buffer and channels, in the look of the other controls.
 
+#include "editor/List.h"
 #include "editor/Theme.h"
 
 #include <juce_audio_utils/juce_audio_utils.h>
@@ -38,7 +39,7 @@ private:
 
     juce::StringArray channels;
     juce::BigInteger inUse;
-    juce::ListBox list{{}, this};
+    List list{{}, this};
 };
 
 /// Every change is taken at once; what a device refuses is said below. [message]

@@ -462,7 +462,8 @@ void Look::fillTextEditorBackground(juce::Graphics& g, int width, int height, ju
 
 void Look::drawTextEditorOutline(juce::Graphics& g, int width, int height, juce::TextEditor& editor)
 {
-    const bool focused = editor.isEnabled() && editor.hasKeyboardFocus(true) && !editor.isReadOnly();
+    const bool focused =
+        editor.isEnabled() && editor.hasKeyboardFocus(true); // what is only read is scrolled by keys, too
     const auto colour =
         editor.findColour(focused ? juce::TextEditor::focusedOutlineColourId : juce::TextEditor::outlineColourId);
     g.setColour(colour.withMultipliedAlpha(editor.isEnabled() ? 1.0f : disabledAlpha));

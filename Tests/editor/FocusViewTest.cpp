@@ -1,9 +1,144 @@
-// The keyboard is always seen: what it reaches is scrolled into view.
+// The keyboard is always seen: each stop of Tab has a ring in both themes and is scrolled into view, and it is never
+// behind a sheet.
 
 #include "editor/Bench.h"
+#include "editor/Pump.h"
+#include "editor/ShownWindow.h"
+
+#include <algorithm>
+#include <initializer_list>
+#include <memory>
+#include <utility>
+#include <vector>
 
 using namespace pacini;
 using namespace pacini::test;
+
+namespace
+{
+juce::Component* focused()
+{
+    return juce::Component::getCurrentlyFocusedComponent();
+}
+
+juce::String nameOf(const juce::Component* component)
+{
+    if (component == nullptr)
+        return "nothing";
+    juce::String name(component->getTitle().isNotEmpty() ? component->getTitle() : component->getName());
+    if (const auto* button = dynamic_cast<const juce::Button*>(component); button != nullptr && name.isEmpty())
+        name = button->getButtonText();
+    for (const auto* at = component->getParentComponent(); at != nullptr && name.length() < 60;
+         at = at->getParentComponent())
+        if (at->getTitle().isNotEmpty())
+            name = at->getTitle() + " / " + name;
+    return name;
+}
+
+/// The pixels of a component and a little around it.
+juce::Image pictureOf(juce::Component& window, const juce::Component& of)
+{
+    const auto area =
+        window.getLocalArea(&of, of.getLocalBounds()).expanded(4).getIntersection(window.getLocalBounds());
+    return window.createComponentSnapshot(area, true, 1.0f);
+}
+
+int differingPixels(const juce::Image& a, const juce::Image& b)
+{
+    if (a.getBounds() != b.getBounds())
+        return 0;
+    int count = 0;
+    for (int y = 0; y < a.getHeight(); ++y)
+        for (int x = 0; x < a.getWidth(); ++x)
+        {
+            const auto p = a.getPixelAt(x, y), q = b.getPixelAt(x, y);
+            const int most = std::max({std::abs(p.getRed() - q.getRed()), std::abs(p.getGreen() - q.getGreen()),
+                                       std::abs(p.getBlue() - q.getBlue())});
+            count += most > 24 ? 1 : 0;
+        }
+    return count;
+}
+
+/// Each stop of Tab from where the keyboard is until it comes round.
+std::vector<juce::Component::SafePointer<juce::Component>> stops()
+{
+    std::vector<juce::Component::SafePointer<juce::Component>> all;
+    for (int i = 0; i < 400; ++i)
+    {
+        auto* now = focused();
+        if (now == nullptr || std::any_of(all.begin(), all.end(), [now](const auto& one) { return one == now; }))
+            break;
+        all.emplace_back(now);
+        now->moveKeyboardFocusToSibling(true);
+    }
+    return all;
+}
+
+/// What can be seen of it is a good part: half of it, or of something long as much as a page shows.
+bool isSeen(const juce::Component& window, const juce::Component& one)
+{
+    auto shown = window.getLocalArea(&one, one.getLocalBounds());
+    for (const auto* at = one.getParentComponent(); at != nullptr && at != &window; at = at->getParentComponent())
+        shown = shown.getIntersection(window.getLocalArea(at, at->getLocalBounds()));
+    shown = shown.getIntersection(window.getLocalBounds());
+    return 2 * shown.getHeight() >= std::min(one.getHeight(), 200) &&
+           2 * shown.getWidth() >= std::min(one.getWidth(), 200);
+}
+
+/// The keyboard goes to the first stop inside.
+void enter(juce::Component& container)
+{
+    const auto traverser = container.createKeyboardFocusTraverser();
+    if (auto* first = traverser->getDefaultComponent(&container))
+        first->grabKeyboardFocus();
+}
+
+/// What is told of stops that nobody sees.
+void addUnseen(juce::Component& window, const juce::String& where, juce::StringArray& found)
+{
+    const int leastRing = 20;
+    const auto all = stops();
+    if (all.empty())
+        found.addIfNotAlreadyThere(where + ": has no stop");
+    for (const auto& stop : all)
+    {
+        if (stop == nullptr)
+            continue;
+        juce::Component& one = *stop.getComponent();
+        one.grabKeyboardFocus();
+        if (focused() != &one)
+            continue; // was disabled meanwhile
+        // JUCE tells of a change of the keyboard a little later.
+        const juce::Component::SafePointer<juce::Component> watched(&one);
+        if (!isSeen(window, one) && !pumpUntil([&] { return watched == nullptr || isSeen(window, *watched); }, 1.0))
+            found.addIfNotAlreadyThere(where + ": out of sight: " + nameOf(&one));
+        if (watched == nullptr)
+            continue;
+        const auto with = pictureOf(window, one);
+        juce::Component::unfocusAllComponents();
+        if (differingPixels(with, pictureOf(window, one)) < leastRing)
+            found.addIfNotAlreadyThere(where + ": no ring: " + nameOf(&one));
+    }
+}
+
+const std::initializer_list<std::pair<const char*, editor::Command>> sheets{{"export", editor::exportClips},
+                                                                            {"shortcuts", editor::shortcuts},
+                                                                            {"preferences", editor::preferences},
+                                                                            {"gain", editor::changeGain},
+                                                                            {"quantise", editor::quantise},
+                                                                            {"humanise", editor::humanise},
+                                                                            {"thin out", editor::thinOut},
+                                                                            {"transpose", editor::transposePitch},
+                                                                            {"stretch", editor::stretch},
+                                                                            {"repeat", editor::repeatClipTimes},
+                                                                            {"measure", editor::measureActuator},
+                                                                            {"new study", editor::newStudy},
+                                                                            {"scene", editor::editScene},
+                                                                            {"palette", editor::searchCommands},
+                                                                            {"comparison", editor::compareWithTheSound},
+                                                                            {"manual", editor::manual},
+                                                                            {"about", editor::about}};
+} // namespace
 
 TEST_CASE("What gets the keyboard below the fold is scrolled into view, and what is in view stays")
 {
@@ -15,16 +150,84 @@ TEST_CASE("What gets the keyboard below the fold is scrolled into view, and what
     auto& first = bench.row({LaneKind::amplitude, bands - 1});
     auto* viewport = last.findParentComponentOfClass<juce::Viewport>();
     REQUIRE(viewport != nullptr);
-    const auto isSeen = [&](const juce::Component& row)
+    const auto isInView = [&](const juce::Component& row)
     {
         return viewport->getLocalBounds().contains(viewport->getLocalArea(&row, row.getLocalBounds()));
     };
-    REQUIRE_FALSE(isSeen(last));
+    REQUIRE_FALSE(isInView(last));
     editor::EditorView::scrollIntoView(last);
-    CHECK(isSeen(last));
+    CHECK(isInView(last));
     const auto place = viewport->getViewPosition();
     editor::EditorView::scrollIntoView(last);
     CHECK(viewport->getViewPosition() == place);
     editor::EditorView::scrollIntoView(first);
-    CHECK(isSeen(first));
+    CHECK(isInView(first));
+}
+
+TEST_CASE("Every stop of Tab is in sight and has a ring, on all pages and sheets, dark and light")
+{
+    juce::StringArray found;
+    for (const bool dark : {true, false})
+    {
+        EditorBench bench({shipped("lra-175")});
+        bench.view.setBounds(0, 0, 1024, 640);
+        bench.view.setDark(dark);
+        ShownWindow window(bench.view);
+        const juce::String theme = dark ? "dark " : "light ";
+        enter(bench.view);
+        addUnseen(window, theme + "start", found);
+        bench.openDemo("drums_tabla_pattern");
+        for (int page = 0; page < bench.view.sidePanel().getNumTabs(); ++page)
+        {
+            bench.view.sidePanel().setCurrentTabIndex(page);
+            enter(bench.view);
+            addUnseen(window, theme + "page " + juce::String(page), found);
+        }
+        for (const auto& [name, command] : sheets)
+        {
+            bench.view.grabKeyboardFocus();
+            if (!bench.view.doCommand(command) || bench.view.sheet() == nullptr)
+                continue;
+            addUnseen(window, theme + name, found);
+            bench.view.showSheet(nullptr);
+        }
+    }
+    INFO(found.joinIntoString("\n"));
+    CHECK(found.isEmpty());
+}
+
+TEST_CASE("A sheet has the keyboard and keeps it, and Escape gives it back to what had it")
+{
+    EditorBench bench({shipped("lra-175")});
+    bench.view.setBounds(0, 0, 1280, 800);
+    ShownWindow window(bench.view);
+    bench.openDemo("drums_tabla_pattern");
+    for (const auto& [name, command] : sheets)
+    {
+        CAPTURE(name);
+        auto& row = bench.row({LaneKind::amplitude, 0});
+        row.grabKeyboardFocus();
+        REQUIRE(focused() == &row);
+        if (!bench.view.doCommand(command) || bench.view.sheet() == nullptr)
+            continue;
+        auto* sheet = bench.view.sheet();
+        CAPTURE(nameOf(focused()));
+        CHECK((focused() == sheet || sheet->isParentOf(focused())));
+        for (const auto& stop : stops())
+        {
+            if (stop == nullptr)
+                continue; // a list that was made anew
+            CAPTURE(nameOf(stop.getComponent()));
+            CHECK((stop.getComponent() == sheet || sheet->isParentOf(stop.getComponent())));
+        }
+        juce::Component* at = focused();
+        bool used = false;
+        for (; at != nullptr && !used; at = at->getParentComponent())
+            used = at->keyPressed(juce::KeyPress(juce::KeyPress::escapeKey));
+        CHECK(used);
+        CHECK(pumpUntil([&] { return bench.view.sheet() == nullptr; }));
+        CAPTURE(nameOf(focused()));
+        CHECK(focused() == &row);
+        bench.view.showSheet(nullptr);
+    }
 }

@@ -48,7 +48,7 @@ NoteBox::NoteBox(const juce::String& name)
     setTitle(name);
     setFont(usualFont());
     setIndents(grid, grid / 2);
-    for (const int id : {backgroundColourId, outlineColourId, focusedOutlineColourId, shadowColourId})
+    for (const int id : {backgroundColourId, outlineColourId, shadowColourId}) // but for the ring
         setColour(id, juce::Colours::transparentBlack);
 }
 

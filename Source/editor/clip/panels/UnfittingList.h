@@ -3,6 +3,7 @@
 
 // List of the hand edits that do not fit the current analysis, each with its reason.
 
+#include "editor/List.h"
 #include "editor/clip/session/Transport.h"
 #include "editor/clip/session/ViewState.h"
 
@@ -43,7 +44,7 @@ private:
     EditorModel& model;
     ViewState& viewState;
     Transport& transport;
-    juce::ListBox list{{}, this};
+    List list{{}, this};
 };
 
 } // namespace pacini::editor

@@ -229,6 +229,7 @@ void SceneCurveLane::paint(juce::Graphics& g)
         g.setFont(smallFont());
         g.drawFittedText(tr("Select a clip of the scene to change it over time"), getLocalBounds(),
                          juce::Justification::centred, 2);
+        drawFocusRing(g, *this, getLocalBounds().toFloat().reduced(1.0f));
         return;
     }
     const SceneRange range = sceneRangeOf(shown);

@@ -3,6 +3,7 @@
 
 // Help dialog: the manual of the editor, compiled in.
 
+#include "editor/List.h"
 #include "editor/clip/sheets/Sheet.h"
 
 #include <juce_gui_basics/juce_gui_basics.h>
@@ -40,7 +41,7 @@ private:
     void show(const Topic& topic);
 
     const std::vector<Topic> chapters = readTopics();
-    juce::ListBox topics;
+    List topics;
     juce::TextEditor text;
 };
 

@@ -3,6 +3,7 @@
 
 // Dialog with all steps of the project, done and undone, to go to any of them.
 
+#include "editor/List.h"
 #include "editor/clip/session/EditorModel.h"
 #include "editor/clip/sheets/Sheet.h"
 
@@ -27,7 +28,7 @@ private:
     void showCurrent();
 
     EditorModel& model;
-    juce::ListBox list{{}, this};
+    List list{{}, this};
     Subscriptions subscriptions;
 };
 

@@ -3,6 +3,7 @@
 
 // Table of what an export loses: each kind of loss once, how often, and where it is worst.
 
+#include "editor/List.h"
 #include "io/formats/ClipFormat.h"
 
 #include <juce_gui_basics/juce_gui_basics.h>
@@ -62,7 +63,7 @@ private:
     void go(int row);
 
     std::vector<Row> rows;
-    juce::ListBox list{{}, this};
+    List list{{}, this};
 };
 
 } // namespace pacini::editor

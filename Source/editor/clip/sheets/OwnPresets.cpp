@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/clip/sheets/OwnPresets.h"
 
+#include "editor/List.h"
 #include "editor/Text.h"
 #include "editor/Theme.h"
 #include "editor/Translation.h"
@@ -89,7 +90,7 @@ private:
 
     std::vector<std::string> names;
     std::shared_ptr<juce::String> chosen = std::make_shared<juce::String>();
-    juce::ListBox list{{}, this};
+    List list{{}, this};
 };
 } // namespace
 
