@@ -24,10 +24,12 @@ public:
         ++plays;
         last = {};
         last.complete = true;
+        last.dropouts = dropouts;
     }
     void stop() override { ++stops; }
     [[nodiscard]] study::PlaybackReport report() const override { return last; }
     int plays = 0, stops = 0;
+    int dropouts = 0; ///< in each trial
 
 private:
     study::PlaybackReport last;
@@ -180,4 +182,59 @@ TEST_CASE("A game controller goes through a study from its welcome to its end")
          {editor::Control::left, editor::Control::right, editor::Control::up, editor::Control::down})
         page.control(control);
     CHECK(page.state() == State::goodbye);
+}
+
+TEST_CASE("The set-up tells how many of the planned participants there were, and a trial that is repeated says why")
+{
+    const TempFolder folder;
+    InstantDevice device;
+    editor::StudyServices services;
+    services.player = &device;
+    study::Study study = twoTones();
+    study.consent = {};
+    study.groups = {{"all", 12}};
+    editor::StudyPage page({study, folder.path()}, services);
+    page.setSize(960, 720);
+    using State = editor::StudyPage::State;
+    const auto texts = [&page]
+    {
+        juce::String all;
+        for (auto* child : page.getChildren())
+            if (const auto* shown = dynamic_cast<editor::Paragraph*>(child))
+                all << shown->text() << "\n";
+        return all;
+    };
+    CHECK(texts().contains("Participants so far: 0 of 12."));
+    page.control(editor::Control::next);
+    REQUIRE(pumpUntil([&] { return page.state() == State::welcome; }));
+    page.control(editor::Control::next);
+    REQUIRE(pumpUntil([&] { return page.state() == State::trial; }));
+    const juce::String told = "had a gap, so this one comes once more";
+    const auto answerOne = [&](int gaps)
+    {
+        device.dropouts = gaps;
+        page.control(editor::Control::play);
+        REQUIRE(pumpUntil([&] { return page.run()->canAnswer(); }));
+        REQUIRE(sliderIn(page)->keyPressed(juce::KeyPress(juce::KeyPress::rightKey)));
+        const auto before = page.run()->session().answered();
+        REQUIRE(pumpUntil(
+            [&]
+            {
+                page.control(editor::Control::next);
+                return page.run()->session().answered() > before;
+            }));
+    };
+    const auto* const first = page.run()->trial();
+    answerOne(2);
+    CHECK(page.run()->trial() == first);
+    CHECK(texts().contains(told));
+    answerOne(0);
+    CHECK(page.run()->trial() != first);
+    CHECK_FALSE(texts().contains(told));
+    const editor::StudyPage another({study, folder.path()}, services);
+    juce::String setUp;
+    for (auto* child : another.getChildren())
+        if (const auto* shown = dynamic_cast<editor::Paragraph*>(child))
+            setUp << shown->text();
+    CHECK(setUp.contains("Participants so far: 1 of 12."));
 }

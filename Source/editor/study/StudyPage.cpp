@@ -293,8 +293,9 @@ bool StudyPage::hasOutputs()
 void StudyPage::buildSetUp()
 {
     buildText(toText(study().name),
-              tr("Groups: {0}, participants planned: {1}",
-                 {juce::String(study().groups.size()), juce::String(study::participantsOf(study()))}));
+              tr("Groups: {0}. Participants so far: {1} of {2}.",
+                 {juce::String(study().groups.size()), juce::String(study::sessionLogs(place.folder).size()),
+                  juce::String(study::participantsOf(study()))}));
     addLanguageBox();
     juce::StringArray actuators{tr("None: plain drive")};
     int chosen = 0;
@@ -565,6 +566,7 @@ void StudyPage::answer()
     if (!given)
         return;
     const bool feedback = running->block().feedback;
+    const study::Trial* const answered = running->trial();
     juce::String right; // what the touches of a practice trial are called
     if (running->block().task == study::Task::which && running->trial()->training)
     {
@@ -584,7 +586,9 @@ void StudyPage::answer()
     }
     const bool rest = running->trial() != nullptr && running->trial()->afterBreak;
     show(rest ? State::rest : State::trial);
-    if (feedback && *kept && now == State::trial)
+    if (running->trial() == answered && now == State::trial)
+        status.setText(tr("The sound or the touch had a gap, so this one comes once more."));
+    else if (feedback && *kept && now == State::trial)
         status.setText(tr(**kept ? "Right" : "Wrong"));
     else if (right.isNotEmpty() && now == State::trial)
         status.setText(tr("It was: {0}", {right}));
