@@ -44,9 +44,25 @@ public:
         setSize(wantedSize().x, wantedSize().y);
     }
 
-    /// The least size of the window depends on the scale.
+    /// The least size of the window depends on the scale, which gives way to a screen that has no room for it.
     void limitWindow()
     {
+        const auto& displays = juce::Desktop::getInstance().getDisplays();
+        const auto* display = displays.getDisplayForRect(getScreenBounds());
+        if (display == nullptr)
+            display = displays.getPrimaryDisplay();
+        if (display != nullptr)
+        {
+            const float chosen = plugin.scaleFactor() / byScreen;
+            const float fits = scaleThatFits(
+                display->userArea, {chosen * static_cast<float>(plugin::PluginWindow::leastWidth),
+                                    chosen * static_cast<float>(plugin::PluginWindow::leastHeight + barHeight)});
+            if (std::abs(fits - byScreen) > 0.005f)
+            {
+                byScreen = fits;
+                return plugin.setScaleFactor(fits); // which comes back here
+            }
+        }
         if (auto* window = findParentComponentOfClass<juce::ResizableWindow>())
             window->setResizeLimits(scaled(plugin::PluginWindow::leastWidth),
                                     scaled(plugin::PluginWindow::leastHeight + barHeight), 4800, 3400);
@@ -108,6 +124,7 @@ private:
     plugin::PluginWindow plugin;
     editor::DefaultLook defaultLook{plugin.getLookAndFeel()};
     RoutingBar bar;
+    float byScreen = 1.0f; ///< how much less than chosen all is drawn
 };
 
 StandaloneWindow::StandaloneWindow(plugin::Plugin& processor, AudioDevices& rig)

@@ -21,6 +21,14 @@ inline constexpr int usualTitleBar = 32;
         .constrainedWithin(room);
 }
 
+/// The factor, 1 or less, by which a window is drawn that has at least the size `least`, without its borders, and would
+/// not fit on the screen.
+[[nodiscard]] inline float scaleThatFits(juce::Rectangle<int> screen, juce::Point<float> least) noexcept
+{
+    const auto room = screen.withTrimmedTop(std::min(usualTitleBar, screen.getHeight() / 4)).toFloat();
+    return std::min({1.0f, room.getWidth() / std::max(1.0f, least.x), room.getHeight() / std::max(1.0f, least.y)});
+}
+
 /// Whether a window covers its screen but for the window manager's borders: it was maximised.
 [[nodiscard]] inline bool fills(juce::Rectangle<int> screen, juce::Rectangle<int> window) noexcept
 {
