@@ -79,7 +79,7 @@ inline void addCutTexts(juce::Component& component, const juce::String& where, c
 }
 
 /// Adds items that their menus have no room for when they are chosen. `names` are what things are called, which may be
-/// longer than any room.
+/// longer than any room; what ends in an ellipsis opens a sheet and is never shown as chosen.
 inline void addCutItems(juce::Component& root, const juce::String& where, const juce::StringArray& names,
                         juce::StringArray& found)
 {
@@ -88,8 +88,9 @@ inline void addCutItems(juce::Component& root, const juce::String& where, const 
             if (auto* label = dynamic_cast<juce::Label*>(child))
                 for (int i = 0; i < box->getNumItems(); ++i)
                     if (const auto item = box->getItemText(i);
-                        !names.contains(item) && std::min(label->getFont().getStringWidth(item),
-                                                          editor::smallFont().getStringWidth(item)) > label->getWidth())
+                        !names.contains(item) && !item.endsWithChar(0x2026) &&
+                        std::min(label->getFont().getStringWidth(item), editor::smallFont().getStringWidth(item)) >
+                            label->getWidth())
                         found.addIfNotAlreadyThere(where + ", " + box->getTitle() + ": " + item);
     for (auto* child : root.getChildren())
         addCutItems(*child, where, names, found);

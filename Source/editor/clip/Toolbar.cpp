@@ -18,7 +18,7 @@ constexpr int plainDrive = 1; // menus know no item 0; profiles follow
 constexpr int fromFile = 100000;
 constexpr int sliderWidth = 124;
 constexpr int iconWidth = 34, playWidth = 52;
-constexpr int leastClips = 104, mostActuatorLeast = 200;
+constexpr int leastClips = 104;
 constexpr int leastHeard = 76, mostHeard = 140, leastLabel = 28;
 constexpr int leastMenus = 240;   // of the three menus together: with less, the zoom is left out
 constexpr int leastChoices = 300; // of the three menus together: with less, labels are left out
@@ -199,7 +199,10 @@ void Toolbar::resized()
     put(loopButton, iconWidth, grid);
     put(time, smallFont().getStringWidth("00:00.00 / 00:00.00") + 3 * grid, grid);
     // Menus have a name to show; the zoom has keys and a menu as well.
-    const bool narrow = area.getWidth() - 3 * (iconWidth + 4) - sliderWidth - 5 * grid < leastMenus;
+    const int menusNeed =
+        leastHeard + leastClips + smallFont().getStringWidth(profile.getItemText(0)) + 4 * grid; // "No actuator"
+    const bool narrow =
+        area.getWidth() - 3 * (iconWidth + 4) - sliderWidth - 5 * grid < std::max(leastMenus, menusNeed);
     for (juce::Component* one : std::initializer_list<juce::Component*>{&zoomOutButton, &zoomInButton, &fitButton})
         one->setVisible(!narrow);
     if (!narrow)
@@ -216,12 +219,7 @@ void Toolbar::resized()
     int labels = 4 * 4;
     for (const juce::Label* label : {&clipLabel, &heardLabel, &profileLabel, &strengthLabel})
         labels += widthOf(*label);
-    // What an actuator is called is shown before labels are, in less type where need be.
-    int actuatorLeast = 0;
-    for (int i = 0; i < profile.getNumItems(); ++i)
-        actuatorLeast = std::max(actuatorLeast, smallFont().getStringWidth(profile.getItemText(i)) + 4 * grid);
-    const bool labelled =
-        rest - labels >= std::max(leastChoices, leastHeard + leastClips + std::min(actuatorLeast, mostActuatorLeast));
+    const bool labelled = rest - labels >= std::max(leastChoices, menusNeed);
     rest = std::max(leastHeard, labelled ? rest - labels : rest);
     const int heardNow = std::clamp(rest * 22 / 100, leastHeard, mostHeard);
     // Names of clips are cut before those of actuators are.
