@@ -1,5 +1,6 @@
 """End to end: sounds that pacini live takes from pipes and files, and the drive that it writes. What controllers get is
 tried in hid/check_live.py."""
+import json
 import os
 import pty
 import signal
@@ -126,6 +127,20 @@ class Live(CommandTest):
                            "--brightness", "-60")
         self.assertLess(rms(struct.unpack(f"<{len(muted) // 4}f", muted)), 0.01 * rms(whole))
         self.assertNotEqual(self.piped(self.sound, "--profile", "l5-wristband"), plain)
+
+    def test_the_live_part_of_a_settings_file_is_what_it_begins_with(self):
+        mine = self.folder / "mine.json"
+        mine.write_text(json.dumps({"format": "pacini.settings", "version": 1,
+                                    "live": {"rumbleLevel": -6, "audible": 0.25, "textureMuted": True}}))
+        options = ("--rumble-level", "-6", "--audible", "0.25", "--texture-muted")
+        self.assertEqual(self.piped(self.sound, "--settings", str(mine)), self.piped(self.sound, *options))
+        self.assertEqual(self.piped(self.sound, "--settings", str(mine), "--audible", "1"),
+                         self.piped(self.sound, *options[:2], "--audible", "1", options[-1]))
+        mine.write_text(json.dumps({"format": "pacini.settings", "version": 1, "encode": {}}))
+        self.fails(1, ["live", "a.wav", "-o", "b.wav", "--settings", "mine.json"], "mine.json: live: is missing")
+        mine.write_text(json.dumps({"format": "pacini.settings", "version": 1, "live": {"audible": 7}}))
+        self.fails(1, ["live", "a.wav", "-o", "b.wav", "--settings", "mine.json"], "mine.json: live.audible")
+        self.fails(2, ["live", "a.wav", "-o", "b.wav", "--settings", "mine.json", "--preset", "music"], "--preset")
 
     def test_a_duration_ends_it(self):
         report = self.report("live", "a.wav", "-o", "b.wav", "--duration", "0.25")

@@ -16,6 +16,7 @@
 #include "cli/live/SoundPort.h"
 #include "io/FileOrigin.h"
 #include "io/Fingerprint.h"
+#include "io/SettingsFile.h"
 
 #include <pacini/realtime/TranslatorPresets.h>
 
@@ -115,6 +116,8 @@ private:
     };
 
     [[nodiscard]] std::optional<Error> usageError() const;
+    /// The parameters to begin with; none: why not is told.
+    [[nodiscard]] std::optional<TranslatorParams> chosenParams(Console& console) const;
     [[nodiscard]] const std::string& soundName() const { return soundInput.empty() ? input : soundInput; }
     [[nodiscard]] Result<void> openInput(Session& session) const;
     [[nodiscard]] Exit openOutputs(Console& console, Session& session) const;
@@ -145,6 +148,7 @@ private:
     std::string output;
     std::string profile;
     std::string preset;
+    std::string settingsFile;
     DescribedOptions described;
     double duration = -1.0; ///< s; negative: until the sound ends
     bool measuring = false;
@@ -181,6 +185,12 @@ CLI::App* LiveCommand::declare(CLI::App& app)
     addOption(*command, "--profile", profile,
               "Actuator profile that the drive is made for: a file or a shipped profile", "PROFILE");
     addOption(*command, "--preset", preset, "Set of parameters to begin with [neutral]", oneOf(presetNames()));
+    addOption(
+        *command, "--settings", settingsFile,
+        "Read the parameters to begin with from the part live of a JSON file, as the plugin saves presets; options "
+        "on the command line override them",
+        "FILE")
+        ->excludes("--preset");
     described.declare(*command, infosOf(translatorParameters));
     addOption(*command, "--duration", duration, "End after this time, s [when the sound ends]",
               numberFrom(0.0, limits::duration, "24 h"), "S");
@@ -558,6 +568,30 @@ Exit LiveCommand::finish(Console& console, Session& session) const
     return Exit::ok;
 }
 
+std::optional<TranslatorParams> LiveCommand::chosenParams(Console& console) const
+{
+    TranslatorParams params;
+    for (const TranslatorPreset& known : translatorPresets())
+        if (presetOption(known.name) == preset)
+            params = known.params;
+    if (!settingsFile.empty())
+    {
+        ReadWarnings warnings(console.isStrict());
+        const auto read = readSettingsFile(settingsFile, &warnings);
+        if (!read || !read->playback.live)
+        {
+            console.error(settingsFile, !read ? read.error()
+                                              : Error{ErrorCode::invalidData, "live",
+                                                      "is missing: these are no settings of live parameters"});
+            return std::nullopt;
+        }
+        console.warnings(settingsFile, warnings.texts());
+        params = *read->playback.live;
+    }
+    described.apply(translatorParameters, params);
+    return params;
+}
+
 Exit LiveCommand::run(Console& console)
 {
     if (const auto wrong = usageError())
@@ -571,11 +605,9 @@ Exit LiveCommand::run(Console& console)
         if (!setup.profile)
             return Exit::failed;
     }
-    TranslatorParams params;
-    for (const TranslatorPreset& known : translatorPresets())
-        if (presetOption(known.name) == preset)
-            params = known.params;
-    described.apply(translatorParameters, params);
+    const auto params = chosenParams(console);
+    if (!params)
+        return Exit::failed;
 
     // It outlives the session, whose end it lets the signal follow. It begins before the first thread, one of a sound
     // server too; but a wait for a pipe's header may be ended by the signal itself.
@@ -589,7 +621,7 @@ Exit LiveCommand::run(Console& console)
     if (!interruption)
         interruption.emplace();
     session.engine = std::make_unique<LiveEngine>(
-        session.port ? session.port->sampleRate() : session.input->sampleRate(), setup, params);
+        session.port ? session.port->sampleRate() : session.input->sampleRate(), setup, *params);
     if (followInput)
         if (const auto opened = openFollow(session, setup); !opened)
             return console.fail(soundName(), opened.error(), Exit::usage);
