@@ -363,6 +363,16 @@ class People(StudyTest):
         self.assertEqual((everybody["total"]["n"], everybody["answers"]["n"]), (12, 72))
         self.assertAlmostEqual(everybody["total"]["sd"], 1.1677, places=4)
 
+    def test_one_person_has_no_deviation_and_no_interval(self):
+        self.table("one.csv", [("A", "P1", s, 3 + s) for s in range(4)])
+        everybody = self.report("study", "report", "one.csv")["ratings"]["Ratings"]["everybody"]
+        for found in (everybody["total"], *everybody["stimuli"].values()):
+            self.assertEqual((found["n"], found["sd"], found["mean95"]), (1, None, None))
+        self.assertGreater(everybody["answers"]["sd"], 1.0)  # four answers
+        page = (self.folder / "one.report/report.md").read_text()
+        self.assertRegex(page, r"(?m)^\| 0 \| 3\.00 \| +\| +\|$")
+        self.assertNotIn("0.00", page.split("## Methods")[0].replace("10.00", ""))
+
     def test_who_may_be_one_person_is_told(self):
         answers = [4, 7, 2, 9, 3, 8, 5, 6]
         rows = [("A", p, s, answer + p * s % 4) for p in (1, 2, 3) for s, answer in enumerate(answers)]

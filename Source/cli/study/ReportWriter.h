@@ -40,6 +40,16 @@ using Person = std::pair<std::string, std::string>;
     return fmt::format("{} to {}", decimalText(interval.low, decimals), decimalText(interval.high, decimals));
 }
 
+/// Standard deviation, and interval of the mean: of two values and more. One has none, which is no deviation of 0.
+[[nodiscard]] inline std::string sdText(const study::SampleSummary& sample, int decimals)
+{
+    return sample.count < 2 ? "" : decimalText(sample.sd, decimals);
+}
+[[nodiscard]] inline std::string meanIntervalText(const study::SampleSummary& sample, int decimals)
+{
+    return sample.count < 2 ? "" : intervalText(sample.mean95, decimals);
+}
+
 [[nodiscard]] inline std::string groupTitle(const std::string& name)
 {
     return name.empty() ? std::string("all") : name;
@@ -56,10 +66,16 @@ using Person = std::pair<std::string, std::string>;
 
 [[nodiscard]] inline nlohmann::ordered_json summaryJson(const study::SampleSummary& sample)
 {
+    nlohmann::ordered_json sd, mean95; // null: one value has none
+    if (sample.count > 1)
+    {
+        sd = sample.sd;
+        mean95 = {sample.mean95.low, sample.mean95.high};
+    }
     return {{"n", sample.count},
             {"mean", sample.mean},
-            {"sd", sample.sd},
-            {"mean95", {sample.mean95.low, sample.mean95.high}},
+            {"sd", sd},
+            {"mean95", mean95},
             {"median", sample.median},
             {"quartiles", {sample.lowerQuartile, sample.upperQuartile}},
             {"range", {sample.lowest, sample.highest}}};

@@ -84,8 +84,8 @@ PageTable meansTable(const RatingAnalysis& analysis)
             if (sample.count == 0)
                 cells.insert(cells.end(), {"", "", ""});
             else
-                cells.insert(cells.end(), {decimalText(sample.mean, 2), decimalText(sample.sd, 2),
-                                           withInterval ? intervalText(sample.mean95, 2) : ""});
+                cells.insert(cells.end(), {decimalText(sample.mean, 2), sdText(sample, 2),
+                                           withInterval ? meanIntervalText(sample, 2) : ""});
         }
         table.rows.push_back(std::move(cells));
     };
@@ -303,8 +303,8 @@ Json jsonOf(const RatingAnalysis& analysis)
         if (!places)
         {
             entry["total"] = summaryJson(summaryOf(group.participantMeans));
-            const SampleSummary answers = summaryOf(group.all);
-            entry["answers"] = {{"n", answers.count}, {"mean", answers.mean}, {"sd", answers.sd}};
+            const Json answers = summaryJson(summaryOf(group.all));
+            entry["answers"] = {{"n", answers["n"]}, {"mean", answers["mean"]}, {"sd", answers["sd"]}};
         }
         entry["stimuli"] = std::move(stimuli);
         return entry;
@@ -704,7 +704,7 @@ Result<void> writeThresholds(ReportWriter& writer, Json& json, const StudyResult
             const double a = value(sample.mean95.low), b = value(sample.mean95.high);
             shown.push_back({name, value(sample.mean), {std::min(a, b), std::max(a, b)}});
             table.rows.push_back({name, fmt::to_string(sample.count), decimalText(shown.back().value, 1),
-                                  intervalText(shown.back().interval, 1), decimalText(sample.sd, 2),
+                                  strengths.size() < 2 ? "" : intervalText(shown.back().interval, 1), sdText(sample, 2),
                                   fmt::to_string(trials)});
             ofBlock[name] = summaryJson(sample);
             ofBlock[name]["value"] = shown.back().value;

@@ -110,7 +110,7 @@ void writeQuestionnaire(ReportWriter& writer, TaskJson& json, const StudyResults
                 if (sample.count == 0)
                     row.insert(row.end(), {"", "", ""});
                 else
-                    row.insert(row.end(), {decimalText(sample.mean, 2), decimalText(sample.sd, 2),
+                    row.insert(row.end(), {decimalText(sample.mean, 2), sdText(sample, 2),
                                            fmt::format("{} to {}", sample.lowest, sample.highest)});
                 if (group)
                     entry["groups"][*group] = summaryJson(sample);
@@ -308,8 +308,8 @@ void writeLaws(ReportWriter& writer, TaskJson& json, const std::map<PanLaw, std:
         }
         const SampleSummary error = summaryOf(means), slope = summaryOf(slopes);
         table.rows.push_back({std::string(lawName(law)), fmt::to_string(error.count), decimalText(error.mean, 2),
-                              intervalText(error.mean95, 2), decimalText(error.sd, 2), decimalText(slope.mean, 2),
-                              intervalText(slope.mean95, 2), decimalText(slope.sd, 2)});
+                              meanIntervalText(error, 2), sdText(error, 2), decimalText(slope.mean, 2),
+                              meanIntervalText(slope, 2), sdText(slope, 2)});
         json["ways"][std::string(lawName(law))] = {{"absoluteError", summaryJson(error)},
                                                    {"slope", summaryJson(slope)}};
     }
@@ -406,7 +406,7 @@ Result<void> writePlaces(ReportWriter& writer, nlohmann::ordered_json& json, con
             shown.push_back({stimulus.name, sample.mean, sample.mean95});
             table.rows.push_back({stimulus.name, std::string(lawName(stimulus.place->by)), decimalText(place, 1),
                                   fmt::to_string(sample.count), decimalText(sample.mean, 1),
-                                  intervalText(sample.mean95, 1), decimalText(sample.sd, 2),
+                                  meanIntervalText(sample, 1), sdText(sample, 2),
                                   spreads.empty() ? "" : decimalText(meanOf(spreads), 2),
                                   signedText(sample.mean - place, 1), decimalText(meanOf(errors), 2)});
             TaskJson entry{{"by", lawName(stimulus.place->by)}, {"place", place}};
@@ -630,7 +630,7 @@ void writeClasses(ReportWriter& writer, nlohmann::ordered_json& json, const Stud
             means.push_back(meanOf(own));
         const SampleSummary sample = summaryOf(means);
         table.rows.push_back({key.second, fmt::to_string(rated.size()), fmt::to_string(sample.count),
-                              decimalText(sample.mean, 2), intervalText(sample.mean95, 2), decimalText(sample.sd, 2)});
+                              decimalText(sample.mean, 2), meanIntervalText(sample, 2), sdText(sample, 2)});
         json[title][key.second] = summaryJson(sample);
         json[title][key.second]["stimuli"] = rated.size();
     }
