@@ -131,8 +131,8 @@ class Live(CommandTest):
     def test_the_live_part_of_a_settings_file_is_what_it_begins_with(self):
         mine = self.folder / "mine.json"
         mine.write_text(json.dumps({"format": "pacini.settings", "version": 1,
-                                    "live": {"rumbleLevel": -6, "audible": 0.25, "textureMuted": True}}))
-        options = ("--rumble-level", "-6", "--audible", "0.25", "--texture-muted")
+                                    "live": {"rumble": -6, "audible": 0.25, "textureMuted": True}}))
+        options = ("--rumble", "-6", "--audible", "0.25", "--texture-muted")
         self.assertEqual(self.piped(self.sound, "--settings", str(mine)), self.piped(self.sound, *options))
         self.assertEqual(self.piped(self.sound, "--settings", str(mine), "--audible", "1"),
                          self.piped(self.sound, *options[:2], "--audible", "1", options[-1]))

@@ -42,6 +42,18 @@ def id3(frames=b""):
     return b"ID3\4\0\0" + bytes(size >> shift & 0x7F for shift in (21, 14, 7, 0)) + frames
 
 
+def ogg_page(page, granule):
+    """A page of an Ogg stream with another granule position, its checksum made anew (RFC 3533)."""
+    page, crc = bytearray(page), 0
+    page[6:14], page[22:26] = struct.pack("<q", granule), bytes(4)
+    for byte in page:
+        crc ^= byte << 24
+        for _ in range(8):
+            crc = (crc << 1 ^ (0x04C11DB7 if crc >> 31 else 0)) & 0xFFFFFFFF
+    page[22:26] = struct.pack("<I", crc)
+    return bytes(page)
+
+
 def chapter(ms):
     content = b"a\0" + struct.pack(">IIII", ms, ms + 1, 0xFFFFFFFF, 0xFFFFFFFF)
     return b"CHAP" + struct.pack(">IH", len(content), 0) + content
@@ -171,6 +183,27 @@ class SoundTable(CommandTest):
         self.reads_with_a_word(says, mixed, "another sound at the same time", alone)
         self.assertEqual(self.encode(b"".join(pages[:-1])), 0, self.said)
         self.assertIn("lacks the mark of its end", self.said)
+        says = self.row("an Ogg of Vorbis whose first frames are before 0")
+
+        def moved(frames):
+            times = [struct.unpack("<q", page[6:14])[0] for page in pages]
+            return b"".join(ogg_page(page, time - frames if time > 0 else time) for page, time in zip(pages, times))
+        self.assertEqual(moved(0), b"".join(pages))
+        rate = struct.unpack("<I", pages[0][40:44])[0]
+        self.reads(says, moved(100), alone - 100 / rate)
+        self.reads_with_a_word(says, moved(3000), "before", alone)
+        says = self.row("an Opus whose header leaves out")
+        long = bytearray(others[0])
+        long[28 + 10:28 + 12] = struct.pack("<H", 24000)
+        self.assertEqual(long[28:36], b"OpusHead")
+        self.assertEqual(self.encode(b"".join(others)), 0, self.said)
+        self.reads_with_a_word(says, b"".join([ogg_page(long, 0), *others[1:]]), "leaves out 0.500 s",
+                               self.clip_read["duration"] - 0.5 + struct.unpack("<H", others[0][38:40])[0] / 48000)
+        says = self.row("a WAV, W64 or CAF that states other frames")
+        self.reads_with_a_word(says, sound[:32] + struct.pack("<H", 4) + sound[34:], "states frames of 4 bytes")
+        says = self.row("two descriptions of its samples")
+        stereo = chunk(b"fmt ", struct.pack("<HHIIHH", 1, 2, RATE, 4 * RATE, 4, 16))
+        self.reads_with_a_word(says, sound[:36] + stereo + sound[36:], "two descriptions")
         says = self.row("damaged pictures")
         flac = (SOUNDS / "ramp.flac").read_bytes()
         self.assertEqual(self.encode(flac), 0, self.said)

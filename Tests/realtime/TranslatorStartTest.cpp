@@ -77,7 +77,9 @@ std::vector<double> differences(const Profile& profile, const std::vector<float>
     for (std::size_t late = 0; late < 480; late += 48)
     {
         Translator translator;
-        translator.setSetup({.profile = profile});
+        TranslatorSetup setup;
+        setup.profile = profile;
+        translator.setSetup(setup);
         translator.reset();
         std::vector<float> y(sound.size() - late);
         translator.process(std::span(sound).subspan(late), y);
