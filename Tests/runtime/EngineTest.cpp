@@ -1,14 +1,11 @@
-#include "io/ProfileFile.h"
 #include "support/ActuatorOf.h"
 #include "support/Catch.h"
 #include "support/HeapGuard.h"
-#include "support/Paths.h"
 #include "support/Render.h"
 
 #include <pacini/foundation/Random.h>
 #include <pacini/runtime/Engine.h>
 #include <pacini/synthesis/ScenePlayer.h>
-#include <pacini/synthesis/Transparency.h>
 
 #include <algorithm>
 #include <atomic>
@@ -976,67 +973,6 @@ TEST_CASE("A clip plays as rendered, sample for sample, where an engine is made 
     params.asRendered = true;
     params.budget.voices = 2;
     CHECK(Engine::make(params).error().where == "budget");
-}
-
-TEST_CASE("A clip that was designed for another actuator plays as it is rendered for that", "[runtime]")
-{
-    const auto shippedProfile = [](const char* name)
-    {
-        auto profile = readProfile(sourceFolder() / "profiles" / (std::string(name) + ".json"));
-        REQUIRE(profile.ok());
-        return std::move(profile).value();
-    };
-    const auto designed = std::make_shared<const Profile>(shippedProfile("quest-controller"));
-    const Profile played = shippedProfile("l5-wristband");
-    const Clip clip = knocking(0.6);
-    const auto transparent = transparentClip(clip, *designed, played);
-    REQUIRE(transparent.ok());
-    for (const bool asRendered : {true, false})
-    {
-        CAPTURE(asRendered);
-        EngineParams params = paramsOf(1, played);
-        params.asRendered = asRendered;
-        params.longestDelay = Seconds(0.0);
-        PlaySettings settings;
-        const auto heardOf = [&](const Clip& content, Engine& engine)
-        {
-            const auto loadedClip = LoadedClip::asItIs(content);
-            REQUIRE(loadedClip.ok());
-            started(engine, *loadedClip, settings);
-            return renderBlocks(engine, 6000);
-        };
-        const Channels wanted = heardOf(transparent->clip, *engineOf(params));
-        const Channels plain = heardOf(clip, *engineOf(params));
-        settings.designedFor = designed;
-        CHECK((heardOf(clip, *engineOf(params)) == wanted));
-        CHECK(largest(plain[0]) != Approx(largest(wanted[0])).epsilon(0.05));
-        CHECK(largest(wanted[0]) > 0.01);
-
-        // The same clip in one engine, in both ways: neither takes what was made for the other.
-        const auto engine = engineOf(params);
-        const auto both = LoadedClip::asItIs(clip);
-        REQUIRE(both.ok());
-        for (const auto& from : {std::shared_ptr<const Profile>(), designed, std::shared_ptr<const Profile>()})
-        {
-            settings.designedFor = from;
-            started(*engine, *both, settings, engine->framesRendered());
-            const Channels heard = renderBlocks(*engine, 6000);
-            const Channels& due = from ? wanted : plain;
-            CHECK(largest(heard[0]) == Approx(largest(due[0])).epsilon(0.02));
-        }
-    }
-    PlaySettings settings;
-    settings.designedFor = designed;
-    const auto loadedClip = LoadedClip::asItIs(clip);
-    const auto errorOn = [&](const std::optional<Profile>& profile)
-    {
-        return engineOf(paramsOf(1, profile))->play(*loadedClip, settings).error().where;
-    };
-    CHECK(errorOn({}) == "designedFor");
-    CHECK(errorOn(erm()) == "to.technology");
-    CHECK(errorOn(lra()) == "to.body");
-    settings.designedFor = std::make_shared<const Profile>(erm());
-    CHECK(errorOn(played) == "from.technology");
 }
 
 TEST_CASE("A clip that is replaced in time goes on as if it had always played", "[runtime]")

@@ -6,7 +6,6 @@
 #include <pacini/runtime/ActuatorKind.h>
 #include <pacini/runtime/LoadedClip.h>
 #include <pacini/runtime/PlayContent.h>
-#include <pacini/synthesis/Transparency.h>
 
 #include <algorithm>
 #include <cmath>
@@ -35,9 +34,6 @@ struct PlaySettings
     int priority = 0;                       ///< 0 is kept longest
     VariationParams variation;              ///< of each pass
     std::shared_ptr<const Texture> texture; ///< plays for as long as the clip, which is silent
-    /// The actuator on which the clip was designed: it feels alike on those of the engine, see transparentClip(). None:
-    /// it was designed for none. A texture's own sound is not changed.
-    std::shared_ptr<const Profile> designedFor{};
 };
 
 namespace limits
@@ -55,14 +51,13 @@ public:
     {
     }
 
-    /// Errors: invalidArgument with the setting (`loop`), those of LoadedClip::unpack(), tooLarge (`passes`); with
-    /// `designedFor` those of transparentClip(), and invalidArgument for an actuator without a profile.
+    /// Errors: invalidArgument with the setting (`loop`), those of LoadedClip::unpack(), tooLarge (`passes`).
     [[nodiscard]] Result<std::unique_ptr<PlayContent>> make(const std::shared_ptr<const LoadedClip>& clip,
                                                             const PlaySettings& settings)
     {
         if (auto valid = check(settings, clip->duration()); !valid)
             return valid.error();
-        auto fitted = fittedTo(clip, settings.designedFor);
+        auto fitted = fittedTo(clip);
         if (!fitted)
             return fitted.error();
         const bool endless = settings.loop > 0.0 && settings.passes == 0;
@@ -142,7 +137,6 @@ private:
     struct Fitted
     {
         const LoadedClip* source = nullptr;
-        std::shared_ptr<const Profile> designedFor;
         std::vector<FittedClip> clips; ///< for each kind
         std::size_t points = 0;
     };
@@ -192,12 +186,10 @@ private:
     }
 
     /// The clip as it is fitted to each kind of actuator.
-    Result<Fitted*> fittedTo(const std::shared_ptr<const LoadedClip>& clip,
-                             const std::shared_ptr<const Profile>& designedFor)
+    Result<Fitted*> fittedTo(const std::shared_ptr<const LoadedClip>& clip)
     {
-        const auto found = std::find_if(known.begin(), known.end(),
-                                        [&](const auto& entry)
-                                        { return entry->source == clip.get() && entry->designedFor == designedFor; });
+        const auto found =
+            std::find_if(known.begin(), known.end(), [&](const auto& entry) { return entry->source == clip.get(); });
         if (found != known.end())
         {
             known.splice(known.begin(), known, found); // used last
@@ -208,10 +200,9 @@ private:
             return unpacked.error();
         auto fitted = std::make_unique<Fitted>();
         fitted->source = clip.get();
-        fitted->designedFor = designedFor;
         for (const ActuatorKind& kind : kinds)
         {
-            auto made = designedFor ? transparentFor(kind, *unpacked, *designedFor) : fitTo(kind, *unpacked);
+            auto made = fitTo(kind, *unpacked);
             if (!made)
                 return made.error();
             fitted->points += breakpointCount(made->clip) + made->clip.transients.size();
@@ -225,15 +216,6 @@ private:
             known.pop_back();
         }
         return known.front().get();
-    }
-
-    static Result<FittedClip> transparentFor(const ActuatorKind& kind, const Clip& clip, const Profile& designedFor)
-    {
-        if (!kind.wanted)
-            return Error{ErrorCode::invalidArgument, "designedFor",
-                         "is for actuators with a profile; give the actuator one, or leave this out"};
-        const auto made = transparentClip(clip, designedFor, *kind.wanted, kind.compile.adaptation);
-        return made ? fitTo(kind, made->clip) : made.error();
     }
 
     static Result<FittedClip> fitTo(const ActuatorKind& kind, const Clip& clip)
