@@ -347,7 +347,7 @@ private:
     /// Sinusoids that are added to the sound's own signal begin again with an event of the last hop.
     void noteEvent() noexcept
     {
-        if (!design->anyDirect || watch.framesSinceEvent() >= controlHop)
+        if (directShare() == 0.0 || watch.framesSinceEvent() >= controlHop)
             return;
         const auto frames = static_cast<double>(watch.framesSinceEvent() + 1);
         carriers.noteEvent(frames);
