@@ -63,7 +63,7 @@ public:
     }
 
 private:
-    juce::ComponentPeer* createNewPeer(int flags, void*) override { return new UnseenPeer(*this, flags); }
+    juce::ComponentPeer* createNewPeer(int style, void*) override { return new UnseenPeer(*this, style); }
 };
 
 } // namespace pacini::test

@@ -3,9 +3,11 @@
 // Low-latency decimator by a whole factor, which does not wait for whole groups of frames.
 
 #include <pacini/foundation/DotProduct.h>
+#include <pacini/foundation/Lanes.h>
 #include <pacini/foundation/Windows.h>
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <cstddef>
@@ -39,7 +41,7 @@ public:
         coefficients.assign(1, 1.0f);
         if (ratio > 1)
             design(fs, pass);
-        kept = coefficients.size() - 1 + ratio - 1;
+        kept = coefficients.size() - 1 + (ratio + sideBySide - 1) / sideBySide * sideBySide - 1;
         line.assign(kept + std::max<std::size_t>(4096, 8 * coefficients.size()), 0.0f);
         reset();
     }
@@ -115,27 +117,26 @@ private:
     {
         if (quiet > kept)
             return 0.0f;
-        constexpr std::size_t lanes = 8;
-        const std::size_t taps = coefficients.size();
+        using Inputs = Lanes<float, 4>;
+        const std::size_t middle = latencyFrames();
         float power = 0.0f;
-        for (std::size_t at = 0; at < ratio; at += lanes) // outputs side by side
+        for (std::size_t at = 0; at < ratio; at += sideBySide)
         {
-            const std::size_t count = std::min(lanes, ratio - at);
-            const float* first = until - at - (taps - 1) - count; // of the inputs of the earliest of them
-            float low[lanes]{};
-            if (count == lanes)
-                for (std::size_t i = 0; i < taps; ++i)
-                    for (std::size_t lane = 0; lane < lanes; ++lane)
-                        low[lane] += coefficients[i] * first[i + lane];
-            else
-                for (std::size_t i = 0; i < taps; ++i)
-                    for (std::size_t lane = 0; lane < count; ++lane)
-                        low[lane] += coefficients[i] * first[i + lane];
-            for (std::size_t lane = 0; lane < count; ++lane)
+            const float* newest = until - at - sideBySide; // of the earliest output
+            const float* oldest = newest - 2 * middle;
+            const auto rest = Inputs::all(1.0f - coefficients[middle]);
+            Inputs early = rest * Inputs::load(oldest + middle), late = rest * Inputs::load(oldest + middle + 4);
+            for (std::size_t i = 0; i < middle; ++i)
             {
-                const float high = first[latencyFrames() + lane] - low[lane];
-                power += high * high;
+                const auto tap = Inputs::all(coefficients[i]);
+                early = early - tap * (Inputs::load(oldest + i) + Inputs::load(newest - i));
+                late = late - tap * (Inputs::load(oldest + i + 4) + Inputs::load(newest - i + 4));
             }
+            std::array<float, sideBySide> high;
+            early.store(high.data());
+            late.store(high.data() + 4);
+            for (std::size_t k = at + sideBySide > ratio ? at + sideBySide - ratio : 0; k < sideBySide; ++k)
+                power += high[k] * high[k];
         }
         return std::sqrt(power / static_cast<float>(ratio));
     }
@@ -154,6 +155,8 @@ private:
              windowedSinc(taps, cutoff, 0.0, middle, KaiserWindow(kaiserBeta(attenuation)), middle + 1.0))
             coefficients.push_back(static_cast<float>(tap));
     }
+
+    static constexpr std::size_t sideBySide = 8; // outputs that are computed together
 
     std::size_t ratio;
     std::vector<float> coefficients; // symmetric

@@ -461,10 +461,10 @@ void ExportSheet::layOut(juce::Rectangle<int> area)
     };
     auto line = row(formatLabel);
     // What a format is called says what it is, so all of it is shown.
-    const int also = buttonWidth(alsoButton, 18 * grid);
-    format.setBounds(line.removeFromLeft(std::min(boxWidth(format), line.getWidth() - also - grid)));
+    const int alsoWidth = buttonWidth(alsoButton, 18 * grid);
+    format.setBounds(line.removeFromLeft(std::min(boxWidth(format), line.getWidth() - alsoWidth - grid)));
     line.removeFromLeft(grid);
-    alsoButton.setBounds(line.removeFromLeft(also));
+    alsoButton.setBounds(line.removeFromLeft(alsoWidth));
     line = row(rateLabel);
     rate.setBounds(line.removeFromLeft(20 * grid));
     line.removeFromLeft(2 * grid);
