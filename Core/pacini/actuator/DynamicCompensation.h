@@ -295,9 +295,9 @@ private:
             return band;
         }
 
-        void add(std::size_t count, double y, double feedback) noexcept
+        void add(std::size_t bandCount, double y, double feedback) noexcept
         {
-            for (std::size_t k = 0; k < count; ++k)
+            for (std::size_t k = 0; k < bandCount; ++k)
             {
                 const double a = tick(1, k, tick(0, k, y));
                 const double b = tick(3, k, tick(2, k, feedback));

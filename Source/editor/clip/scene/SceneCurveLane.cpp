@@ -133,10 +133,10 @@ void SceneCurveLane::movePoint(std::size_t index, Breakpoint to, const Curve& fr
     Curve points = from;
     const double after = index > 0 ? points[index - 1].time : 0.0;
     const double before = index + 1 < points.size() ? points[index + 1].time : length();
-    points[index] = {std::clamp(to.time, after, std::max(after, before)), to.value};
+    const double time = std::clamp(to.time, after, std::max(after, before));
+    points[index] = {time, to.value};
     setPoints("Move point of curve", std::move(points), of);
-    const juce::String text =
-        numberText(points.empty() ? to.time : to.time, 2) + " s, " + numberText(to.value, 2) + sceneRangeOf(shown).unit;
+    const juce::String text = numberText(time, 2) + " s, " + numberText(to.value, 2) + sceneRangeOf(shown).unit;
     setDescription(text);
     setTooltip(text);
 }
