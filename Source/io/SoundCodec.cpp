@@ -1,6 +1,7 @@
 #include "io/SoundCodec.h"
 
 #include "io/AudioHeader.h"
+#include "io/OggPages.h"
 
 #include <algorithm>
 #include <set>
@@ -42,19 +43,15 @@ SoundCodec codecOfName(ByteWindow& file, std::uint64_t place)
 /// Whether all streams of an Ogg file are ones that libsndfile decodes, by their first pages.
 SoundCodec codecOfOgg(ByteWindow& file, std::uint64_t begin)
 {
-    constexpr std::uint64_t headerBytes = 27;
     constexpr std::uint64_t beginsStream = 2;
     for (int stream = 0; stream < 64; ++stream)
     {
         if (!file.has(begin, "OggS") || (file.number(begin + 5, 1, true) & beginsStream) == 0)
             break;
-        const auto laces = file.number(begin + 26, 1, true);
-        const auto packet = begin + headerBytes + laces;
+        const auto packet = begin + oggHeaderBytes + file.number(begin + 26, 1, true);
         if (!file.has(packet, "\1vorbis") && !file.has(packet, "OpusHead"))
             return SoundCodec::foreign;
-        begin = packet;
-        for (std::uint64_t i = 0; i < laces; ++i)
-            begin += file.number(packet - laces + i, 1, true);
+        begin += oggPageBytes(file, begin);
     }
     return SoundCodec::plain;
 }
@@ -90,23 +87,19 @@ SoundCodec soundCodecOf(ByteWindow& file, std::uint64_t begin, std::uint64_t end
 
 bool isCutOgg(ByteWindow& file, std::uint64_t begin, std::uint64_t end)
 {
-    constexpr std::uint64_t headerBytes = 27;
     constexpr std::uint64_t beginsStream = 2, endsStream = 4;
     std::set<std::uint64_t> open; // streams by their numbers
-    while (begin + headerBytes <= end && file.has(begin, "OggS"))
+    while (begin + oggHeaderBytes <= end && file.has(begin, "OggS"))
     {
         const auto flags = file.number(begin + 5, 1, true), serial = file.number(begin + 14, 4, false);
         if ((flags & beginsStream) != 0)
             open.insert(serial);
         if ((flags & endsStream) != 0)
             open.erase(serial);
-        const auto laces = file.number(begin + 26, 1, true);
-        auto next = begin + headerBytes + laces;
-        for (std::uint64_t i = 0; i < laces; ++i)
-            next += file.number(begin + headerBytes + i, 1, true);
-        if (next > end)
+        const auto bytes = oggPageBytes(file, begin);
+        if (bytes == 0 || begin + bytes > end)
             return true;
-        begin = next;
+        begin += bytes;
     }
     return !open.empty();
 }

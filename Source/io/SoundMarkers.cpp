@@ -4,6 +4,7 @@
 #include "io/ByteWindow.h"
 #include "io/CommentChapters.h"
 #include "io/Id3Chapters.h"
+#include "io/OggPages.h"
 #include "io/SoundCues.h"
 #include "io/SoundTags.h"
 
@@ -110,16 +111,16 @@ FoundMarkers flacTracks(ByteWindow& file, std::uint64_t offset, std::uint64_t en
 /// The second packet of the first stream of an Ogg file, which holds its comments (RFC 3533).
 std::string oggComments(ByteWindow& file, std::uint64_t offset, std::uint64_t end)
 {
-    constexpr std::uint64_t headerBytes = 27;
     const auto serial = file.number(offset + 14, 4, false);
     std::string packet;
     int packets = 0; // that have ended
-    while (offset + headerBytes <= end && file.has(offset, "OggS") && packet.size() < limits::tagBytes)
+    while (offset + oggHeaderBytes <= end && file.has(offset, "OggS") && packet.size() < limits::tagBytes)
     {
-        const auto laced = file.at(offset + headerBytes, static_cast<std::size_t>(file.number(offset + 26, 1, true)));
+        const auto laced =
+            file.at(offset + oggHeaderBytes, static_cast<std::size_t>(file.number(offset + 26, 1, true)));
         const std::string lengths(laced.begin(), laced.end());
         const bool isOurs = file.number(offset + 14, 4, false) == serial;
-        offset += headerBytes + lengths.size();
+        offset += oggHeaderBytes + lengths.size();
         for (const char length : lengths)
         {
             const auto bytes = static_cast<unsigned char>(length);

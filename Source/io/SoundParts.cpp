@@ -4,6 +4,7 @@
 #include "io/ByteWindow.h"
 #include "io/FilmSound.h"
 #include "io/MpegFrames.h"
+#include "io/OggPages.h"
 #include "io/SoundCodec.h"
 #include "io/SoundTags.h"
 #include "io/VorbisTimes.h"
@@ -488,7 +489,6 @@ private:
     /// The streams of an Ogg file: each begins with one or more pages that say so (RFC 3533, 6).
     void addOgg(std::uint64_t begin)
     {
-        constexpr std::size_t headerBytes = 27;
         constexpr unsigned beginsStream = 2, endsStream = 4;
         bool headers = false;
         std::uint64_t skipped = 0;
@@ -501,8 +501,8 @@ private:
         };
         for (auto offset = begin; offset < end;)
         {
-            const auto head = file.at(offset, headerBytes + 255);
-            if (!file.has(offset, "OggS") || head.size() < headerBytes || head.size() < headerBytes + head[26])
+            const auto bytes = oggPageBytes(file, offset);
+            if (bytes == 0)
             {
                 const auto tag = tagBytesAt(file, offset);
                 const auto next = tag > 0 ? std::min(end, offset + tag) : file.find("OggS", offset + 1, end);
@@ -511,11 +511,8 @@ private:
                 offset = next;
                 continue;
             }
-            // `head` lasts until more is looked at.
-            const bool starts = (head[5] & beginsStream) != 0, ends = (head[5] & endsStream) != 0;
-            std::uint64_t bytes = headerBytes + head[26];
-            for (std::size_t i = 0; i < head[26]; ++i)
-                bytes += head[headerBytes + i];
+            const auto flags = file.number(offset + 5, 1, true);
+            const bool starts = (flags & beginsStream) != 0, ends = (flags & endsStream) != 0;
             if ((starts && !headers) || parts.empty())
             {
                 if (parts.size() == mostParts)
@@ -582,7 +579,7 @@ private:
     /// Frames at 48 kHz that the header of Opus on the page at `offset` leaves out (RFC 7845, 5.1), 0 for other sounds.
     std::uint64_t preSkipOf(std::uint64_t offset)
     {
-        const auto packet = offset + 27 + file.number(offset + 26, 1, true);
+        const auto packet = offset + oggHeaderBytes + file.number(offset + 26, 1, true);
         return file.has(packet, "OpusHead") ? file.number(packet + 10, 2, false) : 0;
     }
 
@@ -590,7 +587,7 @@ private:
     bool startsOggSound(std::uint64_t offset)
     {
         using namespace std::string_view_literals;
-        const auto packet = offset + 27 + file.number(offset + 26, 1, true);
+        const auto packet = offset + oggHeaderBytes + file.number(offset + 26, 1, true);
         for (const auto name : {"\1vorbis"sv, "OpusHead"sv, "\x7F\x46LAC"sv, "Speex   "sv})
             if (file.has(packet, name))
                 return true;

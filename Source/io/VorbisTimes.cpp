@@ -1,5 +1,7 @@
 #include "io/VorbisTimes.h"
 
+#include "io/OggPages.h"
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -12,7 +14,6 @@ namespace pacini
 
 namespace
 {
-constexpr std::size_t headerBytes = 27; // RFC 3533, 6
 constexpr std::size_t checksumPlace = 22;
 
 /// A page of an Ogg file with all its bytes, at most 65307.
@@ -68,14 +69,9 @@ struct Page
 /// The page at `offset`, if one is there and whole.
 std::optional<Page> pageAt(ByteWindow& file, std::uint64_t offset, std::uint64_t end)
 {
-    if (!file.has(offset, "OggS"))
-        return {};
-    const auto laces = static_cast<std::size_t>(file.number(offset + 26, 1, false));
-    std::size_t size = headerBytes + laces;
-    for (const unsigned char lace : file.at(offset + headerBytes, laces))
-        size += lace;
-    const auto bytes = file.at(offset, size);
-    if (bytes.size() < size || offset + size > end)
+    const auto size = oggPageBytes(file, offset);
+    const auto bytes = file.at(offset, static_cast<std::size_t>(size));
+    if (size == 0 || bytes.size() < size || offset + size > end)
         return {};
     return Page{offset, {bytes.begin(), bytes.end()}};
 }
@@ -191,10 +187,10 @@ VorbisShift shiftOfStart(ByteWindow& file, std::uint64_t begin, std::uint64_t en
                     if (!page.isSound())
                         return false;
                     bool ends = false; // a packet of audio, on this page
-                    auto place = headerBytes + page.laces();
+                    auto place = oggHeaderBytes + page.laces();
                     for (std::size_t i = 0; i < page.laces(); ++i)
                     {
-                        const auto lace = page.byte(headerBytes + i);
+                        const auto lace = page.byte(oggHeaderBytes + i);
                         packet.append(page.bytes, place, lace);
                         place += lace;
                         if (packet.size() > largestHeader)
@@ -228,7 +224,7 @@ VorbisShift vorbisShift(ByteWindow& file, std::uint64_t begin, std::uint64_t end
     forEachPage(file, begin, end, serial,
                 [&](Page page)
                 {
-                    const auto laces = page.bytes.begin() + headerBytes;
+                    const auto laces = page.bytes.begin() + oggHeaderBytes;
                     const auto ended = std::count_if(laces, laces + static_cast<std::ptrdiff_t>(page.laces()),
                                                      [](char lace) { return static_cast<unsigned char>(lace) < 255; });
                     packets += static_cast<std::size_t>(ended);
@@ -237,7 +233,7 @@ VorbisShift vorbisShift(ByteWindow& file, std::uint64_t begin, std::uint64_t end
                         return true; // those that are damaged stay so
                     page.set(6, 8, page.time() + shift.frames);
                     page.set(checksumPlace, 4, page.checksum());
-                    shift.patches.push_back({page.offset, page.bytes.substr(0, headerBytes)});
+                    shift.patches.push_back({page.offset, page.bytes.substr(0, oggHeaderBytes)});
                     return true;
                 });
     return shift;
