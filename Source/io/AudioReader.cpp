@@ -360,13 +360,11 @@ struct AudioReader::State
             warn("is damaged: {:.3f} s of {:.3f} s can be read", seconds(frames), seconds(there));
         if (const auto stated = part().statedFrameBytes; stated > 0 && frameBytes > 0 && stated != frameBytes)
             warn("has a header that states frames of {} bytes, but its samples make frames of {}; read by these it "
-                 "lasts "
-                 "{:.3f} s, by the others it would last {:.3f} s; save it anew",
+                 "lasts {:.3f} s, by the others it would last {:.3f} s; save it anew",
                  stated, frameBytes, seconds(partFrames().value_or(there)), seconds(part().presentBytes / stated));
         if (part().hasOtherFormat)
             warn("has two descriptions of its samples that differ; it is read by the first, as {} channels at {} Hz, "
-                 "and "
-                 "lasts {:.3f} s; save it anew",
+                 "and lasts {:.3f} s; save it anew",
                  info.channels, info.samplerate, seconds(partFrames().value_or(there)));
         const auto left = passOver(part().leadFrames);
         if (info.frames < SF_COUNT_MAX)
