@@ -8,10 +8,12 @@
 #include "support/Paths.h"
 #include "support/ShippedProfile.h"
 
+#include <array>
 #include <filesystem>
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 
 namespace pacini::test
 {
@@ -68,6 +70,26 @@ inline editor::MessageSheet* questionOver(juce::Component& page)
 }
 
 constexpr Lane envelope{LaneKind::envelope, 0};
+
+/// The commands that open a sheet.
+inline constexpr auto sheetCommands =
+    std::to_array<std::pair<const char*, editor::Command>>({{"export", editor::exportClips},
+                                                            {"shortcuts", editor::shortcuts},
+                                                            {"preferences", editor::preferences},
+                                                            {"gain", editor::changeGain},
+                                                            {"quantise", editor::quantise},
+                                                            {"humanise", editor::humanise},
+                                                            {"thin out", editor::thinOut},
+                                                            {"transpose", editor::transposePitch},
+                                                            {"stretch", editor::stretch},
+                                                            {"repeat", editor::repeatClipTimes},
+                                                            {"measure", editor::measureActuator},
+                                                            {"new study", editor::newStudy},
+                                                            {"scene", editor::editScene},
+                                                            {"palette", editor::searchCommands},
+                                                            {"comparison", editor::compareWithTheSound},
+                                                            {"manual", editor::manual},
+                                                            {"about", editor::about}});
 
 /// A session with one clip in a window of 1280 x 800.
 struct EditorBench

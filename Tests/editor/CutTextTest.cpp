@@ -97,22 +97,7 @@ TEST_CASE("No text of the editor's pages and sheets is cut and no control lies o
             bench.view.sidePanel().setCurrentTabIndex(0);
             look("selection");
             bench.view.setBounds(0, 0, width, height);
-            for (const auto& [name, command] : std::initializer_list<std::pair<const char*, editor::Command>>{
-                     {"export", editor::exportClips},
-                     {"shortcuts", editor::shortcuts},
-                     {"preferences", editor::preferences},
-                     {"gain", editor::changeGain},
-                     {"quantise", editor::quantise},
-                     {"humanise", editor::humanise},
-                     {"thin out", editor::thinOut},
-                     {"transpose", editor::transposePitch},
-                     {"stretch", editor::stretch},
-                     {"repeat", editor::repeatClipTimes},
-                     {"measure", editor::measureActuator},
-                     {"new study", editor::newStudy},
-                     {"scene", editor::editScene},
-                     {"palette", editor::searchCommands},
-                     {"comparison", editor::compareWithTheSound}})
+            for (const auto& [name, command] : sheetCommands)
             {
                 if (!bench.view.doCommand(command) || bench.view.sheet() == nullptr)
                     continue;

@@ -6,7 +6,6 @@
 #include "editor/ShownWindow.h"
 
 #include <algorithm>
-#include <initializer_list>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -120,24 +119,6 @@ void addUnseen(juce::Component& window, const juce::String& where, juce::StringA
             found.addIfNotAlreadyThere(where + ": no ring: " + nameOf(&one));
     }
 }
-
-const std::initializer_list<std::pair<const char*, editor::Command>> sheets{{"export", editor::exportClips},
-                                                                            {"shortcuts", editor::shortcuts},
-                                                                            {"preferences", editor::preferences},
-                                                                            {"gain", editor::changeGain},
-                                                                            {"quantise", editor::quantise},
-                                                                            {"humanise", editor::humanise},
-                                                                            {"thin out", editor::thinOut},
-                                                                            {"transpose", editor::transposePitch},
-                                                                            {"stretch", editor::stretch},
-                                                                            {"repeat", editor::repeatClipTimes},
-                                                                            {"measure", editor::measureActuator},
-                                                                            {"new study", editor::newStudy},
-                                                                            {"scene", editor::editScene},
-                                                                            {"palette", editor::searchCommands},
-                                                                            {"comparison", editor::compareWithTheSound},
-                                                                            {"manual", editor::manual},
-                                                                            {"about", editor::about}};
 } // namespace
 
 TEST_CASE("What gets the keyboard below the fold is scrolled into view, and what is in view stays")
@@ -183,7 +164,7 @@ TEST_CASE("Every stop of Tab is in sight and has a ring, on all pages and sheets
             enter(bench.view);
             addUnseen(window, theme + "page " + juce::String(page), found);
         }
-        for (const auto& [name, command] : sheets)
+        for (const auto& [name, command] : sheetCommands)
         {
             bench.view.grabKeyboardFocus();
             if (!bench.view.doCommand(command) || bench.view.sheet() == nullptr)
@@ -202,7 +183,7 @@ TEST_CASE("A sheet has the keyboard and keeps it, and Escape gives it back to wh
     bench.view.setBounds(0, 0, 1280, 800);
     ShownWindow window(bench.view);
     bench.openDemo("drums_tabla_pattern");
-    for (const auto& [name, command] : sheets)
+    for (const auto& [name, command] : sheetCommands)
     {
         CAPTURE(name);
         auto& row = bench.row({LaneKind::amplitude, 0});
