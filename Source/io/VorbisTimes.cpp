@@ -132,7 +132,7 @@ public:
 private:
     bool readSizes(const std::string& packet)
     {
-        constexpr std::size_t place = 8 * 28;
+        constexpr std::size_t place = std::size_t{8} * 28;
         if (packet.size() < 30 || !packet.starts_with("\1vorbis"))
             return false;
         sizes = {std::uint64_t{1} << bitsOf(packet, place, 4), std::uint64_t{1} << bitsOf(packet, place + 4, 4)};

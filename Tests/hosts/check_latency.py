@@ -29,19 +29,14 @@ def measured(study):
 
 def main():
     program, pacini, jackdelay = sys.argv[1:4]
-    server = f"pacini{os.getpid()}"
     with tempfile.TemporaryDirectory() as name, Window(name) as window:
         folder = Path(name)
         study, _ = make_study(pacini, folder)
-        window.environment.update(JACK_DEFAULT_SERVER=server, JACK_NO_AUDIO_RESERVATION="1")
-        window.start("jackd", "-r", "-t", "8000", "-n", server, "-d", "dummy", "-r", RATE, "-p", "1024", "-C", "2",
-                     "-P", "4", env=window.environment)
-
         def jack(command, *arguments):
             done = subprocess.run([command, *arguments], env=window.environment, capture_output=True, text=True)
             return done.stdout if done.returncode == 0 else ""
 
-        check("the sound server runs", until(lambda: "system:playback_4" in jack("jack_lsp")))
+        check("the sound server runs", window.start_sound_server(window.environment))
         window.start(jackdelay, str(DELAY), env=window.environment)
         window.start(program, "--fresh", "--device-type", "JACK", "--study", study, env=window.environment)
         check("the window opens", until(window.find_window))

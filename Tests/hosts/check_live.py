@@ -141,15 +141,14 @@ def check_server_ends(folder, server):
 
 def claims(devices):
     needs("jackd", "jack_lsp")
-    os.environ.update(JACK_DEFAULT_SERVER=SERVER, JACK_NO_AUDIO_RESERVATION="1")
+    os.environ.update(JACK_DEFAULT_SERVER=SERVER)
     check_missing()
     controller = devices.FakeController(devices.DUALSHOCK_4)
     controller.connect()
     with tempfile.TemporaryDirectory() as name, Processes() as processes:
         def start():
-            server = processes.start("jackd", "-r", "-t", "8000", "-n", SERVER, "-d", "dummy", "-r", RATE, "-p", BLOCK,
-                                     "-C", "2", "-P", "2", env=without_devices())
-            if not until(lambda: "system:playback_2" in jack("jack_lsp"), 10):
+            server = processes.start_sound_server(without_devices(), BLOCK, 2, 2)
+            if not server:
                 skip("JACK does not start")
             return server
 

@@ -6,7 +6,6 @@ check_phone.py PROGRAM SOUND [PICTURE]    PICTURE: where a picture of the window
 when Xvfb, xdotool, ImageMagick, jackd, zbar, Node.js, Chromium or puppeteer-core is not there.
 """
 import json
-import os
 import subprocess
 import sys
 import tempfile
@@ -42,11 +41,7 @@ def main():
     program, sound = sys.argv[1:3]
     with tempfile.TemporaryDirectory() as name, Screen(name) as screen:
         folder = Path(name)
-        server = f"phone{os.getpid()}"
-        screen.environment.update(JACK_DEFAULT_SERVER=server, JACK_NO_AUDIO_RESERVATION="1")
-        screen.start("jackd", "-r", "-t", "8000", "-n", server, "-d", "dummy", "-r", RATE, "-p", "1024", "-C", "2", "-P", "4",
-                     env=screen.environment)
-        time.sleep(2)
+        check("the sound server runs", screen.start_sound_server(screen.environment))
         app = screen.start(program, "--fresh", "--device-type", "JACK", sound, env=screen.environment)
         check("the window opens", until(screen.find_window))
         time.sleep(3)

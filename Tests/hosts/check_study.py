@@ -92,15 +92,9 @@ def answer(window, log, number):
 
 def main():
     program, pacini = sys.argv[1:3]
-    server = f"pacini{os.getpid()}"
     with tempfile.TemporaryDirectory() as name, Window(name) as window:
         folder = Path(name)
         study, trials = make_study(pacini, folder)
-        window.environment.update(JACK_DEFAULT_SERVER=server, JACK_NO_AUDIO_RESERVATION="1")
-        # A server that waits: on a busy machine it would throw the program out.
-        window.start("jackd", "-r", "-t", "8000", "-n", server, "-d", "dummy", "-r", RATE, "-p", "1024", "-C", "2",
-                     "-P", "4", env=window.environment)
-
         def ports():
             listed = subprocess.run(["jack_lsp"], env=window.environment, capture_output=True, text=True)
             return listed.stdout if listed.returncode == 0 else ""
@@ -114,7 +108,7 @@ def main():
             window.focus()
             return process
 
-        check("the sound server runs", until(lambda: "system:playback_4" in ports()))
+        check("the sound server runs", window.start_sound_server(window.environment))
         process = begin()
         for person in range(PERSONS):
             log = study / "sessions" / f"P{person + 1:03}.jsonl"

@@ -1,11 +1,15 @@
 """What the tests in hosts share: claims, what must be there, programs that end with the test, a screen nobody sees."""
+import fcntl
 import os
 import shutil
 import subprocess
 import sys
+import tempfile
 import time
+from pathlib import Path
 
 RATE = 48000
+PLACES = Path("/dev/shm/jack-shm-registry")
 failures = []
 
 
@@ -68,19 +72,28 @@ class Processes:
             numbers.readline()
         return display
 
-    def start_sound_server(self, environment):
-        """JACK without a sound card, four channels at RATE, for programs with `environment`, which is changed."""
-        server = f"pacini{os.getpid()}"
-        environment.update(JACK_DEFAULT_SERVER=server, JACK_NO_AUDIO_RESERVATION="1")
-        self.start("jackd", "-r", "-n", server, "-d", "dummy", "-r", RATE, "-p", "1024", "-C", "4", "-P", "4",
-                   env=environment)
-        return until(lambda: "system:playback_4" in listed(environment))
+    def start_sound_server(self, environment, block=1024, inputs=4, outputs=4):
+        """JACK without a sound card at RATE, for programs with `environment`, which is changed: the process, or None.
+
+        It waits for slow programs: on a busy machine it would throw them out. JACK has eight places for servers, and one
+        that is killed keeps its place until the machine starts again: where none runs any more, all eight are freed
+        (jackd 1.9.21 does not know --replace-registry, which its help names).
+        """
+        environment.setdefault("JACK_DEFAULT_SERVER", f"pacini{os.getpid()}")
+        environment["JACK_NO_AUDIO_RESERVATION"] = "1"
+        with open(Path(tempfile.gettempdir()) / "pacini-tests-jack.lock", "w") as lock:
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            if subprocess.run(["pgrep", "-x", "-r", "R,S,D,T", "jackd"], capture_output=True).returncode == 1:
+                PLACES.unlink(missing_ok=True)
+            server = self.start("jackd", "-r", "-t", "8000", "-n", environment["JACK_DEFAULT_SERVER"], "-d", "dummy",
+                                "-r", RATE, "-p", block, "-C", inputs, "-P", outputs, env=environment)
+            return server if until(lambda: f"system:playback_{outputs}" in listed(environment)) else None
 
     def __exit__(self, *_):
         for process in reversed(self.running):
             process.terminate()
             try:
-                process.wait(10)
+                process.wait(30)
             except subprocess.TimeoutExpired:
                 process.kill()
                 process.wait()
