@@ -6,6 +6,7 @@
 #include <pacini/foundation/Units.h>
 #include <pacini/synthesis/ClipAdaptation.h>
 #include <pacini/synthesis/RenderScene.h>
+#include <pacini/synthesis/Transparency.h>
 
 #include <fmt/format.h>
 
@@ -362,6 +363,21 @@ Clip fittedClip(const Clip& clip, const Profile& profile, double strength)
     AdaptationParams params;
     params.strength = strength;
     return adaptClip(clip, profile, params).clip;
+}
+
+bool canBeAlike(const Profile& profile) noexcept
+{
+    return profile.body && profile.technology != Technology::erm;
+}
+
+Result<AlikeClip> feltAlike(const Clip& clip, const Profile& designedOn, const Profile& actuator, double strength)
+{
+    AdaptationParams params;
+    params.strength = strength;
+    auto made = transparentClip(clip, designedOn, actuator, params);
+    if (!made)
+        return made.error();
+    return AlikeClip{std::move(made->clip), std::move(made->lost)};
 }
 
 } // namespace pacini

@@ -102,4 +102,18 @@ traceActuator(const Clip& clip, const Profile& profile, double strength, const s
 /// The clip with levels and frequencies that the actuator can play, see adaptClip().
 [[nodiscard]] Clip fittedClip(const Clip& clip, const Profile& profile, double strength);
 
+/// Whether a clip that was designed on this actuator can be felt alike on another, see transparentClip().
+[[nodiscard]] bool canBeAlike(const Profile& profile) noexcept;
+
+/// A clip that is felt on one actuator as another was where it was designed.
+struct AlikeClip
+{
+    Clip clip;
+    std::vector<std::string> lost; ///< what cannot be felt alike
+};
+
+/// The clip, designed on `designedOn`, as it feels alike on `actuator`; see transparentClip(), whose errors it has.
+[[nodiscard]] Result<AlikeClip> feltAlike(const Clip& clip, const Profile& designedOn, const Profile& actuator,
+                                          double strength);
+
 } // namespace pacini

@@ -83,6 +83,7 @@ inline constexpr auto sheetCommands =
                                                             {"transpose", editor::transposePitch},
                                                             {"stretch", editor::stretch},
                                                             {"repeat", editor::repeatClipTimes},
+                                                            {"feel as on", editor::feelAlike},
                                                             {"measure", editor::measureActuator},
                                                             {"new study", editor::newStudy},
                                                             {"scene", editor::editScene},

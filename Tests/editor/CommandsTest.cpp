@@ -6,6 +6,9 @@
 #include "editor/clip/commands/ContextMenu.h"
 #include "editor/clip/commands/KeyText.h"
 #include "editor/clip/sheets/CommandSheet.h"
+#include "editor/clip/sheets/OperationSheet.h"
+
+#include <pacini/synthesis/Transparency.h>
 
 #include <set>
 
@@ -173,6 +176,32 @@ TEST_CASE("A clip that is fitted to an actuator lies within its range, in one st
     CHECK_FALSE(fitted == before);
     CHECK(fitted.duration == before.duration);
     CHECK(fitted.bands.size() <= before.bands.size());
+    bench.session.model.undo();
+    CHECK(bench.clip() == before);
+}
+
+TEST_CASE("A clip feels on the chosen actuator as on another it was designed on, as render --designed-for makes it")
+{
+    EditorBench bench({shipped("lra-175"), shipped("l5-wristband"), shipped("erm-coin")});
+    bench.openDemo("drums_tabla_pattern");
+    CHECK_FALSE(bench.view.doCommand(editor::feelAlike)); // no actuator is chosen
+    bench.session.actuators.setProfile("erm-coin");
+    CHECK_FALSE(bench.view.doCommand(editor::feelAlike)); // a motor plays no frequencies
+    bench.session.actuators.setProfile("l5-wristband");
+    const Clip before = bench.clip();
+    const std::size_t steps = bench.session.model.document().steps().size();
+    REQUIRE(bench.view.doCommand(editor::feelAlike));
+    auto* sheet = dynamic_cast<editor::OperationSheet*>(bench.view.sheet());
+    REQUIRE(sheet != nullptr);
+    AdaptationParams params;
+    params.strength = bench.session.actuators.strength();
+    const auto wanted = transparentClip(before, *shipped("lra-175").profile, *shipped("l5-wristband").profile, params);
+    REQUIRE(wanted);
+    CHECK(bench.clip() == wanted->clip); // the preview
+    sheet->apply();
+    bench.view.showSheet(nullptr);
+    CHECK(bench.clip() == wanted->clip);
+    CHECK(bench.session.model.document().steps().size() == steps + 1);
     bench.session.model.undo();
     CHECK(bench.clip() == before);
 }

@@ -150,7 +150,7 @@ TEST_CASE("Every stop of Tab is in sight and has a ring, on all pages and sheets
     juce::StringArray found;
     for (const bool dark : {true, false})
     {
-        EditorBench bench({shipped("lra-175")});
+        EditorBench bench({shipped("lra-175"), shipped("l5-wristband")});
         bench.view.setBounds(0, 0, 1024, 640);
         bench.view.setDark(dark);
         ShownWindow window(bench.view);
@@ -179,7 +179,7 @@ TEST_CASE("Every stop of Tab is in sight and has a ring, on all pages and sheets
 
 TEST_CASE("A sheet has the keyboard and keeps it, and Escape gives it back to what had it")
 {
-    EditorBench bench({shipped("lra-175")});
+    EditorBench bench({shipped("lra-175"), shipped("l5-wristband")});
     bench.view.setBounds(0, 0, 1280, 800);
     ShownWindow window(bench.view);
     bench.openDemo("drums_tabla_pattern");

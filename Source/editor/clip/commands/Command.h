@@ -58,6 +58,7 @@ enum Command : int
     nextClip,
     previousClip,
     fitToActuator,
+    feelAlike,
     analyseAlike,
 
     playOrPause,

@@ -1,13 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/clip/commands/Operations.h"
 
+#include "document/ActuatorTrace.h"
+
 #include <pacini/foundation/Units.h>
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <string>
 #include <utility>
 
 namespace pacini::editor
@@ -65,7 +71,7 @@ Operation gainOperation(const ClipSelection& selection)
 
 Operation quantiseOperation(const ClipSelection& selection)
 {
-    std::vector<const char*> names;
+    std::vector<std::string> names;
     for (const Division& division : divisions)
         names.push_back(division.name);
     const auto make = [scope = selection.scope()](const OperationValues& v)
@@ -156,6 +162,33 @@ Operation repeatOperation()
             {
                 return RepeatEdit{static_cast<int>(std::lround(v[0]))};
             }};
+}
+
+Operation alikeOperation(const Actuators& actuators)
+{
+    const auto here = actuators.profile();
+    std::vector<std::shared_ptr<const Profile>> others;
+    std::vector<std::string> names;
+    for (const auto& named : actuators.profiles())
+        if (named.name != actuators.profileName() && canBeAlike(*named.profile))
+        {
+            others.push_back(named.profile);
+            names.push_back(shortNameOf(*named.profile));
+        }
+    const auto make = [here, others, strength = actuators.strength()](const Clip& clip,
+                                                                      const OperationValues& v) -> Result<MadeClip>
+    {
+        auto made = feltAlike(clip, *others[static_cast<std::size_t>(v[0])], *here, strength);
+        if (!made)
+            return made.error();
+        return MadeClip{std::move(made->clip), fmt::format("{}", fmt::join(made->lost, "; "))};
+    };
+    return {.name = "Feel as on",
+            .wholeClip = true,
+            .fields = {{.name = "Designed on",
+                        .help = "The actuator whose feel is kept on the chosen one",
+                        .choices = names}},
+            .makeClip = make};
 }
 
 } // namespace pacini::editor

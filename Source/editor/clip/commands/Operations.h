@@ -3,6 +3,7 @@
 
 // Edits with arguments that the menus offer, see OperationSheet. Those of a scope take it as it is when they are made.
 
+#include "editor/clip/session/Actuators.h"
 #include "editor/clip/sheets/OperationSheet.h"
 
 namespace pacini::editor
@@ -15,5 +16,7 @@ namespace pacini::editor
 [[nodiscard]] Operation transposeOperation();
 [[nodiscard]] Operation stretchOperation(const EditorModel& model);
 [[nodiscard]] Operation repeatOperation();
+/// The project has an actuator, and another of which canBeAlike() is true is in the list.
+[[nodiscard]] Operation alikeOperation(const Actuators& actuators);
 
 } // namespace pacini::editor

@@ -458,7 +458,7 @@ void ActuatorRow::drawLosses(const Clip& clip, juce::Rectangle<int> plot, const 
 
 std::vector<Command> ActuatorRow::contextCommands() const
 {
-    return {fitToActuator, menuLine, loadProfile, measureActuator, menuLine, showActuator};
+    return {fitToActuator, feelAlike, menuLine, loadProfile, measureActuator, menuLine, showActuator};
 }
 
 } // namespace pacini::editor

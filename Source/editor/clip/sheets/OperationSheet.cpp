@@ -41,7 +41,7 @@ public:
             choice.setTooltip(field.help);
             choice.addKeyListener(this);
             for (std::size_t i = 0; i < field.choices.size(); ++i)
-                choice.addItem(toText(field.choices[i]), 1 + static_cast<int>(i));
+                choice.addItem(tr(toText(field.choices[i])), 1 + static_cast<int>(i));
             choice.setSelectedId(1 + juce::roundToInt(first), juce::dontSendNotification);
             choice.onChange = [this]
             {
@@ -172,9 +172,20 @@ private:
     juce::ComboBox choice;
 };
 
+Result<MadeClip> Operation::madeOf(const Clip& clip, const OperationValues& values) const
+{
+    if (makeClip)
+        return makeClip(clip, values);
+    auto edited = applyEdit(clip, make(values));
+    if (!edited)
+        return edited.error();
+    return MadeClip{std::move(edited).value()};
+}
+
 OperationSheet::OperationSheet(EditorView& shown, Operation wanted, std::shared_ptr<OperationValues> last)
     : Sheet(wanted.name, sheetWidth,
-            around + 2 * textHeight + static_cast<int>(wanted.fields.size()) * (operationRowHeight + grid)),
+            around + (wanted.makeClip ? 4 : 2) * textHeight +
+                static_cast<int>(wanted.fields.size()) * (operationRowHeight + grid)),
       view(shown),
       model(shown.session().model),
       clipSelection(shown.session().clipSelection),
@@ -191,6 +202,7 @@ OperationSheet::OperationSheet(EditorView& shown, Operation wanted, std::shared_
                                 operation.fields[i].choices.empty()
                                     ? operation.fields[i].high
                                     : static_cast<double>(operation.fields[i].choices.size()) - 1.0);
+    problem.setJustificationType(juce::Justification::topLeft);
     for (juce::Label* label : {&scopeLabel, &problem})
     {
         label->setFont(smallFont());
@@ -267,18 +279,21 @@ void OperationSheet::valueChanged()
 
 void OperationSheet::preview()
 {
-    const EditOperation wanted = operation.make(now);
     std::size_t points = breakpointCount(*start);
-    if (const auto* repeated = std::get_if<RepeatEdit>(&wanted))
-        points *= static_cast<std::size_t>(repeated->passes);
+    if (operation.make)
+    {
+        const EditOperation wanted = operation.make(now);
+        if (const auto* repeated = std::get_if<RepeatEdit>(&wanted))
+            points *= static_cast<std::size_t>(repeated->passes);
+    }
     if (points <= quickPoints)
-        return show(applyEdit(*start, wanted));
+        return show(operation.madeOf(*start, now));
     again = running;
     if (running)
         return;
     running = true;
-    jobs.run([from = start, wanted] { return applyEdit(*from, wanted); },
-             [this](Result<Clip> made)
+    jobs.run([from = start, made = operation, values = now] { return made.madeOf(*from, values); },
+             [this](Result<MadeClip> made)
              {
                  running = false;
                  show(std::move(made));
@@ -287,15 +302,15 @@ void OperationSheet::preview()
              });
 }
 
-void OperationSheet::show(Result<Clip> made)
+void OperationSheet::show(Result<MadeClip> made)
 {
     possible = made.ok();
     setAnswerEnabled(possible);
-    problem.setText(possible ? juce::String() : toText(made.error().text()), juce::dontSendNotification);
+    problem.setText(toText(possible ? made->doubt : made.error().text()), juce::dontSendNotification);
     if (!possible)
         return model.setPreview(nullptr);
-    changes = !(*made == *start);
-    model.setPreview(changes ? std::make_shared<const Clip>(std::move(made).value()) : nullptr);
+    changes = !(made->clip == *start);
+    model.setPreview(changes ? std::make_shared<const Clip>(std::move(made->clip)) : nullptr);
 }
 
 void OperationSheet::apply()
@@ -306,13 +321,19 @@ void OperationSheet::apply()
     if (remembered)
         *remembered = now;
     // An edit that fails puts its message in place of this sheet.
-    const auto wanted = operation.make(now);
-    const char* const name = operation.name;
+    const auto wanted = operation;
+    const auto values = now;
     const bool any = changes || running;
     EditorModel& target = model;
     close();
-    if (any)
-        editClip(target, name, wanted);
+    if (!any)
+        return;
+    if (wanted.make)
+        editClip(target, wanted.name, wanted.make(values));
+    else if (auto made = wanted.makeClip(*target.clip(), values))
+        setClip(target, wanted.name, std::move(made->clip));
+    else
+        target.report("Not applied", made.error());
 }
 
 void OperationSheet::layOut(juce::Rectangle<int> area)
@@ -330,7 +351,7 @@ void OperationSheet::layOut(juce::Rectangle<int> area)
         row->setBounds(area.removeFromTop(operationRowHeight));
         area.removeFromTop(grid);
     }
-    problem.setBounds(area.removeFromTop(textHeight));
+    problem.setBounds(area.removeFromTop((operation.makeClip ? 3 : 1) * textHeight));
 }
 
 } // namespace pacini::editor

@@ -11,6 +11,7 @@
 
 #include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace pacini::editor
@@ -31,8 +32,15 @@ struct OperationField
     double high = 1.0;
     double value = 0.0; ///< at first
     int decimals = 0;
-    std::vector<const char*> choices = {};                   ///< empty: a number
+    std::vector<std::string> choices = {};                   ///< empty: a number
     std::function<bool(const OperationValues&)> counts = {}; ///< empty: always
+};
+
+/// What an operation makes of a clip.
+struct MadeClip
+{
+    Clip clip;
+    std::string doubt = {}; ///< what the user should know of it; empty: nothing
 };
 
 struct Operation
@@ -41,6 +49,10 @@ struct Operation
     bool wholeClip = false; ///< else for the scope, see Session::scope()
     std::vector<OperationField> fields;
     std::function<EditOperation(const OperationValues&)> make;
+    /// In place of `make`, for what is no edit of its own: the clip that it makes is kept.
+    std::function<Result<MadeClip>(const Clip&, const OperationValues&)> makeClip = {};
+
+    [[nodiscard]] Result<MadeClip> madeOf(const Clip& clip, const OperationValues& values) const;
 };
 
 /// While it is open, the view previews the result of the edit; Return applies the edit, Cancel discards it. Space
@@ -64,7 +76,7 @@ private:
     juce::Component* firstFocus() override;
     void valueChanged();
     void preview();
-    void show(Result<Clip> made);
+    void show(Result<MadeClip> made);
     [[nodiscard]] juce::String scopeText() const;
 
     EditorView& view;
