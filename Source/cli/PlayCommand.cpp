@@ -7,6 +7,7 @@
 #include "cli/Manifest.h"
 #include "cli/Options.h"
 #include "cli/PlayLosses.h"
+#include "cli/ProfileInput.h"
 #include "devices/ClipDrive.h"
 #include "devices/ClipRumble.h"
 #include "devices/HidList.h"
@@ -99,6 +100,8 @@ private:
         return dualSense.empty() ? DualSenseWay::samples : *valueOf(dualSense, dualSenseWays);
     }
 
+    [[nodiscard]] const Profile* actuator() const { return profile ? &*profile : nullptr; }
+
     /// What is wrong with the options.
     [[nodiscard]] std::optional<Error> usageError() const;
 
@@ -119,6 +122,8 @@ private:
     std::string device;
     std::string like;
     std::string dualSense;
+    std::string profileName;
+    std::optional<Profile> profile;
     double intensity = 0.0; ///< dB
     double from = 0.0;      ///< s
     double to = -1.0;       ///< s; negative: the end
@@ -137,6 +142,11 @@ CLI::App* PlayCommand::declare(CLI::App& app)
         *command, "--device", device,
         "Device to play on: its number in 'pacini devices', its path, or part of its name [the only game controller]",
         "N|NAME");
+    addOption(
+        *command, "--profile", profileName,
+        "Actuator profile that the drive is made for: a file, such as a personal one of 'pacini study profile', or a "
+        "shipped profile [none: the drive as it is]",
+        "PROFILE");
     addPreset(*command, "--intensity", intensity, "Gain of the playback, dB", numberFrom(-60.0, 40.0));
     addPreset(*command, "--from", from, "Start of the part to play, s", numberFrom(0.0, limits::duration, "24 h"), "S");
     addOption(*command, "--to", to, "End of the part to play, s [the end]", numberFrom(0.0, limits::duration, "24 h"),
@@ -152,6 +162,7 @@ CLI::App* PlayCommand::declare(CLI::App& app)
     command->footer("The motors stop when the clip ends, on Ctrl-C, and when the program fails.\n"
                     "Examples:\n  pacini play door.json --device 1\n"
                     "  pacini play door.haptic --device pro --loop --intensity -6\n"
+                    "  pacini play door.json --profile quest-controller --device 1\n"
                     "  pacini play door.json --dry-run --like switch\n"
                     "  pacini play door.json --explain --like dualshock4");
     return command;
@@ -230,6 +241,18 @@ Exit PlayCommand::run(Console& console)
     const auto range = rangeIn(read->clip);
     if (!range)
         return console.fail(input, range.error());
+    if (!profileName.empty())
+    {
+        profile = openProfile(console, profileName);
+        if (!profile)
+            return Exit::failed;
+        if (profile->technology == Technology::erm)
+            return console.fail(profileName,
+                                {ErrorCode::invalidArgument, "--profile",
+                                 "is a motor, whose drive is a voltage; leave it out: motors of controllers "
+                                 "have their own curves"},
+                                Exit::usage);
+    }
     if (explaining)
         return explain(console, read->clip, *range);
     return dryRun ? list(console, read->clip, *range) : play(console, read->clip, *range);
@@ -259,7 +282,7 @@ Exit PlayCommand::explain(Console& console, const Clip& clip, const devices::Pla
     if (!model)
         return console.fail("", model.error());
     Json losses = Json::array();
-    for (const FormatLoss& loss : playLosses(clip, range, Decibels(intensity), *model))
+    for (const FormatLoss& loss : playLosses(clip, range, Decibels(intensity), *model, actuator()))
     {
         losses.push_back(toJson(loss));
         console.print(lossLine(input, loss));
@@ -281,7 +304,7 @@ Exit PlayCommand::list(Console& console, const Clip& clip, const devices::PlayRa
     warnOfSilence(console, input, *model);
     devices::InstantClock clock;
     PacketList sink(clock);
-    devices::ClipRumble rumble(clip, range, Decibels(intensity), *model);
+    devices::ClipRumble rumble(clip, range, Decibels(intensity), *model, actuator());
     devices::RumblePlayback playback(*model, rumble, sink, clock);
     static_cast<void>(playback.run());
     Json packets = Json::array();
@@ -315,7 +338,8 @@ Exit PlayCommand::play(Console& console, const Clip& clip, const devices::PlayRa
         return playSound(console, clip, range, all, interruption);
     warnOfSilence(console, input, model);
     devices::SteadyClock clock;
-    devices::RumblePlayer player(model, devices::ClipRumble(clip, range, Decibels(intensity), model), *target, clock);
+    devices::RumblePlayer player(model, devices::ClipRumble(clip, range, Decibels(intensity), model, actuator()),
+                                 *target, clock);
     const double length = range.to.value - range.from.value;
     bool ended = false;
     while (!ended && player.isPlaying())
@@ -357,7 +381,7 @@ Exit PlayCommand::playSound(Console& console, const Clip& clip, const devices::P
     const double length = range.to.value - range.from.value;
     std::atomic<std::int64_t> made{0};
     const auto started = opened.sound->play(
-        [&made, render = devices::clipDrive(clip, range, Decibels(intensity), fs)](std::span<float> frames)
+        [&made, render = devices::clipDrive(clip, range, Decibels(intensity), fs, actuator())](std::span<float> frames)
         {
             for (std::size_t i = 0; i < frames.size(); i += devices::DriveRumble::blockFrames)
                 render(std::array<std::span<float>, 1>{

@@ -54,12 +54,14 @@ double octavesOutside(double frequency, double lowest, double highest)
 class PlayLosses
 {
 public:
-    PlayLosses(const Clip& clip, const devices::PlayRange& range, Decibels drive, const devices::ControllerModel& model)
+    PlayLosses(const Clip& clip, const devices::PlayRange& range, Decibels drive, const devices::ControllerModel& model,
+               const Profile* profile)
         : whole(clip),
           part(trimClip(clip, {range.from.value, range.to.value})),
           played(range),
           gain(drive),
           device(model),
+          actuator(profile),
           interval(devices::pacingOf(model).interval.value)
     {
     }
@@ -248,8 +250,8 @@ private:
     template <typename Each>
     void forEachPacket(const Each& each, Decibels quieter = Decibels(0.0))
     {
-        auto render =
-            devices::clipDrive(whole, {played.from, played.to, false}, Decibels(gain.value - quieter.value), driveRate);
+        auto render = devices::clipDrive(whole, {played.from, played.to, false}, Decibels(gain.value - quieter.value),
+                                         driveRate, actuator);
         devices::DriveMeasure measure(driveRate);
         devices::ClipEvents events(whole, {played.from, played.to, false}, Seconds(interval));
         std::array<float, devices::DriveMeasure::blockFrames> block{};
@@ -277,15 +279,16 @@ private:
     devices::PlayRange played;
     Decibels gain;
     devices::ControllerModel device;
+    const Profile* actuator;
     double interval; ///< s
     LossList list;
 };
 } // namespace
 
 std::vector<FormatLoss> playLosses(const Clip& clip, const devices::PlayRange& range, Decibels gain,
-                                   const devices::ControllerModel& model)
+                                   const devices::ControllerModel& model, const Profile* profile)
 {
-    return PlayLosses(clip, range, gain, model).all();
+    return PlayLosses(clip, range, gain, model, profile).all();
 }
 
 } // namespace pacini::cli

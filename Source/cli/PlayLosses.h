@@ -17,6 +17,7 @@ namespace pacini::cli
 /// the drive signal is measured as it is for playing, packet after packet, and compared with what the packets say. The
 /// frequency of a motor is taken as Linux takes it, 160 Hz for the heavy and 320 Hz for the light one. [worker]
 [[nodiscard]] std::vector<FormatLoss> playLosses(const Clip& clip, const devices::PlayRange& range, Decibels gain,
-                                                 const devices::ControllerModel& model);
+                                                 const devices::ControllerModel& model,
+                                                 const Profile* profile = nullptr);
 
 } // namespace pacini::cli

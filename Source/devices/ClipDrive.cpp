@@ -11,11 +11,14 @@
 namespace pacini::devices
 {
 
-DriveRenderer clipDrive(const Clip& clip, const PlayRange& range, Decibels gain, double sampleRate)
+DriveRenderer clipDrive(const Clip& clip, const PlayRange& range, Decibels gain, double sampleRate,
+                        const Profile* profile)
 {
     EngineParams params;
     params.sampleRate = sampleRate;
     params.actuators.resize(1);
+    if (profile)
+        params.actuators[0].profile = *profile;
     params.maxPlays = 1;
     auto made = Engine::make(params);
     const auto part = LoadedClip::asItIs(trimClip(clip, {range.from.value, range.to.value}));

@@ -4,6 +4,7 @@
 
 #include "devices/DriveRumble.h"
 
+#include <pacini/actuator/Profile.h>
 #include <pacini/clip/Clip.h>
 #include <pacini/foundation/Units.h>
 
@@ -18,7 +19,9 @@ struct PlayRange
     bool loop = false;
 };
 
-/// One channel of the drive signal of a valid clip, at a sample rate in Hz; silence after its end. [worker]
-[[nodiscard]] DriveRenderer clipDrive(const Clip& clip, const PlayRange& range, Decibels gain, double sampleRate);
+/// One channel of the drive signal of a valid clip, at a sample rate in Hz; silence after its end. `profile`: the
+/// actuator that it is made for, which is no motor; null: the drive as it is. [worker]
+[[nodiscard]] DriveRenderer clipDrive(const Clip& clip, const PlayRange& range, Decibels gain, double sampleRate,
+                                      const Profile* profile = nullptr);
 
 } // namespace pacini::devices

@@ -12,9 +12,10 @@ namespace
 constexpr double driveRate = 48000.0; // Hz; as `pacini render` unless it is told
 } // namespace
 
-ClipRumble::ClipRumble(const Clip& clip, const PlayRange& range, Decibels intensity, const ControllerModel& controller)
+ClipRumble::ClipRumble(const Clip& clip, const PlayRange& range, Decibels intensity, const ControllerModel& controller,
+                       const Profile* profile)
     : model(controller),
-      drive(clipDrive(clip, range, intensity, driveRate), 1, driveRate, controller,
+      drive(clipDrive(clip, range, intensity, driveRate, profile), 1, driveRate, controller,
             [events = ClipEvents(clip, range, pacingOf(controller).interval)](std::int64_t packet) mutable
             { return events.at(packet); })
 {

@@ -17,7 +17,9 @@ namespace pacini::devices
 class ClipRumble : public RumbleSource
 {
 public:
-    ClipRumble(const Clip& clip, const PlayRange& range, Decibels intensity, const ControllerModel& controller);
+    /// `profile`: see clipDrive().
+    ClipRumble(const Clip& clip, const PlayRange& range, Decibels intensity, const ControllerModel& controller,
+               const Profile* profile = nullptr);
 
     /// After the end come those in which the last sound fades out, then nothing. [worker]
     [[nodiscard]] std::optional<RumbleState> at(std::int64_t packet) override;

@@ -52,6 +52,13 @@ class Play(CommandTest):
                          self.listed("--like", "dualsense-bluetooth", "--dualsense", "samples"))
         self.fails(2, ["play", "clip.json", "--dry-run", "--like", "dualsense", "--dualsense", "organ"], "--dualsense")
 
+    def test_a_profile_is_what_the_drive_is_made_for(self):
+        self.clip()
+        plain = self.listed("--like", "steam")
+        self.assertNotEqual(self.listed("--like", "steam", "--profile", "quest-controller"), plain)
+        self.fails(2, ["play", "clip.json", "--dry-run", "--like", "xbox", "--profile", "phone-erm"], "--profile", "is a motor")
+        self.fails(1, ["play", "clip.json", "--dry-run", "--like", "xbox", "--profile", "none.json"], "none.json")
+
     def test_packets_as_json_are_those_of_the_list(self):
         self.clip()
         report = self.report("play", "clip.json", "--dry-run", "--like", "switch")

@@ -3,12 +3,17 @@
 #include "devices/DecodeRumble.h"
 #include "devices/WaveformDevice.h"
 #include "support/Catch.h"
+#include "support/ShippedProfile.h"
+
+#include <pacini/synthesis/RenderScene.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <numbers>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -90,6 +95,43 @@ TEST_CASE("Noise is felt, on a clip of nothing else too", "[devices]")
     for (const MotorLevels& each : states)
         sum += levelOf(each) * levelOf(each) / static_cast<double>(states.size());
     CHECK(std::sqrt(sum) == Approx(0.3 * std::numbers::sqrt2).epsilon(0.2));
+}
+
+TEST_CASE("The drive that a device plays is that of render for the actuator too, and of a person's", "[devices]")
+{
+    Clip clip = steadyClip(0.02, {{0.3, 0.8, 0.5}}); // far weaker than what actuators of 20 dB show
+    Profile personal = test::shippedProfile("lra-175");
+    personal.range.dynamicRange = 20.0;
+    for (const Profile& profile :
+         {test::shippedProfile("l5-wristband"), test::shippedProfile("quest-controller"), personal})
+    {
+        CAPTURE(profile.name, profile.range.dynamicRange);
+        const auto rendered = renderScene(sceneOf(clip), &profile, {});
+        REQUIRE(rendered);
+        std::vector<float> drive(rendered->samples.size());
+        const std::array<std::span<float>, 1> out{drive};
+        clipDrive(clip, wholeClip, 0_dB, 48000.0, &profile)(out);
+        double error = 0.0, power = 0.0;
+        for (std::size_t i = 0; i < drive.size(); ++i)
+        {
+            error += std::pow(static_cast<double>(drive[i]) - static_cast<double>(rendered->samples[i]), 2.0);
+            power += std::pow(static_cast<double>(rendered->samples[i]), 2.0);
+        }
+        CHECK(power > 0.0);
+        CHECK(error < 1e-6 * power);
+    }
+    ClipRumble weak(clip, wholeClip, 0_dB, dualShock), raised(clip, wholeClip, 0_dB, dualShock, &personal);
+    double before = 0.0, after = 0.0;
+    for (std::int64_t packet = 0; packet < 80; ++packet)
+    {
+        const auto one = weak.at(packet), other = raised.at(packet);
+        REQUIRE((one && other));
+        if (packet < 50)
+            continue; // the event
+        before = std::max(before, levelOf(std::get<MotorLevels>(*one)));
+        after = std::max(after, levelOf(std::get<MotorLevels>(*other)));
+    }
+    CHECK(after > 2.0 * before);
 }
 
 TEST_CASE("A part of a clip starts and ends where it is told to", "[devices]")
