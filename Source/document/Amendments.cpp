@@ -69,9 +69,6 @@ Result<void> openScene(Document& document, const Scene& scene, const std::string
 {
     if (auto valid = validate(scene); !valid)
         return valid;
-    if (!scene.textures.empty())
-        return Error{ErrorCode::invalidData, "textures[0]",
-                     "is a texture, which projects do not have; play the scene with 'pacini render'"};
     std::vector<std::shared_ptr<const ClipItem>> items;
     std::vector<int> ids;
     int id = document.steps().newIds().clip;

@@ -11,6 +11,7 @@
 #include <pacini/analysis/EncoderParams.h>
 #include <pacini/clip/Curve.h>
 #include <pacini/synthesis/Scene.h>
+#include <pacini/texture/Texture.h>
 
 #include <memory>
 #include <optional>
@@ -61,11 +62,21 @@ struct SceneCurve
 /// A clip of the project in the scene.
 struct ScenePart
 {
-    int clip = 0;        ///< its id; a part whose clip is gone stays, and is not played
+    int clip = 0;        ///< its id; a part whose clip is gone stays, and is not played; of a texture: how long it is
     int track = 0;       ///< from 0: where it is shown
     ScenePlay play = {}; ///< how it plays, but for its clip; a loop that is longer than the clip repeats all of it
     std::vector<SceneCurve> curves = {};
     bool operator==(const ScenePart&) const = default;
+};
+
+/// A texture that a part can play instead of its clip. Immutable: projects share it, as they do clips.
+struct SceneTexture
+{
+    std::shared_ptr<const Texture> content; ///< never null
+    [[nodiscard]] bool operator==(const SceneTexture& other) const
+    {
+        return content == other.content || *content == *other.content;
+    }
 };
 
 /// Clips of the project on tracks, which play together; see sceneOf().
@@ -78,6 +89,7 @@ struct ProjectScene
     PanLaw panLaw = PanLaw::constantPower;
     double panDelay = 0.01; ///< s, of the far end, for panning by delay
     std::vector<ScenePart> parts;
+    std::vector<SceneTexture> textures = {}; ///< of parts, by index
     bool operator==(const ProjectScene&) const = default;
 };
 

@@ -9,10 +9,13 @@
 #include "io/ParameterFields.h"
 #include "io/ProfileFields.h"
 #include "io/SceneFields.h"
+#include "io/TextureFields.h"
 
 #include <array>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <utility>
 
 namespace pacini::projectFields
 {
@@ -55,6 +58,25 @@ void visitProfile(Chosen& chosen, Visitor& visitor)
     visitor.number("strength", chosen.strength, Need::usual);
 }
 
+/// The texture of a play by its index, and how it moves; nothing of a play that has none.
+template <typename Play, typename Visitor>
+void visitTexture(Play& play, Visitor& visitor)
+{
+    constexpr double none = -1.0;
+    double index = play.texture ? static_cast<double>(*play.texture) : none;
+    if constexpr (isReader<Visitor>)
+    {
+        visitor.number("texture", index, Need::optional);
+        if (index == std::floor(index) && index >= 0.0 && index < static_cast<double>(limits::sceneTextures))
+            play.texture = static_cast<std::size_t>(index);
+        else if (index != none)
+            visitor.fail("texture", "must be the index of one of the scene's textures");
+    }
+    else if (play.texture)
+        visitor.number("texture", index, Need::required);
+    sceneFields::visitMovement(play, visitor);
+}
+
 template <typename Play, typename Visitor>
 void visitPlay(Play& play, Visitor& visitor)
 {
@@ -63,6 +85,7 @@ void visitPlay(Play& play, Visitor& visitor)
     visitor.number("loop", play.loop, Need::usual);
     visitCount(play.passes, "passes", 0.0, 1e9, visitor);
     sceneFields::levelFields(play, visitor);
+    visitTexture(play, visitor);
     visitCount(play.priority, "priority", std::numeric_limits<int>::min(), std::numeric_limits<int>::max(), visitor);
     visitor.object("variation", play.variation, Need::optional,
                    [&](auto& variation)
@@ -82,6 +105,18 @@ void visitScene(Scene& scene, Visitor& visitor)
     visitor.integer("actuators", scene.actuators, "must be a whole number");
     visitor.choice("panLaw", scene.panLaw, sceneFields::panLaws, Need::usual);
     visitor.number("panDelay", scene.panDelay, Need::usual);
+    visitor.list("textures", scene.textures, limits::sceneTextures, "textures",
+                 [&](auto& texture)
+                 {
+                     if constexpr (isReader<Visitor>)
+                     {
+                         auto read = std::make_shared<Texture>();
+                         textureFields::content(*read, visitor);
+                         texture.content = std::move(read);
+                     }
+                     else
+                         textureFields::content(*texture.content, visitor);
+                 });
     visitor.list("parts", scene.parts, limits::plays, "parts",
                  [&](auto& part)
                  {

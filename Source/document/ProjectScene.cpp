@@ -13,6 +13,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -129,6 +130,15 @@ Curve pointsOf(const std::vector<SceneChange>& changes, double initial, double b
     return points;
 }
 
+/// A clip without any content, which lasts.
+Clip silentClip(const std::string& name, double duration)
+{
+    Clip clip;
+    clip.name = name;
+    clip.duration = duration;
+    return clip;
+}
+
 /// s by which a play is late when it is heard to begin: then its delay is what has passed since its start.
 double delayAtBegin(const std::vector<SceneChange>& changes, double initial, double start)
 {
@@ -191,6 +201,12 @@ Result<void> validate(const ProjectScene& scene)
         return wrong("panDelay", "must be 0 to 0.1 s");
     if (scene.actuators < 1 || scene.actuators > limits::actuators)
         return wrong("actuators", "must be 1 to 16");
+    if (scene.textures.size() > limits::sceneTextures)
+        return wrong("textures", "has more than 1000 textures");
+    for (std::size_t i = 0; i < scene.textures.size(); ++i)
+        if (auto valid = validate(*scene.textures[i].content); !valid)
+            return Error{valid.error().code, fmt::format("textures[{}].{}", i, valid.error().where),
+                         valid.error().message};
     if (scene.parts.size() > limits::plays)
         return wrong("parts", "has more than 10000 parts");
     for (std::size_t i = 0; i < scene.parts.size(); ++i)
@@ -200,6 +216,8 @@ Result<void> validate(const ProjectScene& scene)
         const std::string where = fmt::format("parts[{}]", i);
         if (part.clip < 1)
             return wrong(where + ".clipId", "must be 1 or more");
+        if (play.texture && *play.texture >= scene.textures.size())
+            return wrong(where + ".texture", "is not one of the scene's textures");
         if (part.track < 0 || part.track >= static_cast<int>(limits::plays))
             return wrong(where + ".track", "must be 0 to 9999");
         if (!(play.start >= 0.0 && play.start <= limits::duration))
@@ -275,20 +293,26 @@ BuiltScene sceneOf(const Project& project)
     scene.actuators = project.scene.actuators;
     scene.panLaw = project.scene.panLaw;
     scene.panDelay = project.scene.panDelay;
-    std::map<int, std::size_t> places; // of clips in the scene, by id
+    for (const SceneTexture& texture : project.scene.textures)
+        scene.textures.push_back(*texture.content);
+    std::map<std::pair<int, bool>, std::size_t> places; // of clips in the scene, by id and whether they are silenced
     for (std::size_t i = 0; i < project.scene.parts.size(); ++i)
     {
         const ScenePart& part = project.scene.parts[i];
         const auto item = project.find(part.clip);
         if (!item)
             continue;
-        const auto [place, isNew] = places.try_emplace(part.clip, scene.clips.size());
+        const bool silenced = part.play.texture && !isSilent(*item->clip); // a texture plays instead of its clip
+        const auto [place, isNew] = places.try_emplace({part.clip, silenced}, scene.clips.size());
         if (isNew)
-            scene.clips.push_back(*item->clip);
+            scene.clips.push_back(silenced ? silentClip(item->clip->name, item->clip->duration) : *item->clip);
         ScenePlay play = part.play;
         play.clip = place->second;
         if (play.name.empty())
-            play.name = fmt::format("{} {}", item->clip->name.empty() ? "clip" : item->clip->name, i + 1);
+        {
+            const std::string& name = play.texture ? scene.textures[*play.texture].name : item->clip->name;
+            play.name = fmt::format("{} {}", !name.empty() ? name : play.texture ? "texture" : "clip", i + 1);
+        }
         play.loop = std::min(play.loop, item->clip->duration);
         if (play.loop < limits::shortestLoop)
             play.loop = 0.0;
@@ -329,6 +353,8 @@ ProjectScene projectSceneOf(const Scene& scene, const std::vector<int>& clipIds)
     made.actuators = scene.actuators;
     made.panLaw = scene.panLaw;
     made.panDelay = scene.panDelay;
+    for (const Texture& texture : scene.textures)
+        made.textures.push_back({std::make_shared<const Texture>(texture)});
     std::vector<std::map<SceneParameter, std::vector<SceneChange>>> changes(scene.plays.size());
     for (const SceneChange& change : scene.changes)
         changes[change.play][change.parameter].push_back(change);

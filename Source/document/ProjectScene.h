@@ -40,8 +40,9 @@ struct BuiltScene
 };
 
 /// What `pacini render` plays of a project whose scene is valid: plays in order of their parts, without those whose
-/// clips are gone. Curves are points in seconds of a part, from where its delay lets it begin; each becomes a change
-/// that glides from the point before it, so that levels, pan and delay go in straight lines; pitches step.
+/// clips are gone; a part with a texture is silent but for it, as long as its clip. Curves are points in seconds of a
+/// part, from where its delay lets it begin; each becomes a change that glides from the point before it, so that
+/// levels, pan and delay go in straight lines; pitches step.
 [[nodiscard]] BuiltScene sceneOf(const Project& project);
 
 /// The played parts of a scene, by its plan.

@@ -9,6 +9,7 @@
 #include "io/SceneJson.h"
 #include "support/Catch.h"
 #include "support/RandomScene.h"
+#include "support/RandomTexture.h"
 
 #include <pacini/synthesis/SceneTimeline.h>
 
@@ -16,6 +17,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <memory>
 #include <string>
 
 using namespace pacini;
@@ -214,6 +216,73 @@ TEST_CASE("Scenes of any shape become parts that play as they did")
         const auto read = readProjectJson(projectJson(project), {});
         REQUIRE(read);
         CHECK(read->project.scene == project.scene);
+    }
+}
+
+TEST_CASE("Scenes with textures become parts that play them as they did, and come back from project and scene files")
+{
+    for (std::uint64_t seed = 1; seed <= 30; ++seed)
+    {
+        CAPTURE(seed);
+        const Scene scene = test::texturedScene(seed);
+        REQUIRE(validate(scene));
+        Document document;
+        REQUIRE(openScene(document, scene, "scene", "Open scene"));
+        const auto read = readProjectJson(projectJson(document.project()), {});
+        CAPTURE(read ? "" : read.error().text());
+        REQUIRE(read);
+        CHECK(read->project == document.project());
+        const Scene again = sceneOf(read->project).scene;
+        REQUIRE(validate(again));
+        CHECK(again.textures == scene.textures);
+        REQUIRE(again.plays.size() == scene.plays.size());
+        const SceneTimeline before = timelineOf(scene), after = timelineOf(again);
+        for (std::size_t i = 0; i < scene.plays.size(); ++i)
+        {
+            CAPTURE(i);
+            CHECK(again.plays[i].texture == scene.plays[i].texture);
+            CHECK(again.plays[i].variation == scene.plays[i].variation);
+            const TimedPlay &old = before.plays[i], &now = after.plays[i];
+            CHECK(now.end == Approx(old.end).margin(1e-6));
+            if (!scene.plays[i].texture)
+                continue;
+            for (double time = old.start; time < old.end; time += 0.037)
+            {
+                CHECK(valueAt(now.timeline.speed, time) == Approx(valueAt(old.timeline.speed, time)).margin(1e-9));
+                CHECK(valueAt(now.timeline.force, time) == Approx(valueAt(old.timeline.force, time)).margin(1e-9));
+            }
+        }
+    }
+}
+
+TEST_CASE("A texture plays instead of its clip when something is drawn in that, and a project names a wrong one")
+{
+    Document document = sceneDocument(); // clips that sound
+    ProjectScene scene = document.project().scene;
+    scene.textures.push_back({std::make_shared<const Texture>(test::randomTexture(1))});
+    scene.parts[1].play.texture = 0;
+    scene.parts[1].play.speed = 0.25;
+    scene.parts[1].curves = {{SceneParameter::speed, {{0.0, 0.2}, {0.5, 1.0}}}};
+    REQUIRE(document.commit("Texture", withScene(document.project(), scene)));
+    const Scene built = sceneOf(document.project()).scene;
+    REQUIRE(validate(built));
+    CHECK(isSilent(built.clips[built.plays[1].clip]));
+    CHECK(built.clips[built.plays[1].clip].duration == 1.0);
+    CHECK_FALSE(isSilent(built.clips[built.plays[0].clip]));
+    CHECK(built.changes.front() == SceneChange{1.1, 1, SceneParameter::speed, 1.0, 0.5});
+    const std::string text = projectJson(document.project());
+    for (const auto& [from, to, where] : {std::tuple("\"texture\": 0", "\"texture\": 1", "scene.parts[1].texture"),
+                                          {"\"texture\": 0", "\"texture\": 0.5", "scene.parts[1].texture"},
+                                          {"\"pitch\": ", "\"pitch\": 7", "scene.textures[0].pitch"}})
+    {
+        CAPTURE(to);
+        std::string bad = text;
+        const auto at = bad.find(from);
+        REQUIRE(at != std::string::npos);
+        bad.replace(at, std::string(from).size(), to);
+        const auto refused = readProjectJson(bad, {});
+        REQUIRE_FALSE(refused);
+        CHECK(refused.error().where == where);
     }
 }
 

@@ -123,6 +123,47 @@ TEST_CASE("A part is repeated, and its length and the file follow")
     CHECK(page.scene().parts[0].play.loop == 0.0);
 }
 
+TEST_CASE("A scene with a texture opens, plays, changes by speed and force, and is written with its texture")
+{
+    const TempFolder folder;
+    const Scene scene = test::texturedScene(7);
+    REQUIRE(writeScene(folder / "made.scene.json", scene));
+    ScenePage page;
+    page.sheet->read(folder / "made.scene.json");
+    REQUIRE(pumpUntil([&] { return page.scene().parts.size() == scene.plays.size(); }));
+    REQUIRE(page.scene().textures.size() == 2);
+    auto& curves = get<juce::ComboBox>(*page.sheet, "Curve");
+    const auto offered = [&]
+    {
+        juce::StringArray names;
+        for (int i = 0; i < curves.getNumItems(); ++i)
+            names.add(curves.getItemText(i));
+        return names;
+    };
+    page.sheet->parts().select(0);
+    CHECK(offered().contains("Pitch"));
+    CHECK_FALSE(offered().contains("Speed"));
+    const std::size_t texture = scene.plays.size() - 1; // whose force changes
+    page.sheet->parts().select(texture);
+    CHECK_FALSE(offered().contains("Pitch"));
+    REQUIRE(offered().contains("Force"));
+    curves.setText("Speed", juce::sendNotificationSync);
+    auto& value = get<juce::Slider>(*page.sheet, "Value");
+    CHECK(value.getMaximum() == 1.0);
+    CHECK(value.getValue() == Approx(scene.plays[texture].speed).margin(0.006));
+    value.setValue(0.75, juce::sendNotificationSync);
+    CHECK(page.scene().parts[texture].play.speed == 0.75);
+    page.sheet->parts().select(0); // a clip has no speed: the lane shows what it has
+    CHECK(curves.getText() == "Position");
+    page.sheet->write(folder / "written.scene.json");
+    REQUIRE(pumpUntil([&] { return page.sheet->summary().startsWith("Written"); }));
+    const auto read = readScene(folder / "written.scene.json");
+    REQUIRE(read);
+    CHECK(read->textures == scene.textures);
+    CHECK(read->plays[texture].texture == scene.plays[texture].texture);
+    CHECK(read->plays[texture].speed == 0.75);
+}
+
 TEST_CASE("A scene file opens with its clips, its loops and what changes, and shows its page")
 {
     const TempFolder folder;

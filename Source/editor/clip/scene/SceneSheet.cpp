@@ -24,9 +24,28 @@ namespace
 {
 constexpr int wholeWindow = 4000; // more than any has
 constexpr int controlHeight = 30;
-constexpr std::array<SceneParameter, 8> offered{
-    SceneParameter::pan,   SceneParameter::gain,  SceneParameter::transposition, SceneParameter::stretch,
-    SceneParameter::delay, SceneParameter::tones, SceneParameter::events,        SceneParameter::noise};
+
+/// Parameter of a part that is offered, and whether a clip and a texture have it.
+struct Offered
+{
+    SceneParameter parameter;
+    const char* name;
+    bool ofClip, ofTexture;
+};
+constexpr std::array<Offered, 10> offered{{{SceneParameter::pan, "Position", true, true},
+                                           {SceneParameter::gain, "Gain", true, true},
+                                           {SceneParameter::speed, "Speed", false, true},
+                                           {SceneParameter::force, "Force", false, true},
+                                           {SceneParameter::transposition, "Pitch", true, false},
+                                           {SceneParameter::stretch, "Stretch", true, true},
+                                           {SceneParameter::delay, "Delay", true, true},
+                                           {SceneParameter::tones, "Tones", true, true},
+                                           {SceneParameter::events, "Events", true, false},
+                                           {SceneParameter::noise, "Noise", true, true}}};
+constexpr int idOf(SceneParameter parameter)
+{
+    return 1 + static_cast<int>(parameter);
+}
 constexpr int mostRepeats = 100;
 } // namespace
 
@@ -118,11 +137,10 @@ void SceneSheet::prepareChoices()
     };
     parameter.setTitle("Curve");
     parameter.setTooltip("Parameter that the curve changes while the clip plays");
-    parameter.addItemList({"Position", "Gain", "Pitch", "Stretch", "Delay", "Tones", "Events", "Noise"}, 1);
-    parameter.setSelectedId(1, juce::dontSendNotification);
     parameter.onChange = [this]
     {
-        curve.show(offered[static_cast<std::size_t>(std::max(0, parameter.getSelectedItemIndex()))]);
+        if (const int id = parameter.getSelectedId(); id > 0)
+            curve.show(static_cast<SceneParameter>(id - 1));
         follow();
     };
 }
@@ -184,8 +202,32 @@ void SceneSheet::fillClips()
                       item->id);
 }
 
+/// Those that the selected part has: a clip's or a texture's. One that it does not have leaves the lane.
+void SceneSheet::fillParameters()
+{
+    const ScenePart* part = selection.part();
+    const bool isTexture = part != nullptr && part->play.texture;
+    juce::Array<int> wanted, there;
+    for (const Offered& one : offered)
+        if (isTexture ? one.ofTexture : one.ofClip)
+            wanted.add(idOf(one.parameter));
+    for (int i = 0; i < parameter.getNumItems(); ++i)
+        there.add(parameter.getItemId(i));
+    if (there != wanted)
+    {
+        parameter.clear(juce::dontSendNotification);
+        for (const Offered& one : offered)
+            if (wanted.contains(idOf(one.parameter)))
+                parameter.addItem(tr(one.name), idOf(one.parameter));
+        if (!wanted.contains(idOf(curve.parameter())))
+            curve.show(isTexture ? SceneParameter::speed : SceneParameter::pan);
+    }
+    parameter.setSelectedId(idOf(curve.parameter()), juce::dontSendNotification);
+}
+
 void SceneSheet::follow()
 {
+    fillParameters();
     const ProjectScene& scene = selection.scene();
     actuators.setSelectedId(scene.actuators, juce::dontSendNotification);
     playButton.setEnabled(!scene.parts.empty());

@@ -41,6 +41,7 @@ private:
     void prepareChoices();
     void prepareSliders();
     void fillClips();
+    void fillParameters();
     void follow();
     void plan();
     void play();

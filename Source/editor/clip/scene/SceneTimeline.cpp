@@ -148,7 +148,23 @@ void SceneTimeline::paintPart(juce::Graphics& g, std::size_t index, juce::Rectan
     g.fillRoundedRectangle(area.toFloat(), 4.0f);
     const juce::Graphics::ScopedSaveState saved(g);
     g.reduceClipRegion(area.reduced(1));
-    if (item)
+    if (item && part.play.texture)
+    {
+        // Its speed, from the foot to the top.
+        g.setColour((out ? p.dim : p.accent).withAlpha(out ? 0.25f : 0.5f));
+        const auto course = std::find_if(part.curves.begin(), part.curves.end(),
+                                         [](const SceneCurve& one)
+                                         { return one.parameter == SceneParameter::speed && !one.points.empty(); });
+        const Curve points = course != part.curves.end() ? course->points : Curve{{0.0, part.play.speed}};
+        for (int x = std::max(0, -area.getX()), last = std::min(area.getWidth(), getWidth() - area.getX()); x < last;
+             ++x)
+        {
+            const double speed = valueAt(SceneParameter::speed, points, x * axis.secondsPerPixel);
+            const int height = juce::roundToInt(speed * (area.getHeight() - 2));
+            g.fillRect(area.getX() + x, area.getBottom() - 1 - height, 1, height);
+        }
+    }
+    else if (item)
     {
         // The envelope, as far as it is in sight.
         const int first = std::max(0, -area.getX()), last = std::min(area.getWidth(), getWidth() - area.getX());
@@ -174,11 +190,21 @@ void SceneTimeline::paintPart(juce::Graphics& g, std::size_t index, juce::Rectan
     }
     g.setColour(out ? p.dim : p.text);
     g.setFont(smallFont());
-    const juce::String name = item ? toText(item->clip->name) : tr("Clip is gone");
-    g.drawText((out ? toText("∅ ") : juce::String()) + name, area.reduced(6, 3).removeFromTop(16),
+    g.drawText((out ? toText("∅ ") : juce::String()) + nameOf(part), area.reduced(6, 3).removeFromTop(16),
                juce::Justification::centredLeft, true);
     g.setColour(selected ? p.text : p.line);
     g.drawRoundedRectangle(area.toFloat().reduced(0.5f), 4.0f, selected ? 2.0f : 1.0f);
+}
+
+juce::String SceneTimeline::nameOf(const ScenePart& part) const
+{
+    const auto item = model.document().clip(part.clip);
+    if (!item)
+        return tr("Clip is gone");
+    if (!part.play.texture)
+        return toText(item->clip->name);
+    const std::string& name = selection.scene().textures[*part.play.texture].content->name;
+    return tr("Texture: {0}", {name.empty() ? juce::String(*part.play.texture + 1) : toText(name)});
 }
 
 // Mouse and keys.
@@ -324,10 +350,8 @@ void SceneTimeline::say()
     const ScenePart* part = selection.part();
     if (part == nullptr)
         return;
-    const auto item = model.document().clip(part->clip);
-    const juce::String text =
-        tr("{0} at {1} s on track {2}", {item ? toText(item->clip->name) : tr("Clip is gone"),
-                                         numberText(part->play.start, 2), juce::String(part->track + 1)});
+    const juce::String text = tr("{0} at {1} s on track {2}",
+                                 {nameOf(*part), numberText(part->play.start, 2), juce::String(part->track + 1)});
     setDescription(text);
     if (hasKeyboardFocus(false))
         juce::AccessibilityHandler::postAnnouncement(text, juce::AccessibilityHandler::AnnouncementPriority::medium);

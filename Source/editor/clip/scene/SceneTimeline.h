@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Timeline of the project's scene: clips on tracks, and which of them are not felt.
+// Timeline of the project's scene: clips and textures on tracks, and which of them are not felt.
 
 #include "document/view/LevelCurve.h"
 #include "document/view/TimeAxis.h"
@@ -51,6 +51,7 @@ private:
     [[nodiscard]] double lengthOf(const ScenePart& part) const;
     [[nodiscard]] double snapped(std::size_t part, double start) const;
     void paintPart(juce::Graphics& g, std::size_t index, juce::Rectangle<int> area) const;
+    [[nodiscard]] juce::String nameOf(const ScenePart& part) const;
     void say();
 
     EditorModel& model;
