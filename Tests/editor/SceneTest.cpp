@@ -164,6 +164,17 @@ TEST_CASE("A scene with a texture opens, plays, changes by speed and force, and 
     CHECK(read->plays[texture].speed == 0.75);
 }
 
+TEST_CASE("What is let pass in a scene file that the page opens is told there, as of files that are dropped")
+{
+    const TempFolder folder;
+    std::ofstream(folder / "odd.scene.json") << R"({"format": "pacini.scene", "version": 1, "colour": 3, "plays": []})";
+    ScenePage page;
+    page.sheet->read(folder / "odd.scene.json");
+    REQUIRE(pumpUntil([&] { return questionOver(*page.sheet) != nullptr; }));
+    CHECK(questionOver(*page.sheet)->getTitle() == "Imported with losses");
+    CHECK(questionOver(*page.sheet)->getDescription().contains("colour"));
+}
+
 TEST_CASE("A scene file opens with its clips, its loops and what changes, and shows its page")
 {
     const TempFolder folder;

@@ -47,6 +47,7 @@ constexpr int idOf(SceneParameter parameter)
     return 1 + static_cast<int>(parameter);
 }
 constexpr int mostRepeats = 100;
+constexpr int mostWarnings = 12; // lines of a message
 } // namespace
 
 SceneSheet::SceneSheet(Session& shared)
@@ -397,6 +398,14 @@ void SceneSheet::read(const std::filesystem::path& file)
                                   juce::dontSendNotification);
                  else
                      line.fit();
+                 if (!done || imported->warnings.empty())
+                     return;
+                 juce::StringArray lines;
+                 for (const auto& warning : imported->warnings)
+                     if (lines.size() < mostWarnings)
+                         lines.add(translateMessage(toText(warning)));
+                 question.show(std::make_unique<MessageSheet>(tr("Imported with losses"), lines.joinIntoString("\n"),
+                                                              std::vector<Answer>{{"Close", {}}}));
              });
 }
 
