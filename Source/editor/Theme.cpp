@@ -402,9 +402,11 @@ void Look::drawPopupMenuItem(juce::Graphics& g, const juce::Rectangle<int>& area
     g.drawText(shortcut, row.withTrimmedRight(grid / 2), juce::Justification::centredRight, true);
 }
 
-juce::Font Look::getComboBoxFont(juce::ComboBox&)
+juce::Font Look::getComboBoxFont(juce::ComboBox& box)
 {
-    return usualFont();
+    // Tall ones are those of a study's pages, whose labels are as large.
+    constexpr int tall = 5 * grid;
+    return box.getHeight() < tall ? usualFont() : usualFont().withHeight(17.0f);
 }
 
 juce::Font Look::getMenuBarFont(juce::MenuBarComponent&, int, const juce::String&)

@@ -237,3 +237,17 @@ TEST_CASE("A text without spaces is broken where it would be cut, and no line be
     CHECK(editor::withLineBreaks("In English, spaces are enough to break a line", font, 60.0f) ==
           "In English, spaces are enough to break a line");
 }
+
+TEST_CASE("Buttons that end the rows of the export end below each other")
+{
+    EditorBench bench;
+    bench.openDemo("impact_boom");
+    REQUIRE(bench.view.doCommand(editor::exportClips));
+    auto& sheet = *bench.view.sheet();
+    const int also = get<juce::Button>(sheet, "Further formats").getRight();
+    for (juce::Component* child : sheet.getChildren())
+        if (const auto* button = dynamic_cast<juce::TextButton*>(child);
+            button != nullptr && button->getButtonText() == editor::toText("Browse…"))
+            CHECK(button->getRight() == also);
+    CHECK(get<juce::ComboBox>(sheet, "Format").getRight() < also);
+}

@@ -249,3 +249,22 @@ TEST_CASE("Nothing on the start page is cut off or lies on another, in a low win
         }
     }
 }
+
+TEST_CASE("The sounds end where the head above them does, where no scroll bar needs room")
+{
+    StartBench bench;
+    for (const auto& [width, height] : {std::pair(1280, 800), std::pair(1920, 1080)})
+    {
+        CAPTURE(width);
+        bench.view.setBounds(0, 0, width, height);
+        const auto rightOf = [&](const juce::String& title)
+        {
+            auto& button = get<juce::Button>(bench.view, title);
+            return bench.view.getLocalArea(&button, button.getLocalBounds()).getRight();
+        };
+        int right = 0;
+        for (const auto& sound : bench.view.startPage().shownSounds())
+            right = std::max(right, rightOf(sound));
+        CHECK(std::abs(right - rightOf("Play on hover")) <= 4); // columns are whole points wide
+    }
+}

@@ -451,8 +451,16 @@ void StartPage::resized()
 
 void StartPage::layOutTiles()
 {
-    const int width = viewport.getWidth() - viewport.getScrollBarThickness();
-    const int columns = std::max(1, width / (tileWidth + grid));
+    const auto columnsIn = [](int room)
+    {
+        return std::max(1, room / (tileWidth + grid));
+    };
+    // Room for the scroll bar only where there is one: else the tiles end where the head above them does.
+    const int fewest = columnsIn(viewport.getWidth());
+    const int lowest = (static_cast<int>(tiles.size()) + fewest - 1) / fewest * (tileHeight + grid);
+    const bool scrolls = lowest > viewport.getHeight();
+    const int width = viewport.getWidth() - (scrolls ? viewport.getScrollBarThickness() : 0);
+    const int columns = columnsIn(width);
     const int each = (width - (columns - 1) * grid) / columns;
     // In a tall window all tiles together fill it, up to a height.
     const auto shown =

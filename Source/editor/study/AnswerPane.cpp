@@ -194,6 +194,7 @@ public:
         editor.setReturnKeyStartsNewLine(true);
         editor.setTabKeyUsedAsCharacter(false);
         editor.setFont(participantFont());
+        editor.setIndents(grid, grid);
         editor.setTitle(tr("Description"));
         editor.setInputRestrictions(4000);
         editor.setEscapeAndReturnKeysConsumed(false);

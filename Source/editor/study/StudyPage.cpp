@@ -716,7 +716,7 @@ void StudyPage::resized()
     {
         auto row = area.removeFromTop(5 * grid);
         names[i]->setBounds(row.removeFromLeft(22 * grid));
-        boxes[i]->setBounds(row.withTrimmedRight(8 * grid));
+        boxes[i]->setBounds(row); // as wide as the buttons below
         area.removeFromTop(grid / 2);
     }
     area.removeFromTop(grid);

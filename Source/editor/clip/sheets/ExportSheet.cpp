@@ -462,9 +462,9 @@ void ExportSheet::layOut(juce::Rectangle<int> area)
     auto line = row(formatLabel);
     // What a format is called says what it is, so all of it is shown.
     const int alsoWidth = buttonWidth(alsoButton, 18 * grid);
-    format.setBounds(line.removeFromLeft(std::min(boxWidth(format), line.getWidth() - alsoWidth - grid)));
-    line.removeFromLeft(grid);
-    alsoButton.setBounds(line.removeFromLeft(alsoWidth));
+    alsoButton.setBounds(line.removeFromRight(alsoWidth));
+    line.removeFromRight(grid);
+    format.setBounds(line);
     line = row(rateLabel);
     rate.setBounds(line.removeFromLeft(20 * grid));
     line.removeFromLeft(2 * grid);
