@@ -91,7 +91,7 @@ void RoutingBar::resized()
         {{&inputLabel, &input}, {&sidechainLabel, &sidechain}, {&heardLabel, &heard}, {&hapticLabel, &haptic}}};
     std::array<int, 4> labels{};
     const int file = editor::buttonWidth(fileButton, 8 * grid);
-    int left = area.getWidth() - file - (2 + 4) * grid;
+    int left = area.getWidth() - file - (2 + 3) * grid;
     for (std::size_t i = 0; i < groups.size(); ++i)
     {
         labels[i] = groups[i].first->getFont().getStringWidth(groups[i].first->getText()) + grid;
@@ -101,7 +101,8 @@ void RoutingBar::resized()
     for (std::size_t i = 0; i < groups.size(); ++i)
     {
         groups[i].first->setBounds(area.removeFromLeft(labels[i]));
-        groups[i].second->setBounds(area.removeFromLeft(box));
+        const bool toEnd = i + 1 == groups.size() && box < editor::space::widestBox; // what is left by the division
+        groups[i].second->setBounds(toEnd ? area : area.removeFromLeft(box));
         area.removeFromLeft(grid);
         if (i == 0)
         {
