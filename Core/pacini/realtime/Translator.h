@@ -4,6 +4,7 @@
 
 #include <pacini/actuator/Protection.h>
 #include <pacini/filters/PolyphaseInterpolator.h>
+#include <pacini/filters/WholeDecimator.h>
 #include <pacini/foundation/DspBlock.h>
 #include <pacini/foundation/Fade.h>
 #include <pacini/foundation/HandOver.h>
@@ -13,7 +14,6 @@
 #include <pacini/realtime/TranslatorEngine.h>
 #include <pacini/realtime/TranslatorMeters.h>
 #include <pacini/realtime/TranslatorParams.h>
-#include <pacini/realtime/WholeDecimator.h>
 
 #include <algorithm>
 #include <array>

@@ -3,8 +3,8 @@
 #include "support/Measure.h"
 #include "support/Pinned.h"
 
+#include <pacini/filters/WholeDecimator.h>
 #include <pacini/foundation/Random.h>
-#include <pacini/realtime/WholeDecimator.h>
 
 #include <algorithm>
 #include <cmath>
