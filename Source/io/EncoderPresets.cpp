@@ -24,6 +24,7 @@ std::vector<EncoderPreset> madePresets()
         {"As recorded", "Ignores sound above the range of touch", {}},
         {"Music", "The beat first, less of hats and voices", {}},
         {"Everything heard", "Loudness leads where most of a sound lies above touch", {}},
+        {"Voice off", "As effects, with less of speech", {}},
     };
     all[1].params.bands = 24;
     all[1].params.breakpoints = 60.0;
@@ -42,6 +43,7 @@ std::vector<EncoderPreset> madePresets()
     all[6].params.audible = 0.0;
     all[7].params.audible = 0.5;
     all[8].params.heard = HeardRole::instead;
+    all[9].params.speech = 0.0;
     return all;
 }
 

@@ -1,8 +1,10 @@
 #pragma once
 
-// Input stage of the offline analysis: interleaved samples of any rate -> one signal per channel at its rate.
+// Input stage of the offline analysis: interleaved samples of any rate -> one signal per channel at its rate, with
+// less of speech where that is wanted.
 
 #include <pacini/analysis/BandAnalysis.h>
+#include <pacini/analysis/VoiceGate.h>
 #include <pacini/filters/RationalDecimator.h>
 #include <pacini/foundation/Clamp.h>
 #include <pacini/foundation/DspBlock.h>
@@ -10,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -21,8 +24,8 @@ namespace pacini
 class AnalysisInput
 {
 public:
-    /// Begins a sound of 1-64 channels at 8000 to 768000 Hz.
-    void start(int sampleRate, std::size_t channelCount)
+    /// Begins a sound of 1-64 channels at 8000 to 768000 Hz, of whose speech the share `speech` stays.
+    void start(int sampleRate, std::size_t channelCount, double speech = 1.0)
     {
         if (decimators.empty() || decimators.front().inputRate() != sampleRate)
             decimators.assign(channelCount, RationalDecimator(sampleRate, analysisRate));
@@ -30,15 +33,21 @@ public:
         for (RationalDecimator& decimator : decimators)
             decimator.reset();
         decimated.resize(channelCount);
+        gate.reset();
+        if (speech < 1.0)
+        {
+            gate.emplace().prepare(sampleRate, channelCount);
+            gate->setParams({speech});
+        }
         clear();
     }
 
     /// Takes whole frames and returns them with samples that can be computed with: those beyond +-1e12 are limited to
-    /// it, those that are not finite count as 0, so that all squares are finite. Valid until the next call, and not
-    /// longer than `interleaved`.
+    /// it, those that are not finite count as 0, so that all squares are finite. Less of speech, if wanted. Valid until
+    /// the next call, and not longer than `interleaved`.
     std::span<const float> push(std::span<const float> interleaved)
     {
-        interleaved = withinLimits(interleaved);
+        interleaved = gated(withinLimits(interleaved));
         clear();
         const std::size_t channelCount = decimators.size();
         if (channelCount == 1)
@@ -86,7 +95,17 @@ private:
         return limited;
     }
 
+    [[nodiscard]] std::span<const float> gated(std::span<const float> interleaved)
+    {
+        if (!gate)
+            return interleaved;
+        limited.resize(interleaved.size());
+        gate->process(interleaved, limited);
+        return limited;
+    }
+
     std::vector<RationalDecimator> decimators; // one per channel
+    std::optional<VoiceGate> gate;
     std::vector<std::vector<float>> decimated;
     std::vector<std::span<const float>> views;
     std::vector<float> channel;

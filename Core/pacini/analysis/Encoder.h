@@ -14,6 +14,7 @@
 #include <pacini/analysis/OnsetDetector.h>
 #include <pacini/analysis/OnsetFeatures.h>
 #include <pacini/analysis/OnsetMeasure.h>
+#include <pacini/analysis/SoundPeak.h>
 #include <pacini/analysis/SoundScale.h>
 #include <pacini/clip/BandPriority.h>
 #include <pacini/clip/Clip.h>
@@ -117,7 +118,7 @@ public:
         frames = 0;
         knownScale = scale;
         sections = 0;
-        input.start(fs, channelCount);
+        input.start(fs, channelCount, settings.speech);
         const double expected = static_cast<double>(expectedFrames) / fs;
         const double longest = SoundSection::seconds + SoundSection::secondsAhead + 10.0;
         const double kept = knownScale ? std::min(expected, longest) : expected;
@@ -125,6 +126,9 @@ public:
         fitter.expect(expected);
         features.emplace(fs, channelCount);
         detector.emplace(settings.onsets);
+        whole.reset();
+        if (settings.speech < 1.0 && !knownScale)
+            whole.emplace(bandsOf(settings)).start(fs, channelCount);
         heard.reset();
         if (settings.audible > 0.0)
             heard.emplace(bandsOf(settings), settings);
@@ -140,6 +144,8 @@ public:
     void push(std::span<const float> interleaved)
     {
         frames += interleaved.size() / channelCount;
+        if (whole)
+            whole->push(interleaved);
         features->push(input.push(interleaved));
         detectOnsets();
         analysis.push(input.channels());
@@ -209,10 +215,11 @@ private:
     }
 
     /// For a sound that is kept as a whole.
-    [[nodiscard]] SoundScale scaleOf(const BandAnalysisResult& found, std::span<const Onset> onsets) const
+    [[nodiscard]] SoundScale scaleOf(const BandAnalysisResult& found, std::span<const Onset> onsets)
     {
+        const double peak = whole ? std::max(found.peak, whole->finish()) : found.peak;
         const auto all = heard ? heard->level.found() : std::span<const HeardFrame>();
-        return HeardSurvey(settings.audible, settings.heard).finish(all, onsets, found.peak);
+        return HeardSurvey(settings.audible, settings.heard).finish(all, onsets, peak);
     }
 
     /// Is all there that a section needs?
@@ -285,6 +292,7 @@ private:
     std::optional<OnsetFeatures> features;
     std::optional<OnsetDetector> detector;
     std::optional<Heard> heard;
+    std::optional<SoundPeak> whole; // with speech, where that is left out
     int fs = 0;
     std::size_t channelCount = 1;
     std::uint64_t frames = 0;

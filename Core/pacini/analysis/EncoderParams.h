@@ -36,7 +36,8 @@ struct EncoderParams
                                ///< above it are scaled down to that
     double audible = 1.0;      ///< amount of sound above the range of touch that is felt
     HeardRole heard = HeardRole::beside;
-    OnsetParams onsets; ///< criteria of events; see Onset
+    double speech = 1.0; ///< amount of speech that is felt
+    OnsetParams onsets;  ///< criteria of events; see Onset
     bool operator==(const EncoderParams&) const = default;
 };
 
@@ -98,6 +99,11 @@ inline constexpr std::array encoderParameters{
                                       .choices = heardRoleNames,
                                       .group = "Analysis",
                                       .alwaysRecorded = true}), // clips without it are from when it was always instead
+    described<&EncoderParams::speech>({.name = "speech",
+                                       .text = "Amount of speech that is felt; below 1, what sounds like speech is "
+                                               "turned down above 75 Hz",
+                                       .range = {0, 1},
+                                       .group = "Analysis"}),
     described<&EncoderParams::normalise>({.name = "keepLevel",
                                           .member = "normalise",
                                           .text = "Keep the level of the sound instead of raising it to full drive",

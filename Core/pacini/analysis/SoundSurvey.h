@@ -9,7 +9,9 @@
 #include <pacini/analysis/HeardSurvey.h>
 #include <pacini/analysis/OnsetDetector.h>
 #include <pacini/analysis/OnsetFeatures.h>
+#include <pacini/analysis/SoundPeak.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -32,8 +34,11 @@ public:
     void start(int sampleRate, int channels)
     {
         const auto channelCount = static_cast<std::size_t>(channels);
-        input.start(sampleRate, channelCount);
+        input.start(sampleRate, channelCount, settings.speech);
         analysis.reset(channelCount);
+        whole.reset();
+        if (settings.speech < 1.0)
+            whole.emplace(Encoder::bandsOf(settings)).start(sampleRate, channelCount);
         heard.reset();
         if (settings.audible > 0.0)
             heard = std::make_unique<Heard>(sampleRate, channelCount, settings);
@@ -42,6 +47,8 @@ public:
     /// Takes interleaved samples, whole frames.
     void push(std::span<const float> interleaved)
     {
+        if (whole)
+            whole->push(interleaved);
         interleaved = input.push(interleaved);
         analysis.push(input.channels());
         if (!heard)
@@ -58,7 +65,8 @@ public:
         input.finish();
         analysis.push(input.channels());
         const std::int64_t values = analysis.envelopeFrames();
-        const double peak = analysis.finish().peak;
+        const double gated = analysis.finish().peak;
+        const double peak = whole ? std::max(gated, whole->finish()) : gated;
         if (!heard)
             return {peak, 0.0, 0.0};
         heard->features.finish();
@@ -104,6 +112,7 @@ private:
     EncoderParams settings;
     AnalysisInput input;
     BandAnalysis analysis;
+    std::optional<SoundPeak> whole; // with speech, where that is left out
     std::unique_ptr<Heard> heard;
 };
 

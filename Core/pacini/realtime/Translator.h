@@ -3,6 +3,7 @@
 // Live translator: sound in, touch out.
 
 #include <pacini/actuator/Protection.h>
+#include <pacini/analysis/VoiceGate.h>
 #include <pacini/filters/PolyphaseInterpolator.h>
 #include <pacini/filters/WholeDecimator.h>
 #include <pacini/foundation/DspBlock.h>
@@ -60,6 +61,8 @@ public:
         outFrames.assign(frames, 0.0f);
         ready.assign((frames + 1) * factor, 0.0f);
         dry.assign(latency + longestPiece, 0.0f);
+        quieter.assign(longestPiece, 0.0f);
+        voiceGate.prepare({fs, longestPiece});
         protection.prepare({fs, longestPiece});
         fade.prepare(static_cast<std::size_t>(0.015 * fs));
         bypass.prepare(static_cast<std::size_t>(0.010 * fs));
@@ -91,6 +94,7 @@ public:
             return;
         current = valid;
         engine.setParams(valid);
+        voiceGate.setParams({valid.speech});
         bypass.aim(valid.bypass ? 1.0 : 0.0);
         if (!begun)
             bypass.jump(valid.bypass ? 1.0 : 0.0);
@@ -102,6 +106,7 @@ public:
         takeDesign();
         engine.reset();
         decimator.reset();
+        voiceGate.reset();
         interpolator->reset();
         protection.reset();
         std::fill(dry.begin(), dry.end(), 0.0f);
@@ -220,7 +225,7 @@ private:
         const auto p = std::span(peaks).first(frames);
         const auto y = std::span(outFrames).first(frames);
         const auto h = std::span(highs).first(engine.wantsHighs() ? frames : 0);
-        decimator.process(in, x, p, h);
+        decimator.process(withoutSpeech(in), x, p, h);
         keepDry(in);
         translate(x, p, h, y);
 
@@ -249,6 +254,15 @@ private:
                 sample = sample > 1.0f ? 1.0f : (sample < -1.0f ? -1.0f : sample);
         if (!out.empty())
             last = static_cast<double>(out.back());
+    }
+
+    [[nodiscard]] std::span<const float> withoutSpeech(std::span<const float> in) noexcept
+    {
+        if (!voiceGate.isOn())
+            return in;
+        const auto out = std::span(quieter).first(in.size());
+        voiceGate.process(in, out);
+        return out;
     }
 
     void translate(std::span<const float> x, std::span<const float> p, std::span<const float> h,
@@ -299,12 +313,14 @@ private:
     std::unique_ptr<TranslatorMeters> readings = std::make_unique<TranslatorMeters>();
     std::unique_ptr<Designs::Node, FreeNode> held;
     TranslatorEngine engine;
+    VoiceGate voiceGate;
     WholeDecimator decimator;
     std::unique_ptr<PolyphaseInterpolator> interpolator;
     Protection protection;
     std::vector<float> inFrames, peaks, highs, outFrames;
     std::vector<float> ready; // drive that is made but not given out
     std::vector<float> dry;
+    std::vector<float> quieter; // sound with less speech
     std::size_t dryFrames = 0;
     std::size_t leftOver = 0;
     std::size_t zeroFrames = 0;

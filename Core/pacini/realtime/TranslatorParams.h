@@ -33,6 +33,7 @@ struct TranslatorParams
     RoleParams transients{};           ///< events: pulses that top what the bands give them
     double brightness = -6.0;          ///< dB
     double audible = 1.0;              ///< share
+    double speech = 1.0;               ///< share
     double transposition = 0.0;        ///< semitones; other than 0 everything is played by carriers
     double direct = 1.0;               ///< share
     double attack = 1.0;               ///< ms
@@ -62,6 +63,10 @@ inline constexpr std::array translatorParameters{
                                            .text = "Amount of sound above the range of touch that is felt beside the "
                                                    "low part (hi-hats, rain, ticks); 0: none",
                                            .range = {0, 1}}),
+    described<&TranslatorParams::speech>({.name = "speech",
+                                          .text = "Amount of speech that is felt; below 1, what sounds like speech is "
+                                                  "turned down above 75 Hz",
+                                          .range = {0, 1}}),
     described<&TranslatorParams::transposition>(
         {.name = "transposition", .text = "Shift in pitch", .unit = "semitones", .range = {-48, 48}}),
     described<&TranslatorParams::direct>(

@@ -19,9 +19,9 @@ struct TranslatorPreset
 };
 
 /// The shipped presets; the first one is the default of TranslatorParams.
-[[nodiscard]] inline const std::array<TranslatorPreset, 7>& translatorPresets() noexcept
+[[nodiscard]] inline const std::array<TranslatorPreset, 8>& translatorPresets() noexcept
 {
-    static constexpr std::array<TranslatorPreset, 7> presets{{
+    static constexpr std::array<TranslatorPreset, 8> presets{{
         {"Neutral", "the range of touch of the sound, with hats and ticks beside it and stronger events", {}},
         {"Music",
          "a firm bass under a lighter body; only clear events",
@@ -61,6 +61,7 @@ struct TranslatorPreset
           .brightness = -12.0,
           .audible = 0.5,
           .gateThreshold = -55.0}},
+        {"Voice off", "as neutral, with less of speech", {.speech = 0.0}},
     }};
     return presets;
 }

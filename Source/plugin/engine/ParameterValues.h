@@ -56,6 +56,7 @@ public:
         params.transients = {(*this)[transientLevel], isOn(transientMute)};
         params.brightness = (*this)[brightness];
         params.audible = (*this)[audible];
+        params.speech = (*this)[speech];
         params.transposition = (*this)[transposition];
         params.direct = (*this)[direct];
         params.attack = (*this)[attack];
@@ -83,6 +84,7 @@ public:
         setRole(transientLevel, transientMute, params.transients);
         set(brightness, params.brightness);
         set(audible, params.audible);
+        set(speech, params.speech);
         set(transposition, params.transposition);
         set(direct, params.direct);
         set(attack, params.attack);
