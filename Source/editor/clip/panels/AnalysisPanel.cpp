@@ -245,8 +245,12 @@ void AnalysisPanel::choosePreset()
         showPreset(params()); // until it is chosen; what saves and loads is no preset
     if (ownPresets.choose(chosen))
         return;
-    set(encoderPresets()[static_cast<std::size_t>(chosen - 1)].params);
+    const EncoderParams& wanted = encoderPresets()[static_cast<std::size_t>(chosen - 1)].params;
+    set(wanted);
     edited();
+    // Also what has no control.
+    waiting = wanted;
+    showPreset(wanted);
 }
 
 Result<void> AnalysisPanel::take(const std::filesystem::path& settings, const juce::String& name)
