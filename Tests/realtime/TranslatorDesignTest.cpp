@@ -328,6 +328,7 @@ TEST_CASE("live parameters begin with what is documented", "[realtime]")
     CHECK(p.transients == RoleParams{0.0, false});
     CHECK(test::asNumbers(p.brightness, p.transposition, p.direct, p.attack, p.release) ==
           test::Numbers{-6.0, 0.0, 1.0, 1.0, 8.0});
+    CHECK(test::asNumbers(p.audible, p.speech) == test::Numbers{1.0, 1.0});
     CHECK(test::asNumbers(p.transientSensitivity, p.transientSharpness, p.gateThreshold, p.gateRelease, p.bypass) ==
           test::Numbers{0.5, 0.0, -75.0, 60.0, false});
 }
