@@ -485,10 +485,10 @@ TEST_CASE("parameters outside their ranges count as the nearest end, those that 
     };
     for (const auto& [value, low, high] :
          {Range{&TranslatorParams::inputGain, -60.0, 48.0}, Range{&TranslatorParams::intensity, -60.0, 24.0},
-          Range{&TranslatorParams::brightness, -60.0, 12.0}, Range{&TranslatorParams::audible, 0.0, 1.0}, Range{&TranslatorParams::speech, 0.0, 1.0},
-          Range{&TranslatorParams::transposition, -48.0, 48.0}, Range{&TranslatorParams::direct, 0.0, 1.0},
-          Range{&TranslatorParams::attack, 0.0, 200.0}, Range{&TranslatorParams::release, 0.0, 1000.0},
-          Range{&TranslatorParams::transientSensitivity, 0.0, 1.0},
+          Range{&TranslatorParams::brightness, -60.0, 12.0}, Range{&TranslatorParams::audible, 0.0, 1.0},
+          Range{&TranslatorParams::speech, 0.0, 1.0}, Range{&TranslatorParams::transposition, -48.0, 48.0},
+          Range{&TranslatorParams::direct, 0.0, 1.0}, Range{&TranslatorParams::attack, 0.0, 200.0},
+          Range{&TranslatorParams::release, 0.0, 1000.0}, Range{&TranslatorParams::transientSensitivity, 0.0, 1.0},
           Range{&TranslatorParams::transientSharpness, -1.0, 1.0}, Range{&TranslatorParams::gateThreshold, -120.0, 0.0},
           Range{&TranslatorParams::gateRelease, 1.0, 2000.0}})
     {
@@ -534,9 +534,10 @@ TEST_CASE("parameters outside their ranges count as the nearest end, those that 
         return y;
     };
     TranslatorParams bad;
-    for (double* value : {&bad.inputGain, &bad.intensity, &bad.rumble.level, &bad.texture.level, &bad.transients.level,
-                          &bad.brightness, &bad.audible, &bad.speech, &bad.transposition, &bad.direct, &bad.attack, &bad.release,
-                          &bad.transientSensitivity, &bad.transientSharpness, &bad.gateThreshold, &bad.gateRelease})
+    for (double* value :
+         {&bad.inputGain, &bad.intensity, &bad.rumble.level, &bad.texture.level, &bad.transients.level, &bad.brightness,
+          &bad.audible, &bad.speech, &bad.transposition, &bad.direct, &bad.attack, &bad.release,
+          &bad.transientSensitivity, &bad.transientSharpness, &bad.gateThreshold, &bad.gateRelease})
         *value = value == &bad.attack ? inf : nan;
     CHECK(played([&] { return bad; }) == played([&] { return before; }));
     Random random(8);

@@ -17,6 +17,7 @@ class EncodeOptions(TypedDict, total=False):
     sensitivity: Optional[float]
     audible: Optional[float]
     heard: Optional[str]
+    speech: Optional[float]
     keep_level: Optional[bool]
     minimum_gap: Optional[float]
     mask_margin: Optional[float]

@@ -58,7 +58,7 @@ export interface EncodeOptions extends Stoppable {
   settings?: object
   // presets
   /** Values for a kind of sound; other options override it. */
-  preset?: 'effects' | 'fine-detail' | 'small-file' | 'transients-first' | 'steady-texture' | 'low-rumble' | 'as-recorded' | 'music' | 'everything-heard'
+  preset?: 'effects' | 'fine-detail' | 'small-file' | 'transients-first' | 'steady-texture' | 'low-rumble' | 'as-recorded' | 'music' | 'everything-heard' | 'voice-off'
   // end of presets
   // parameters: encode
   /** Number of frequency bands (1 to 32) [12] */
@@ -79,6 +79,8 @@ export interface EncodeOptions extends Stoppable {
   audible?: number
   /** Role of that sound: beside the low part, which stays as it is, or instead of it where most of the sound lies above touch [beside] */
   heard?: 'beside' | 'instead'
+  /** Amount of speech that is felt; below 1, what sounds like speech is turned down above 75 Hz (0 to 1) [1] */
+  speech?: number
   /** Keep the level of the sound instead of raising it to full drive [off] */
   keepLevel?: boolean
   /** Minimum time between two events; an event that follows sooner is dropped (0 to 1 s) [0.01] */
@@ -164,7 +166,7 @@ export function parameters(options?: Stoppable): Promise<Parameter[]>
 export interface Preset {
   name: NonNullable<EncodeOptions['preset']>
   purpose: string
-  values: Required<Pick<EncodeOptions, 'bands' | 'breakpoints' | 'quantise' | 'low' | 'high' | 'sensitivity' | 'audible' | 'heard'>>
+  values: Required<Pick<EncodeOptions, 'bands' | 'breakpoints' | 'quantise' | 'low' | 'high' | 'sensitivity' | 'audible' | 'heard' | 'speech'>>
 }
 
 /** The presets of encode(); the first is the default. */
