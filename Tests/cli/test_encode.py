@@ -56,6 +56,20 @@ class Encode(CommandTest):
         self.succeeds("encode", "a.wav", "b.wav", "-o", "made/for/it")
         self.assertEqual(self.names(), ["a.wav", "b.wav", "made/for/it/a.json", "made/for/it/b.json"])
 
+    def test_less_of_speech_makes_speech_weaker_and_leaves_a_tone_as_it_is(self):
+        self.put("spoken.wav", (SOURCE / "Tests/analysis/spoken_sentence.wav").read_bytes())
+        self.put("tone.wav", wav(sine(100, 1.0)))
+        for sound, check in (("spoken", lambda with_it, without: self.assertLess(without, 0.5 * with_it)),
+                             ("tone", lambda with_it, without: self.assertEqual(without, with_it))):
+            sums = []
+            for name, options in (("with", ()), ("without", ("--preset", "voice-off")), ("same", ("--speech", "0"))):
+                self.succeeds("encode", f"{sound}.wav", "-o", f"{sound}-{name}.json", *options)
+                clip = json.loads((self.folder / f"{sound}-{name}.json").read_text())
+                sums.append(sum(point["amplitude"] ** 2 for band in clip["bands"] for point in band["amplitude"]))
+            check(sums[0], sums[1])
+            self.assertEqual(sums[1], sums[2])
+        self.fails(2, ("encode", "tone.wav", "--speech", "2", "-o", "no.json"), "--speech")
+
     def test_the_demo_sounds_encode_and_the_number_of_jobs_does_not_matter(self):
         for jobs in ("1", "3"):
             self.succeeds("encode", str(DEMO), "-o", jobs, "--format", "packed", "-j", jobs)

@@ -34,8 +34,8 @@ class Settings(CommandTest):
     def test_a_file_does_what_its_options_do(self):
         self.put("a.wav", wav([a + b for a, b in zip(sine(90, 1.0, level=0.3), noise(48000, level=0.3))]))
         values = {"bands": 5, "breakpoints": 7.5, "quantise": 8, "low": 40, "high": 700, "spacing": "linear", "sensitivity": 2,
-                  "audible": 0.25, "heard": "instead", "keepLevel": True, "minimumGap": 0.05, "maskMargin": 3, "maskSlope": 0.1, "maskRecovery": 50,
-                  "maskLimit": 20, "silence": -40}
+                  "audible": 0.25, "heard": "instead", "speech": 0.5, "keepLevel": True, "minimumGap": 0.05, "maskMargin": 3, "maskSlope": 0.1,
+                  "maskRecovery": 50, "maskLimit": 20, "silence": -40}
         described = self.report("encode", "--print-settings")["parameters"]["encode"]
         self.assertEqual(set(values), {one["name"] for one in described if "a2vt" in one["methods"]})
         options = []
