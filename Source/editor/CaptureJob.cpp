@@ -14,14 +14,15 @@
 namespace pacini::editor
 {
 
-Result<Clip> clipOfCapture(const Capture& capture, double sampleRate, const std::string& name)
+Result<Clip> clipOfCapture(const Capture& capture, double sampleRate, const std::string& name,
+                           const EncoderParams& params)
 {
     const int rate = static_cast<int>(std::lround(sampleRate));
     if (rate < 8000 || rate > 768000)
         return Error{ErrorCode::invalidArgument, "sample rate", "must be 8 to 768 kHz to be encoded"};
     if (static_cast<double>(capture.samples.size()) < 0.1 * sampleRate)
         return Error{ErrorCode::invalidData, "", "less than 0.1 s of sound was captured"};
-    Encoder encoder{EncoderParams{}};
+    Encoder encoder{params};
     auto clip = encodeSound(encoder, {rate, 1}, SoundParts(capture.samples, 1));
     return clip ? finishClip(std::move(*clip), {name, ""}) : clip;
 }
@@ -64,12 +65,12 @@ bool CaptureJob::begin(Wanted wanted, std::function<void(Result<CapturedClip>)> 
 
 void CaptureJob::run()
 {
-    auto clip = clipOfCapture(now.capture, now.sampleRate, now.name);
+    auto clip = clipOfCapture(now.capture, now.sampleRate, now.name, now.encoder);
     if (!clip)
         result.emplace(clip.error());
     else
     {
-        CapturedClip captured{std::move(clip).value(), {}};
+        CapturedClip captured{std::move(clip).value(), {}, now.encoder};
         if (now.keepSound)
             captured.sound = soundOfCapture(now.capture, now.sampleRate, now.name);
         result.emplace(std::move(captured));

@@ -5,6 +5,7 @@
 
 #include "document/AudioReference.h"
 
+#include <pacini/analysis/EncoderParams.h>
 #include <pacini/clip/Clip.h>
 #include <pacini/foundation/Result.h>
 #include <pacini/realtime/CaptureRing.h>
@@ -19,10 +20,10 @@
 namespace pacini::editor
 {
 
-/// The clip of a capture, with the encoder's usual parameters, on the grids of its quantiser and sealed. Errors:
-/// invalidData for less than a tenth of a second, invalidArgument for rates that the encoder does not know (8 to 768
-/// kHz).
-[[nodiscard]] Result<Clip> clipOfCapture(const Capture& capture, double sampleRate, const std::string& name);
+/// The clip of a capture, on the grids of its quantiser and sealed. Errors: invalidData for less than a tenth of a
+/// second, invalidArgument for rates that the encoder does not know (8 to 768 kHz).
+[[nodiscard]] Result<Clip> clipOfCapture(const Capture& capture, double sampleRate, const std::string& name,
+                                         const EncoderParams& params = {});
 
 /// The sound of a capture as an embedded FLAC file of 24 bits, or of floats as a WAV where it is beyond full scale.
 /// Errors: those of AudioWriter and describeAudio().
@@ -33,6 +34,7 @@ struct CapturedClip
 {
     Clip clip;
     std::optional<Result<DescribedAudio>> sound; ///< where it was to be kept
+    EncoderParams encoder = {};                  ///< of the clip
 };
 
 /// Encodes one capture on its own thread.
@@ -48,6 +50,7 @@ public:
         double sampleRate = 0.0;
         std::string name;
         bool keepSound = false;
+        EncoderParams encoder = {};
     };
     /// `done` is called on the message thread. While a job runs nothing is begun and false returned. [message]
     bool begin(Wanted wanted, std::function<void(Result<CapturedClip>)> done);

@@ -23,6 +23,15 @@ using editor::paletteFor;
 using editor::toText;
 
 constexpr std::array<int, 4> lengths{3, 5, 10, 30}; // s
+
+/// A clip is felt as its sound was: what the encoder and the translator have in common is the same.
+EncoderParams encoderOf(const TranslatorParams& live)
+{
+    EncoderParams params;
+    params.audible = live.audible;
+    params.speech = live.speech;
+    return params;
+}
 } // namespace
 
 CapturePanel::CapturePanel(PluginProcessor& heard)
@@ -79,9 +88,9 @@ void CapturePanel::captureNow()
 {
     auto capture = source.capture(static_cast<double>(length.getSelectedId()));
     ++captures;
-    const bool begun = job.begin(
-        {std::move(capture), source.sampleRate(), "capture " + std::to_string(captures), source.keepsCaptures()},
-        [this](Result<editor::CapturedClip> made) { take(std::move(made)); });
+    const bool begun = job.begin({std::move(capture), source.sampleRate(), "capture " + std::to_string(captures),
+                                  source.keepsCaptures(), encoderOf(source.values().translator())},
+                                 [this](Result<editor::CapturedClip> made) { take(std::move(made)); });
     if (begun)
         button.setEnabled(false);
 }

@@ -367,6 +367,7 @@ void PluginWindow::editCaptured(const editor::CapturedClip& captured)
     show(Page::clips);
     editor::Imported imported;
     imported.clip = captured.clip;
+    imported.encoder = captured.encoder;
     editor::Session& session = processor.clips().session();
     if (session.model.isEmpty())
     {

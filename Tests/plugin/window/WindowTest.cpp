@@ -445,6 +445,43 @@ TEST_CASE("What was heard last becomes a clip")
     CHECK_FALSE(editor::clipOfCapture(capture, 768001.0, "too fast"));
 }
 
+TEST_CASE("A captured clip is felt as its sound was: with the live share of what is heard and of speech")
+{
+    const juce::ScopedJuceInitialiser_GUI gui;
+    WindowRig rig;
+    (void)rig.run(liveSounds(2, 4 * 48000, 3));
+    rig.plugin.parameter(ParameterId::audible).setValueNotifyingHost(0.5f);
+    rig.plugin.parameter(ParameterId::speech).setValueNotifyingHost(0.0f);
+    plugin::CapturePanel panel(rig.plugin);
+    std::optional<editor::CapturedClip> edited;
+    panel.onEdit = [&](const editor::CapturedClip& captured)
+    {
+        edited = captured;
+    };
+    juce::TextButton *capture = nullptr, *edit = nullptr;
+    forEachChild(panel,
+                 [&](juce::Component& child)
+                 {
+                     if (auto* button = dynamic_cast<juce::TextButton*>(&child))
+                         (button->getButtonText() == "Capture" ? capture
+                          : button->getButtonText() == "Edit"  ? edit
+                                                               : button) = button;
+                 });
+    REQUIRE((capture != nullptr && edit != nullptr));
+    capture->onClick();
+    REQUIRE(pumpUntil([&] { return edit->isEnabled(); }));
+    edit->onClick();
+    REQUIRE(edited);
+    EncoderParams params;
+    params.audible = rig.plugin.values()[ParameterId::audible];
+    params.speech = 0.0;
+    CHECK(params.audible == Approx(0.5));
+    CHECK(edited->encoder == params);
+    const auto sound = rig.plugin.capture(5.0);
+    CHECK(edited->clip == editor::clipOfCapture(sound, 48000.0, "capture 1", params).value());
+    CHECK_FALSE(edited->clip == editor::clipOfCapture(sound, 48000.0, "capture 1").value());
+}
+
 TEST_CASE("A capture is saved over no other file without a question", "[overwrite]")
 {
     const juce::ScopedJuceInitialiser_GUI gui;
