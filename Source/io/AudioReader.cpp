@@ -362,6 +362,8 @@ struct AudioReader::State
             warn("has a header that states frames of {} bytes, but its samples make frames of {}; read by these it "
                  "lasts {:.3f} s, by the others it would last {:.3f} s; save it anew",
                  stated, frameBytes, seconds(partFrames().value_or(there)), seconds(part().presentBytes / stated));
+        if (!part().sampleWarning.empty())
+            warnings.push_back(part().sampleWarning);
         if (part().hasOtherFormat)
             warn("has two descriptions of its samples that differ; it is read by the first, as {} channels at {} Hz, "
                  "and lasts {:.3f} s; save it anew",
@@ -739,6 +741,9 @@ Result<std::size_t> AudioReader::State::read(std::span<float> interleaved)
         if (!options.keepNan)
             if (auto finite = checkFinite(rest.first(got * channels)); !finite)
                 return finite.error();
+        if (!film && part().gain != 1.0)
+            for (float& sample : rest.first(got * channels))
+                sample *= static_cast<float>(part().gain);
         applyGains(rest.first(got * channels));
         delivered += got;
         done += got;

@@ -5,6 +5,7 @@
 #include "io/FilmSound.h"
 #include "io/MpegFrames.h"
 #include "io/OggPages.h"
+#include "io/SampleWords.h"
 #include "io/SoundCodec.h"
 #include "io/SoundTags.h"
 #include "io/VorbisTimes.h"
@@ -22,14 +23,6 @@ namespace
 {
 constexpr std::uint64_t largest32 = std::numeric_limits<std::uint32_t>::max();
 constexpr std::size_t mostParts = 1000;
-
-std::string bytesOf(std::uint64_t value, std::size_t count, bool bigEndian)
-{
-    std::string bytes;
-    for (std::size_t i = 0; i < count; ++i)
-        bytes += static_cast<char>((value >> (8 * (bigEndian ? count - 1 - i : i))) & 0xFFu);
-    return bytes;
-}
 
 bool hasMpegSync(ByteWindow& file, std::uint64_t offset)
 {
@@ -213,10 +206,11 @@ private:
             parts.back().leftOutBytes += later ? end - later->start : 0;
             return next;
         }
+        const auto first = parts.size() - 1;
         parts.back().statedFrameBytes = frameBytesOf(file, begin, found->sizeField);
         parts.back().hasOtherFormat = hasOtherFormat(begin, found->sizeField);
-        addHeader(parts.back(), *found);
         parts.back().silence = found->silence;
+        std::vector<AudioChunk> chunks{*found};
         while (const auto chunk = std::exchange(later, std::nullopt))
         {
             if (parts.size() == mostParts)
@@ -230,7 +224,19 @@ private:
             part.isContinued = true;
             part.silence = chunk->silence;
             next = addAudio(part, *chunk);
-            addHeader(part, *chunk);
+            chunks.push_back(*chunk);
+        }
+        std::vector<ByteRange> audio;
+        for (std::size_t i = 0; i < chunks.size(); ++i)
+            audio.push_back({chunks[i].start, chunks[i].start + parts[first + i].presentBytes});
+        const auto reading = sampleReading(file, begin, found->sizeField, audio);
+        parts[first].sampleWarning = reading.warning;
+        for (std::size_t i = 0; i < chunks.size(); ++i)
+        {
+            SoundPart& part = parts[first + i];
+            part.gain = reading.gain;
+            part.patches.insert(part.patches.end(), reading.patches.begin(), reading.patches.end());
+            addHeader(part, chunks[i]);
         }
         return next;
     }
@@ -261,16 +267,21 @@ private:
         if (layout && layout->fileId == "FORM")
             for (const FileChunk& piece : chunksOf(file, part.begin, end, 0))
                 if (const auto bits = file.has(piece.offset, "COMM") ? bitsOfAifcCodec(file, piece) : std::nullopt)
-                    part.patches.push_back({piece.content + 6, bytesOf(*bits, 2, true)});
+                    part.patches.push_back({piece.content + 6, numberBytes(*bits, 2, true)});
         if (!chunk.isHidden || !layout)
             return;
         const auto audio = chunk.sizeField - layout->idBytes;
         constexpr std::string_view needed[] = {"fmt ", "fact", "FVER", "COMM", "desc", "chan"};
         constexpr std::uint64_t largest = 4096;
-        auto header = bytesAt(part.begin, layout->firstChunk);
-        for (const BytePatch& patch : part.patches)
-            if (patch.offset >= part.begin && patch.offset + patch.bytes.size() <= part.begin + header.size())
-                header.replace(static_cast<std::size_t>(patch.offset - part.begin), patch.bytes.size(), patch.bytes);
+        const auto patched = [&](std::uint64_t offset, std::uint64_t count)
+        {
+            auto bytes = bytesAt(offset, count);
+            for (const BytePatch& patch : part.patches)
+                if (patch.offset >= offset && patch.offset + patch.bytes.size() <= offset + bytes.size())
+                    bytes.replace(static_cast<std::size_t>(patch.offset - offset), patch.bytes.size(), patch.bytes);
+            return bytes;
+        };
+        auto header = patched(part.begin, layout->firstChunk);
         std::set<std::string_view> taken;
         const auto take = [&](std::uint64_t chunksEnd, std::uint64_t audioEnd)
         {
@@ -278,7 +289,7 @@ private:
                 for (const std::string_view id : needed)
                     if (piece.bytes <= largest && file.has(piece.offset, id) && taken.insert(id).second)
                     {
-                        header += bytesAt(piece.offset, piece.content + piece.bytes - piece.offset);
+                        header += patched(piece.offset, piece.content + piece.bytes - piece.offset);
                         header.append((layout->alignment - header.size() % layout->alignment) % layout->alignment,
                                       '\0');
                     }
@@ -360,6 +371,10 @@ private:
         const std::uint64_t padding = chunk.layout ? chunk.layout->alignment : 1;
         for (std::uint64_t pad = 0; pad < padding; ++pad)
         {
+            // What is no padding and holds a frame is sound.
+            if (pad > 1 && !areZeros(file, stop, std::min(stop + pad, soundEnd)) &&
+                pad >= frameBytesOf(file, part.begin, chunk.sizeField))
+                break;
             const auto behind = std::min(stop + pad, soundEnd);
             std::optional<std::uint64_t> tag;
             const auto next = chunk.layout ? endOfChunks(file, *chunk.layout, behind, soundEnd, &tag) : std::nullopt;
@@ -464,7 +479,7 @@ private:
         const auto* layout = chunk.layout;
         if (!layout)
         {
-            part.patches.push_back({chunk.sizeField, bytesOf(std::min(size, largest32), 4, chunk.bigEndian)});
+            part.patches.push_back({chunk.sizeField, numberBytes(std::min(size, largest32), 4, chunk.bigEndian)});
             return;
         }
         if (layout->sizeBytes == 4 && layout->fileId != "FORM")
@@ -474,7 +489,7 @@ private:
             // libsndfile takes these two sizes for those of a file that was not closed, and reads it to its end.
             if (!fits)
             {
-                part.patches.push_back({part.begin + 4, bytesOf(8, 4, layout->bigEndian)});
+                part.patches.push_back({part.begin + 4, numberBytes(8, 4, layout->bigEndian)});
                 size = 0;
             }
         }
@@ -483,7 +498,7 @@ private:
             part.leftOutBytes = size - largest32;
             size = largest32;
         }
-        part.patches.push_back({chunk.sizeField, bytesOf(size, layout->sizeBytes, layout->bigEndian)});
+        part.patches.push_back({chunk.sizeField, numberBytes(size, layout->sizeBytes, layout->bigEndian)});
     }
 
     /// The streams of an Ogg file: each begins with one or more pages that say so (RFC 3533, 6).
@@ -631,7 +646,7 @@ private:
             if (run.frames == 0)
                 continue;
             if (run.countField != 0 && run.statedFrames != run.frames)
-                part.patches.push_back({run.countField, bytesOf(run.frames, 4, true)});
+                part.patches.push_back({run.countField, numberBytes(run.frames, 4, true)});
         }
         parts.back().leftOutBytes += zeros;
         return true;
@@ -644,6 +659,14 @@ private:
     std::vector<SoundPart> parts;
 };
 } // namespace
+
+std::string numberBytes(std::uint64_t value, std::size_t count, bool bigEndian)
+{
+    std::string bytes;
+    for (std::size_t i = 0; i < count; ++i)
+        bytes += static_cast<char>((value >> (8 * (bigEndian ? count - 1 - i : i))) & 0xFFu);
+    return bytes;
+}
 
 std::vector<SoundPart> soundParts(std::FILE* file)
 {

@@ -19,6 +19,9 @@ struct BytePatch
     std::string bytes;
 };
 
+/// The `count` bytes of a number.
+[[nodiscard]] std::string numberBytes(std::uint64_t value, std::size_t count, bool bigEndian);
+
 /// One sound of a file as libsndfile is to see it. Offsets and sizes are bytes of the file.
 struct SoundPart
 {
@@ -33,6 +36,8 @@ struct SoundPart
     std::uint64_t presentBytes = 0;             ///< of audio; 0 where it is not known
     std::uint64_t statedFrameBytes = 0;         ///< by a header that states them beside bits and channels; 0: none
     bool hasOtherFormat = false;                ///< a header says twice how its samples look, and differently
+    double gain = 1.0;                          ///< that its samples need, see SampleReading
+    std::string sampleWarning;                  ///< likewise
     bool isWhole = true;                        ///< fewer than promised are there, but nothing is missing
     std::uint64_t leftOutBytes = 0;             ///< unread bytes after the sound
     std::uint64_t skippedBytes = 0;             ///< before it, that are no sound and no tag

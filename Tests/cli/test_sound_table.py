@@ -102,6 +102,29 @@ class SoundTable(CommandTest):
     def markers(self):
         return [marker["time"] for marker in self.clip_read["markers"]]
 
+    def check_words(self):
+        """How samples lie in their words."""
+        tone = sine(100, 1.0)
+
+        def words(kind, values, bits=24):
+            data = struct.pack(f"<{len(values)}{kind}", *values)
+            described = struct.pack("<HHIIHH", 3 if bits == 0 else 1, 1, RATE, 4 * RATE, 4, bits or 32)
+            return chunk(b"RIFF", b"WAVE" + chunk(b"fmt ", described) + chunk(b"data", data))
+
+        def integers(scale):
+            return [round(x * 8388607) * scale for x in tone]
+
+        self.reads(self.row("integers of fewer bits"), words("i", integers(256)))
+        self.reads_with_a_word(self.row("such integers at the low end"), words("i", integers(1)), "48 dB")
+        says = self.row("words of 32 bits of which")
+        self.reads_with_a_word(says, words("i", integers(1), 32), "48 dB below full scale")
+        says = self.row("floating-point numbers that a WAV")
+        self.reads_with_a_word(says, words("f", [32768 * x for x in tone], 16), "floating-point numbers")
+        says = self.row("floating-point samples that are all whole")
+        self.reads_with_a_word(says, words("f", [round(32767 * x) for x in tone], 0), "16 bits")
+        says = self.row("floating-point samples beyond 256")
+        self.reads_with_a_word(says, words("f", [32768 * x for x in tone], 0), "times full scale")
+
     def test_every_row_is_true(self):
         sound, mp3, size = self.sound, self.mp3, self.bytes
         says = self.row("WAV (RIFF")
@@ -204,6 +227,7 @@ class SoundTable(CommandTest):
         says = self.row("two descriptions of its samples")
         stereo = chunk(b"fmt ", struct.pack("<HHIIHH", 1, 2, RATE, 4 * RATE, 4, 16))
         self.reads_with_a_word(says, sound[:36] + stereo + sound[36:], "two descriptions")
+        self.check_words()
         says = self.row("damaged pictures")
         flac = (SOUNDS / "ramp.flac").read_bytes()
         self.assertEqual(self.encode(flac), 0, self.said)
