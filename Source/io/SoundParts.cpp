@@ -194,7 +194,8 @@ private:
         const auto found = findAudioChunk(file, begin, end);
         if (!found)
         {
-            if (startsSound(file, begin))
+            // libsndfile reads a CAF of any version.
+            if (startsSound(file, begin) || file.has(begin, "caff"))
                 parts.back().presentBytes = end - begin; // at most
             return {};
         }
