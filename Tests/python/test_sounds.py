@@ -5,6 +5,7 @@ import inspect
 import json
 import multiprocessing
 import os
+import pickle
 import random
 import signal
 import struct
@@ -18,7 +19,7 @@ from pathlib import Path
 
 import numpy as np
 import pacini
-from sounds import DEMO, SOURCE, FolderTest, knocks
+from sounds import COMMAND, DEMO, SOURCE, FolderTest, knocks
 
 RATE = 48000
 
@@ -384,6 +385,36 @@ class Arrays(FolderTest):
         self.refuses("colour", "invalidArgument", translator.set, colour=1)
         self.refuses("rumble", "invalidArgument", translator.set, rumble=100)
         self.refuses("sound", "invalidArgument", translator, np.stack([sound, sound]))
+
+    def test_the_translator_reads_the_settings_of_the_plugin(self):
+        path = self.folder / "mine.json"
+        live = {"intensity": -6, "rumbleMuted": True}
+        content = {"format": "pacini.settings", "version": 1, "encode": {"bands": 8}, "live": live}
+        path.write_text(json.dumps(content))
+        usual = pacini.Translator().params
+        wanted = {**usual, "intensity": -6.0, "rumble_muted": True}
+        for settings in (path, str(path), content):
+            translator = pacini.Translator(settings=settings)
+            self.assertEqual(translator.params, wanted)
+            # What was heard before there were any settings is nothing: the first block has them.
+            by_hand = pacini.Translator(intensity=-6, rumble_muted=True)
+            np.testing.assert_array_equal(translator(knocks()), by_hand(knocks()))
+        self.refuses("preset", "invalidArgument", pacini.Translator, preset="Music", settings=content)
+        self.assertEqual(pacini.Translator(settings=content, intensity=3).params, {**wanted, "intensity": 3.0})
+        self.assertEqual(pickle.loads(pickle.dumps(pacini.Translator(settings=content))).params, wanted)
+        with self.assertWarnsRegex(UserWarning, "settings: .*intensty.*intensity"):
+            pacini.Translator(settings={**content, "live": {"intensty": 1}})
+        self.refuses("live", "invalidData", pacini.Translator, settings={**content, "live": None})
+        for wrong in ({"format": "pacini.settings", "version": 1}, {**content, "live": {"intensity": 1000}},
+                      {**content, "live": {"intensity": "loud"}}, {**content, "live": []}, {**content, "version": 99},
+                      {**content, "encode": {"bands": 1000}}):
+            path.write_text(json.dumps(wrong))
+            told = subprocess.run([COMMAND, "live", DEMO[0], "--settings", path, "-o", "-"],
+                                  capture_output=True, text=True).stderr
+            for settings in (path, wrong):
+                with self.assertRaises(pacini.Error) as caught:
+                    pacini.Translator(settings=settings)
+                self.assertIn(str(caught.exception), told)
 
     def test_progress_is_told_and_may_stop_the_work(self):
         shares = []

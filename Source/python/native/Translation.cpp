@@ -1,5 +1,6 @@
 // Live translator, block by block.
 
+#include "io/LiveSettings.h"
 #include "io/NearestName.h"
 #include "python/native/Options.h"
 #include "python/native/ProfileHandle.h"
@@ -153,6 +154,13 @@ private:
     TranslatorParams current;
 };
 
+/// The live parameters of the text of a settings document, and what was let pass.
+std::pair<nb::dict, std::vector<std::string>> settingsOf(const std::string& text)
+{
+    ReadWarnings warnings;
+    return {dictOf(take(liveParamsOf(take(readSettings(text, &warnings))))), warnings.texts()};
+}
+
 std::vector<std::pair<std::string, nb::dict>> presets()
 {
     std::vector<std::pair<std::string, nb::dict>> list;
@@ -175,6 +183,7 @@ void bindTranslator(nb::module_& module)
         .def("meters", &TranslatorHandle::meters)
         .def("savings", &TranslatorHandle::savings);
     module.def("translator_presets", &presets);
+    module.def("translator_settings", &settingsOf, "text"_a);
 }
 
 } // namespace pacini::python

@@ -91,7 +91,8 @@ class _Wanted(NamedTuple):
     allow_truncated: bool
 
 
-def _settings_text(settings: Optional[AnySettings]) -> str:
+def settings_text(settings: Optional[AnySettings]) -> str:
+    """The text of a settings document; empty for none. Raises :class:`pacini.Error`."""
     if settings is None:
         return ""
     if not is_path(settings):
@@ -107,7 +108,7 @@ def check_options(options: dict[str, Any]) -> None:
         raise Error(f"is no option of pacini.encode(){found[1]}", found[0])
     chosen = {**own, **{name: value for name, value in options.items() if name in own and value is not None}}
     _native.EncoderHandle(
-        str(chosen["method"]), str(chosen["preset"]), given, _settings_text(chosen["settings"]),
+        str(chosen["method"]), str(chosen["preset"]), given, settings_text(chosen["settings"]),
         bool(chosen["allow_nan"]), bool(chosen["allow_truncated"]),
     )  # fmt: skip
 
@@ -234,7 +235,7 @@ def encode(
     """
     given = {name: value for name, value in options.items() if value is not None}
     check_names("encode", given, ENCODE)
-    wanted = _Wanted(method or "", preset or "", given, _settings_text(settings), allow_nan, allow_truncated)
+    wanted = _Wanted(method or "", preset or "", given, settings_text(settings), allow_nan, allow_truncated)
     return Clip._of(_translated(sound, sample_rate, axis, name, source, progress, "clip", wanted))
 
 

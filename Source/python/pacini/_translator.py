@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from typing import Any, Optional
 
 import numpy as np
@@ -9,7 +10,9 @@ import numpy.typing as npt
 
 from . import _native
 from ._arrays import FloatArray, as_rate, as_sound
+from ._errors import Error
 from ._profile import AnyProfile, Profile, as_profile
+from ._sound import AnySettings, settings_text
 
 
 class Translator:
@@ -29,13 +32,16 @@ class Translator:
         As of :func:`render`.
     preset : str, optional
         Name of one of :meth:`presets`.
+    settings : path or mapping, optional
+        A settings file with the part ``live``, as the plugin saves presets and ``pacini live --settings`` reads them, or
+        its content. Not beside a preset.
     **params
-        Parameters of the plugin, by the names in :attr:`params`; they override the preset.
+        Parameters of the plugin, by the names in :attr:`params`; they override preset and settings.
 
     Raises
     ------
     Error
-        A parameter is out of its range.
+        A parameter is out of its range, or the settings cannot be read or have no part ``live``.
     """
 
     def __init__(
@@ -47,8 +53,11 @@ class Translator:
         max_boost: float = 6.0,
         strength: float = _native.STANDARD_STRENGTH,
         preset: Optional[str] = None,
+        settings: Optional[AnySettings] = None,
         **params: Any,
     ) -> None:
+        if preset is not None and settings is not None:
+            raise Error("and settings exclude each other; leave one of them out", "preset", "invalidArgument")
         self.sample_rate = as_rate(sample_rate)
         self.profile: Optional[Profile] = None if profile is None else as_profile(profile)
         self._setup = (bands, max_boost, strength)
@@ -57,6 +66,11 @@ class Translator:
         )
         if preset is not None:
             self.set(**self.presets()[preset])
+        if settings is not None:
+            live, doubts = _native.translator_settings(settings_text(settings))
+            for doubt in doubts:
+                warnings.warn(f"settings: {doubt}", stacklevel=2)
+            self.set(**live)
         if params:
             self.set(**params)
         self._handle.reset()

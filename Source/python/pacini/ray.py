@@ -33,7 +33,7 @@ from ._arrays import PathLike, is_path
 from ._errors import Error
 from ._parameters import ENCODE
 from ._progress import Progress, counted
-from ._sound import _settings_text, check_options
+from ._sound import settings_text, check_options
 
 SOUNDS = (".wav", ".flac", ".ogg", ".opus", ".mp3", ".aif", ".aiff", ".caf", ".w64", ".au")
 TABLE = "run.parquet"
@@ -451,7 +451,7 @@ def encode(
     target = os.fsdecode(output)
     if options.get("settings") is not None:  # by content: workers may not see the file
         try:
-            options["settings"] = json.loads(_settings_text(options["settings"]))
+            options["settings"] = json.loads(settings_text(options["settings"]))
         except ValueError as error:
             raise Error(f"is no JSON ({error})", "settings") from None
     given = {name: value for name, value in options.items() if value is not None}
