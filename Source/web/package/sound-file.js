@@ -123,6 +123,9 @@ const wavLayout = (viewAt, size) => {
     const kind = code === 1 && bits === 8 ? 'unsigned' : wavKinds[code]
     const sample = samplesAre[`${kind}/${bits}`]
     if (!sample) throw bad(`has a format that is not read here (${code}, ${bits} bits)`)
+    // Which bytes of longer words the samples are cannot be told from the header.
+    if (blockBytes !== channels * bits / 8)
+      throw bad(`has frames of ${blockBytes} bytes for ${channels} x ${bits} bits, which is not read here; 'pacini encode' reads it`)
     return { ...common, sample, width: bits / 8 }
   })
 }
