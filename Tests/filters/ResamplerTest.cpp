@@ -208,3 +208,23 @@ TEST_CASE("A rate that cannot be resampled is named with its limits", "[filters]
         CHECK(resample(std::span<const double>(x), 8000, rate).error().text() == checked.error().text());
     }
 }
+
+TEST_CASE("Outputs that are made together are those made one by one", "[resampler]")
+{
+    Random random(7);
+    std::vector<float> x(3000);
+    for (float& v : x)
+        v = static_cast<float>(random.uniform() - 0.5);
+    for (const auto& [from, to] : {std::pair(44100, 48000), std::pair(44100, 4000), std::pair(48000, 8000),
+                                   std::pair(8000, 48000), std::pair(48000, 48000), std::pair(11025, 8000)})
+    {
+        const Resampler<float> resampler(from, to);
+        std::vector<float> together(resampler.outputFrames(x.size()));
+        resampler.process(x, 0, 0, together);
+        std::vector<float> single(together.size());
+        for (std::size_t i = 0; i < single.size(); ++i)
+            resampler.process(x, 0, i, std::span(single).subspan(i, 1));
+        CAPTURE(from, to);
+        CHECK(together == single);
+    }
+}

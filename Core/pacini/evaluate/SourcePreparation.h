@@ -52,9 +52,10 @@ template <typename Sample>
     {
         const auto block = samples.subspan(read, std::min(blockFrames, samples.size() - read));
         const std::size_t kept = window.size();
-        for (const Sample v : block)
-            window.push_back(std::isfinite(v) ? v : Sample(0));
+        window.resize(kept + block.size());
         const auto filtered = std::span(window).subspan(kept);
+        std::transform(block.begin(), block.end(), filtered.begin(),
+                       [](Sample v) { return std::isfinite(v) ? v : Sample(0); });
         filter.process(filtered);
         for (const Sample v : filtered)
             peak = std::max(peak, std::abs(static_cast<double>(v)));

@@ -3,6 +3,7 @@
 // Offline sample-rate conversion by a rational factor.
 
 #include <pacini/foundation/DotProduct.h>
+#include <pacini/foundation/DotProducts.h>
 #include <pacini/foundation/Result.h>
 #include <pacini/foundation/SizeInMemory.h>
 
@@ -149,19 +150,8 @@ public:
         std::int64_t row = static_cast<std::int64_t>(firstOutput) % up;
         std::int64_t phase = position % up;
         std::int64_t last = position / up - windowBegin;
-        for (Sample& y : out)
+        const auto advance = [&]
         {
-            if (up == down)
-                y = last >= 0 && last < size ? window[static_cast<std::size_t>(last)] : Sample(0);
-            else
-            {
-                const std::int64_t first = last - tapsPerPhase + 1;
-                const std::int64_t begin = std::max<std::int64_t>(first, 0);
-                const std::int64_t end = std::min(last + 1, size);
-                y = begin < end ? dotProduct(taps.data() + row * tapsPerPhase + (begin - first), window.data() + begin,
-                                             static_cast<std::size_t>(end - begin))
-                                : Sample(0);
-            }
             last += down / up;
             phase += down % up;
             if (phase >= up)
@@ -171,6 +161,40 @@ public:
             }
             if (++row == up)
                 row = 0;
+        };
+        // Outputs that are `up` apart have the same taps, and their inputs are `down` apart.
+        constexpr std::size_t together = 4;
+        const auto turn = static_cast<std::size_t>(up);
+        const auto reach = static_cast<std::int64_t>(together) * down;
+        for (std::size_t done = 0; done < out.size();)
+        {
+            const std::int64_t first = last - tapsPerPhase + 1;
+            if (up != down && first >= 0 && last + reach < size && out.size() - done >= together * turn)
+            {
+                for (std::size_t i = 0; i < turn; ++i, advance())
+                {
+                    const auto values = dotProducts<together>(
+                        taps.data() + row * tapsPerPhase, window.data() + (last - tapsPerPhase + 1),
+                        static_cast<std::size_t>(down), static_cast<std::size_t>(tapsPerPhase));
+                    for (std::size_t k = 0; k < together; ++k)
+                        out[done + i + k * turn] = values[k];
+                }
+                last += reach - down; // of which it has come `down`
+                done += together * turn;
+                continue;
+            }
+            Sample& y = out[done++];
+            if (up == down)
+                y = last >= 0 && last < size ? window[static_cast<std::size_t>(last)] : Sample(0);
+            else
+            {
+                const std::int64_t begin = std::max<std::int64_t>(first, 0);
+                const std::int64_t end = std::min(last + 1, size);
+                y = begin < end ? dotProduct(taps.data() + row * tapsPerPhase + (begin - first), window.data() + begin,
+                                             static_cast<std::size_t>(end - begin))
+                                : Sample(0);
+            }
+            advance();
         }
     }
 
