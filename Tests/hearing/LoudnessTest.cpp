@@ -214,6 +214,17 @@ TEST_CASE("Loudness falls and rises between two sets as step after step of the c
             values.push_back(i % 90 > 70  ? 0.0
                              : i % 13 > 9 ? 2.0
                                           : std::abs(3.0 * std::sin(0.9 * i) * std::sin(0.013 * i * i)));
+        // Falls of 1 to 30 % from one set to the next, with a full memory and with an empty one, and falls behind which
+        // a little is heard.
+        for (int fall = 1; fall <= 30; ++fall)
+            for (const int before : {1, 30, 300})
+            {
+                values.insert(values.end(), static_cast<std::size_t>(before), 2.5);
+                for (double value = 2.5; value > 0.02; value *= 1.0 - 0.01 * fall)
+                    values.push_back(value);
+                values.insert(values.end(), 60, 0.01);
+                values.insert(values.end(), 200, 0.0);
+            }
         for (std::size_t i = 0; i + 1 < values.size(); ++i)
         {
             CoreLoudness now{};
