@@ -16,6 +16,7 @@
 #include <new>
 #include <string>
 #include <system_error>
+#include <thread>
 #include <utility>
 
 namespace pacini::cli
@@ -175,7 +176,9 @@ CLI::App* CompareCommand::declare(CLI::App& app)
               "CLIP")
         ->needs(onsetOption);
     command->add_flag("--allow-truncated", allowTruncated, "Compare the remaining part of truncated files");
-    addOption(*command, "-j,--jobs", jobs, "Number of pairs processed in parallel [number of processors]",
+    addOption(*command, "-j,--jobs", jobs,
+              "Number of pairs processed in parallel; a single pair takes two threads unless N is 1 "
+              "[number of processors]",
               wholeNumberFrom(1u, 256u), "N");
     batch.declare(*command);
     return command->footer(
@@ -231,11 +234,12 @@ Exit CompareCommand::run(Console& console)
     {
         return tasks[i].pair.name.string();
     };
+    const unsigned within = tasks.size() > 1 ? 1u : jobs > 0 ? jobs : std::thread::hardware_concurrency();
     runTasks(console, tasks.size(), jobs, nameOf,
              [&]
              {
-                 return
-                     [&, job = CompareJob(settings)](std::size_t i, const std::function<void(double)>& progress) mutable
+                 return [&, job = CompareJob(settings, within)](std::size_t i,
+                                                                const std::function<void(double)>& progress) mutable
                  {
                      compareOne(job, tasks[i], progress);
                      report(console, tasks[i]);

@@ -11,7 +11,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <future>
 #include <span>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -57,6 +60,11 @@ Result<MonoSound> readMono(const fs::path& path, const AudioReadOptions& options
     MonoSound sound;
     sound.sampleRate = reader->sampleRate();
     const auto channels = static_cast<std::size_t>(reader->channels());
+    // As a header states, which may be more than there is: at most one frame for each byte.
+    std::error_code unknown;
+    const std::uintmax_t bytes = fs::file_size(path, unknown);
+    if (!unknown)
+        sound.samples.reserve(static_cast<std::size_t>(std::min<std::uintmax_t>(reader->frames().value_or(0), bytes)));
     const auto read = reader->forEachBlock(65536 / channels,
                                            [&](std::span<const float> block)
                                            {
@@ -93,6 +101,28 @@ Result<MonoSound> readDrive(const fs::path& path, bool strict, Stopwatch& work)
                      std::move(read->warnings)};
 }
 
+/// Runs two jobs at the same time, or one after the other where no second thread is wanted or to be had.
+struct SideBySide
+{
+    bool two;
+
+    template <typename First, typename Second>
+    void operator()(const First& first, const Second& second) const
+    {
+        std::future<void> other;
+        try
+        {
+            other = std::async(two ? std::launch::async : std::launch::deferred, second);
+        }
+        catch (const std::system_error&)
+        {
+            other = std::async(std::launch::deferred, second);
+        }
+        first();
+        other.get();
+    }
+};
+
 /// Onsets behind the sound are times of another sound, or in another unit.
 void warnOfLateOnsets(const std::vector<double>& onsets, CompareResult& result)
 {
@@ -107,7 +137,10 @@ void warnOfLateOnsets(const std::vector<double>& onsets, CompareResult& result)
 }
 } // namespace
 
-CompareJob::CompareJob(const CompareSettings& wanted) : settings(wanted), comparer(UnsoundFrames::silence) {}
+CompareJob::CompareJob(const CompareSettings& wanted, unsigned threads)
+    : settings(wanted), two(threads > 1), comparer(UnsoundFrames::silence)
+{
+}
 
 std::variant<CompareResult, InputFailure> CompareJob::run(const ComparePair& pair,
                                                           const std::function<void(double)>& progress)
@@ -119,28 +152,29 @@ std::variant<CompareResult, InputFailure> CompareJob::run(const ComparePair& pai
                                    .lowFrequencyGain = lowFrequencyEffectsGain};
     Stopwatch work;
     const auto analyze = [&](const fs::path& path, const Result<MonoSound>& sound,
-                             Result<void> (Comparer::*set)(std::span<const float>, int),
+                             Result<void> (Comparer::*set)(std::span<const float>, int, const SideBySide&),
                              std::vector<std::string>& warnings) -> std::optional<InputFailure>
     {
         if (!sound)
             return InputFailure{path, withAdvice(sound.error(), false)};
         warnings = sound->warnings;
         Result<void> done;
-        work.run([&] { done = (comparer.*set)(sound->samples, sound->sampleRate); });
+        work.run([&] { done = (comparer.*set)(sound->samples, sound->sampleRate, SideBySide{two}); });
         return done ? std::nullopt : std::optional(InputFailure{path, done.error()});
     };
     CompareResult result;
     if (!isSound(pair.reference) && looksLikeClip(pair.reference))
         return InputFailure{pair.reference,
                             {ErrorCode::invalidArgument, "", "is a clip; name its sound first, then the clip"}};
-    if (auto failure = analyze(pair.reference, readMono(pair.reference, reading, work), &Comparer::setReference,
-                               result.referenceWarnings))
+    if (auto failure = analyze(pair.reference, readMono(pair.reference, reading, work),
+                               &Comparer::setReference<SideBySide>, result.referenceWarnings))
         return *failure;
     progress(0.5);
     const auto candidate = !isSound(pair.candidate) && looksLikeClip(pair.candidate)
                                ? readDrive(pair.candidate, settings.strict, work)
                                : readMono(pair.candidate, reading, work);
-    if (auto failure = analyze(pair.candidate, candidate, &Comparer::setCandidate, result.candidateWarnings))
+    if (auto failure =
+            analyze(pair.candidate, candidate, &Comparer::setCandidate<SideBySide>, result.candidateWarnings))
         return *failure;
 
     std::vector<double> events = comparer.onsets();

@@ -38,7 +38,8 @@ struct CompareResult : Comparison
 class CompareJob
 {
 public:
-    explicit CompareJob(const CompareSettings& settings);
+    /// `threads`: 2 or more for two of them within a pair, where there is no other pair for the second.
+    CompareJob(const CompareSettings& settings, unsigned threads);
 
     /// Compares over the reference's length; a clip as candidate is rendered first. Channels are mixed down to their
     /// mean; rates from 2 to 768 kHz. `progress(share)` is called now and then. A failure names the file: those of
@@ -48,6 +49,7 @@ public:
 
 private:
     CompareSettings settings;
+    bool two; // threads
     Comparer comparer;
 };
 

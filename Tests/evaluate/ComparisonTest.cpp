@@ -97,3 +97,19 @@ TEST_CASE("rates that nothing is compared at are errors", "[comparison]")
     REQUIRE_FALSE(result);
     CHECK(result.error().code == ErrorCode::invalidArgument);
 }
+
+TEST_CASE("the two jobs of an analysis do not need each other", "[comparison]")
+{
+    const auto a = toneAt(120.0, 1.0);
+    const auto b = toneAt(200.0, 1.5);
+    const auto secondFirst = [](const auto& first, const auto& second)
+    {
+        second();
+        first();
+    };
+    Comparer usual, reversed;
+    REQUIRE(reversed.setReference(a, rate, secondFirst));
+    REQUIRE(reversed.setCandidate(b, rate, secondFirst));
+    CHECK(figuresOf(reversed.compare()) == figuresOf(compared(usual, a, b)));
+    CHECK_FALSE(reversed.setReference(a, 1000, secondFirst));
+}

@@ -126,6 +126,18 @@ enum class UnsoundFrames
     silence, ///< they count as silence, with all that a filter makes of them; Comparison::notFinite tells how many
 };
 
+/// Runs two jobs that do not need each other, one after the other. Comparer takes another such function where there are
+/// threads; what a job throws must come out of it.
+struct OneAfterOther
+{
+    template <typename First, typename Second>
+    void operator()(const First& first, const Second& second) const
+    {
+        first();
+        second();
+    }
+};
+
 /// Compares one pair after another; keeps transforms between them: setReference(), setCandidate(), compare(). Samples
 /// are mono, at 2 to 768 kHz. One thread at a time; allocates.
 class Comparer
@@ -135,7 +147,8 @@ public:
 
     /// Begins a pair. Errors: a rate that is not 2 to 768 kHz (invalidArgument), a frame that no sound has (notFinite,
     /// with its place).
-    [[nodiscard]] Result<void> setReference(std::span<const float> sound, int sampleRate)
+    template <typename Both = OneAfterOther>
+    [[nodiscard]] Result<void> setReference(std::span<const float> sound, int sampleRate, const Both& both = {})
     {
         if (auto valid = checkResamplerRate(sampleRate); !valid)
             return valid;
@@ -146,13 +159,11 @@ public:
         const std::span<const float> mono = *checked;
         found.duration = durationOf(mono, sampleRate);
         judge.emplace(signalAnalysisLength(mono.size(), sampleRate));
-        if (auto judged = analyze(mono, sampleRate, source, source.itself, HtsRole::sourceItself); !judged)
-            return judged;
-        auto wanted = htsSourceFeatures(hts, mono, sampleRate);
-        if (!wanted)
-            return wanted.error();
-        source.hts = std::move(*wanted);
-        auto heard = heardTrack(mono, sampleRate);
+        Result<void> analyzed;
+        Result<HeardTrack> heard = HeardTrack{};
+        both([&] { analyzed = analyzeReference(mono, sampleRate); }, [&] { heard = heardTrack(mono, sampleRate); });
+        if (!analyzed)
+            return analyzed;
         if (!heard)
             return heard.error();
         source.heard = std::move(*heard);
@@ -160,7 +171,8 @@ public:
     }
 
     /// After setReference(). Errors: as there.
-    [[nodiscard]] Result<void> setCandidate(std::span<const float> sound, int sampleRate)
+    template <typename Both = OneAfterOther>
+    [[nodiscard]] Result<void> setCandidate(std::span<const float> sound, int sampleRate, const Both& both = {})
     {
         if (auto valid = checkResamplerRate(sampleRate); !valid)
             return valid;
@@ -169,7 +181,7 @@ public:
             return checked.error();
         const std::span<const float> mono = *checked;
         found.candidateDuration = durationOf(mono, sampleRate);
-        return analyze(mono, sampleRate, target, target.hts, HtsRole::candidate);
+        return analyze(mono, sampleRate, target, target.hts, HtsRole::candidate, both);
     }
 
     /// Times of the events in the candidate, s.
@@ -236,19 +248,39 @@ private:
         return std::span<const float>(marked);
     }
 
+    /// All of a reference but what is heard of it.
+    [[nodiscard]] Result<void> analyzeReference(std::span<const float> mono, int sampleRate)
+    {
+        if (auto done = analyze(mono, sampleRate, source, source.itself, HtsRole::sourceItself, OneAfterOther{}); !done)
+            return done;
+        auto wanted = htsSourceFeatures(hts, mono, sampleRate);
+        if (!wanted)
+            return wanted.error();
+        source.hts = std::move(*wanted);
+        return {};
+    }
+
+    template <typename Both>
     [[nodiscard]] Result<void> analyze(std::span<const float> mono, int sampleRate, Features& features,
-                                       HtsFeatures& asCandidate, HtsRole role)
+                                       HtsFeatures& asCandidate, HtsRole role, const Both& both)
     {
         features = {};
-        auto judged = signalFeatures(*judge, mono, sampleRate);
+        Result<SignalFeatures> judged = SignalFeatures{};
+        Result<std::vector<float>> low = std::vector<float>{};
+        both([&] { judged = signalFeatures(*judge, mono, sampleRate); },
+             [&]
+             {
+                 low = resampleFinite(mono, sampleRate, HtsFeatures::sampleRate);
+                 if (!low)
+                     return;
+                 asCandidate = hts.analyze(std::span<const float>(*low), role);
+                 features.felt = touch.analyze(*low);
+             });
         if (!judged)
             return judged.error();
-        features.judge = std::move(*judged);
-        const auto low = resampleFinite(mono, sampleRate, HtsFeatures::sampleRate);
         if (!low)
             return low.error();
-        asCandidate = hts.analyze(std::span<const float>(*low), role);
-        features.felt = touch.analyze(*low);
+        features.judge = std::move(*judged);
         return {};
     }
 
