@@ -174,7 +174,7 @@ try {
       const spaced = bytesOfFile.slice()
       new DataView(spaced.buffer).setUint16(32, 8, true) // frames of 8 bytes
       return encode(pacini.openSound((at, length) => spaced.slice(at, at + length), spaced.length))
-    }, 'has frames of 8 bytes for 1 x 16 bits'],
+    }, 'sound file'],
     ['not a number', () => encode({ samples: new Float32Array([0, NaN]), sampleRate: 48000 }), 'frame 1, channel 0'],
     ['an absurd number', () => encode({ samples: new Float32Array([0, 1e30]), sampleRate: 48000 }), 'frame 1, channel 0'],
     ['a comparison with what is not a number', () => compare(sound, broken(NaN)), 'candidate[1000]'],
