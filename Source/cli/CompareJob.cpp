@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <future>
 #include <span>
 #include <system_error>
@@ -60,11 +59,6 @@ Result<MonoSound> readMono(const fs::path& path, const AudioReadOptions& options
     MonoSound sound;
     sound.sampleRate = reader->sampleRate();
     const auto channels = static_cast<std::size_t>(reader->channels());
-    // As a header states, which may be more than there is: at most one frame for each byte.
-    std::error_code unknown;
-    const std::uintmax_t bytes = fs::file_size(path, unknown);
-    if (!unknown)
-        sound.samples.reserve(static_cast<std::size_t>(std::min<std::uintmax_t>(reader->frames().value_or(0), bytes)));
     const auto read = reader->forEachBlock(65536 / channels,
                                            [&](std::span<const float> block)
                                            {
