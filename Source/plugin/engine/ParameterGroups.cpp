@@ -14,10 +14,9 @@ constexpr std::array<Name, 3> soundIds{"source", "sourceMix", "inputGain"};
 constexpr std::array<Name, 4> outputIds{"outputMode", "outputChannel", "outputCount", "bypass"};
 constexpr std::array<Name, 3> actuatorIds{"profile", "strength", "intensity"};
 constexpr std::array<Name, 4> layerIds{"rumble", "texture", "transientLevel", "transientMute"};
-constexpr std::array<Name, 7> characterIds{"brightness", "audible", "speech", "transposition",
-                                           "direct",     "attack",  "release"};
+constexpr std::array<Name, 6> characterIds{"brightness", "audible", "transposition", "direct", "attack", "release"};
 constexpr std::array<Name, 2> eventIds{"transientSensitivity", "transientSharpness"};
-constexpr std::array<Name, 1> gateIds{"gate"};
+constexpr std::array<Name, 2> gateIds{"gate", "speech"};
 constexpr std::array<Name, 4> panningIds{"pan", "position", "panLaw", "places"};
 constexpr std::array<Name, 4> channelIds{"actuator", "gain", "delay", "place"};
 

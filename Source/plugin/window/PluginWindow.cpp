@@ -167,6 +167,7 @@ PluginWindow::PluginWindow(Plugin& shown)
     strength = slider(Id::strength, Shape::knob);
     brightness = slider(Id::brightness, Shape::knob);
     audible = slider(Id::audible, Shape::knob);
+    speech = slider(Id::speech, Shape::knob);
     transposition = slider(Id::transposition, Shape::knob);
     direct = slider(Id::direct, Shape::knob);
     attack = slider(Id::attack, Shape::knob);
@@ -551,7 +552,7 @@ void PluginWindow::resized()
     outputMeter.setBounds(row(touch));
     reductionMeter.setBounds(row(touch));
     feltMeter.setBounds(row(touch));
-    placeKnobs(card(right, "Gate"), {gateThreshold.get(), gateRelease.get()});
+    placeKnobs(card(right, "Gate"), {gateThreshold.get(), gateRelease.get(), speech.get()});
 
     auto roles = card(lower.removeFromLeft(lower.getWidth() * 2 / 5), "Layers");
     lower.removeFromLeft(grid);

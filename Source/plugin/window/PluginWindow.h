@@ -115,7 +115,7 @@ private:
 
     std::array<std::unique_ptr<editor::ParameterSlider>, 3> roleLevels;
     std::array<std::unique_ptr<editor::ParameterToggle>, 3> roleMutes;
-    std::unique_ptr<editor::ParameterSlider> intensity, strength, brightness, audible, transposition;
+    std::unique_ptr<editor::ParameterSlider> intensity, strength, brightness, audible, speech, transposition;
     std::unique_ptr<editor::ParameterSlider> direct, attack, release;
     std::unique_ptr<editor::ParameterSlider> sensitivity, sharpness, gateThreshold, gateRelease;
 

@@ -18,7 +18,7 @@ namespace pacini::editor
 namespace
 {
 constexpr int rowHeight = 3 * grid;
-constexpr int preferredHeight = 90 * grid;
+constexpr int preferredHeight = 94 * grid;
 constexpr int labelWidth = 9 * grid;
 constexpr int pause = 350; // ms without a change
 constexpr int logarithmic = 1, linear = 2;
@@ -157,6 +157,9 @@ void AnalysisPanel::prepareKnobs()
     prepare(audible, "Audible", " %",
             "Amount of sound above the range of touch that is felt (hi-hats, rain, ticks); 0: none");
     range(audible, "audible", 1.0, 100.0);
+    prepare(speech, "Speech", " %",
+            "Amount of speech that is felt; below 100 %, what sounds like speech is turned down above 75 Hz");
+    range(speech, "speech", 1.0, 100.0);
     prepare(bits, "Precision", " bit", "Bits per value; fewer make smaller files and coarser levels");
     range(bits, "quantise", 1.0);
     // The ends of the bands push each other along.
@@ -204,6 +207,7 @@ EncoderParams AnalysisPanel::params() const
     wanted.breakpoints = knob(detail).getValue();
     wanted.onsets.sensitivity = knob(sensitivity).getValue();
     wanted.audible = 0.01 * knob(audible).getValue();
+    wanted.speech = 0.01 * knob(speech).getValue();
     wanted.quantise = juce::roundToInt(knob(bits).getValue());
     wanted.spacing = spacing.getSelectedId() == linear ? BandSpacing::linear : BandSpacing::logarithmic;
     wanted.normalise = normalise.getToggleState();
@@ -222,6 +226,7 @@ void AnalysisPanel::set(const EncoderParams& wanted)
     put(detail, wanted.breakpoints);
     put(sensitivity, wanted.onsets.sensitivity);
     put(audible, 100.0 * wanted.audible);
+    put(speech, 100.0 * wanted.speech);
     put(bits, wanted.quantise);
     spacing.setSelectedId(wanted.spacing == BandSpacing::linear ? linear : logarithmic, juce::dontSendNotification);
     normalise.setToggleState(wanted.normalise, juce::dontSendNotification);
@@ -391,7 +396,7 @@ void AnalysisPanel::resized()
     const bool stacked =
         usualFont().getStringWidth(normalise.getButtonText()) + 2 * grid + resetWidth > insideOfCard(area).getWidth();
     const int labels = labelsWidth({&presetLabel, &spacingLabel}, labelWidth, 12 * grid);
-    inside = card(settingsCard, (stacked ? 49 : 45) * grid);
+    inside = card(settingsCard, (stacked ? 53 : 49) * grid);
     const auto row = [&]
     {
         auto next = inside.removeFromTop(rowHeight + 4);
@@ -408,7 +413,7 @@ void AnalysisPanel::resized()
     }
     line = row();
     placeNamed(spacingLabel, labels, spacing, line);
-    for (const Which which : {detail, sensitivity, audible, bits})
+    for (const Which which : {detail, sensitivity, audible, speech, bits})
     {
         line = row();
         knobs[which].name.setBounds(line.removeFromLeft(labels - grid));

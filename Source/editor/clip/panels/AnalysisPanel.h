@@ -56,6 +56,7 @@ private:
         detail,
         sensitivity,
         audible,
+        speech,
         bits,
         knobCount
     };
