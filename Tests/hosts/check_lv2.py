@@ -89,7 +89,7 @@ def main():
         check("asked for a value, the plugin tells it", asked == [f"{URI}:attack", "20"], " ".join(asked))
         told = dict(line.rsplit(" ", 1) for line in
                     render("--sets", *value("intensity", -12), "--at", half, "--get", "all")[1].splitlines())
-        check("asked for all, it tells all", len(told) == 61 and told.get(f"{URI}:intensity") == "-12", f"{len(told)} values")
+        check("asked for all, it tells all", len(told) == 62 and told.get(f"{URI}:intensity") == "-12", f"{len(told)} values")
 
         parameters = {}
         for line in render("--parameters")[1].splitlines():
@@ -97,7 +97,7 @@ def main():
             named = dict(reversed(point.split(" ", 1)) for point in points)
             parameters[uri.rpartition(":")[2]] = [float(low), float(high), float(default),
                                                   {text: float(at) for text, at in named.items()}]
-        check("every parameter has its range", len(parameters) == 61
+        check("every parameter has its range", len(parameters) == 62
               and all(low <= default <= high and low < high for low, high, default, _ in parameters.values()),
               f"{len(parameters)} of them")
         choices = {name: (high, named) for name, (_, high, _, named) in parameters.items() if named}

@@ -93,7 +93,7 @@ LITERALS = {
         "must be a whole number",        "plays[",         "sample rate", "sound", "strength", "lane", "format", "plays[0]", ".bands", "' is not known",
         "channels[", "sweep.", "measurement.", "sweeps[", "clock", "channels"],
     "names of parameters, by which their descriptions are found": [
-        "bands", "low", "high", "breakpoints", "sensitivity", "audible", "quantise"],
+        "bands", "low", "high", "breakpoints", "sensitivity", "audible", "speech", "quantise"],
     "errors of settings that the windows cannot make": ["must be 8 to 768 kHz to be encoded", "must be 0 to 1",
         "must have 1 to 8 actuators",
         "is not one of the project's sounds"],

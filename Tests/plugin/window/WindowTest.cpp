@@ -106,7 +106,7 @@ TEST_CASE("Knobs stay between their names and their values, however tall the win
                          CHECK(slider->getHeight() <= 120);
                          CHECK(slider->getY() == name->getBottom());
                      });
-        CHECK(knobs == 12);
+        CHECK(knobs == 13);
     }
 }
 
