@@ -188,6 +188,7 @@ Operation alikeOperation(const Actuators& actuators)
             .fields = {{.name = "Designed on",
                         .help = "The actuator whose feel is kept on the chosen one",
                         .choices = names}},
+            .make = {},
             .makeClip = make};
 }
 
