@@ -76,18 +76,23 @@ class Processes:
         """JACK without a sound card at RATE, for programs with `environment`, which is changed: the process, or None.
 
         It waits for slow programs: on a busy machine it would throw them out. JACK has eight places for servers, and one
-        that is killed keeps its place until the machine starts again: where none runs any more, all eight are freed
-        (jackd 1.9.21 does not know --replace-registry, which its help names).
+        that is killed keeps its place until the machine starts again: where none is left and no server runs any more,
+        all eight are freed (jackd 1.9.21 does not know --replace-registry, which its help names).
         """
         environment.setdefault("JACK_DEFAULT_SERVER", f"pacini{os.getpid()}")
         environment["JACK_NO_AUDIO_RESERVATION"] = "1"
         with open(Path(tempfile.gettempdir()) / "pacini-tests-jack.lock", "w") as lock:
             fcntl.flock(lock, fcntl.LOCK_EX)
-            if subprocess.run(["pgrep", "-x", "-r", "R,S,D,T", "jackd"], capture_output=True).returncode == 1:
-                PLACES.unlink(missing_ok=True)
-            server = self.start("jackd", "-r", "-t", "8000", "-n", environment["JACK_DEFAULT_SERVER"], "-d", "dummy",
-                                "-r", RATE, "-p", block, "-C", inputs, "-P", outputs, env=environment)
-            return server if until(lambda: f"system:playback_{outputs}" in listed(environment)) else None
+            for _ in range(2):
+                server = self.start("jackd", "-r", "-t", "8000", "-n", environment["JACK_DEFAULT_SERVER"], "-d",
+                                    "dummy", "-r", RATE, "-p", block, "-C", inputs, "-P", outputs, env=environment)
+                answers = until(
+                    lambda: server.poll() is not None or f"system:playback_{outputs}" in listed(environment))
+                if server.poll() is None:
+                    return server if answers else None
+                if subprocess.run(["pgrep", "-x", "-r", "R,S,D,T", "jackd"], capture_output=True).returncode == 1:
+                    PLACES.unlink(missing_ok=True)
+        return None
 
     def __exit__(self, *_):
         for process in reversed(self.running):
