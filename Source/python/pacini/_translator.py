@@ -33,8 +33,8 @@ class Translator:
     preset : str, optional
         Name of one of :meth:`presets`.
     settings : path or mapping, optional
-        A settings file with the part ``live``, as the plugin saves presets and ``pacini live --settings`` reads them, or
-        its content. Not beside a preset.
+        A settings file with the part ``live``, as the plugin saves presets and ``pacini live --settings`` reads them,
+        or its content. Not beside a preset.
     **params
         Parameters of the plugin, by the names in :attr:`params`; they override preset and settings.
 

@@ -33,7 +33,7 @@ from ._arrays import PathLike, is_path
 from ._errors import Error
 from ._parameters import ENCODE
 from ._progress import Progress, counted
-from ._sound import settings_text, check_options
+from ._sound import check_options, settings_text
 
 SOUNDS = (".wav", ".flac", ".ogg", ".opus", ".mp3", ".aif", ".aiff", ".caf", ".w64", ".au")
 TABLE = "run.parquet"
