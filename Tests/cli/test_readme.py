@@ -107,6 +107,8 @@ WORLD = {
 WITHOUT_HARDWARE = {
     "pacini devices": "pacini play door.json --dry-run --like dualsense",
     "pacini play door.json --device 1": "pacini play door.json --dry-run --like switch",
+    "pacini play door.json --profile quest-controller":
+        "pacini play door.json --profile quest-controller --dry-run --like switch",
 }
 
 # Exit codes other than 0, with the words of the comment that say so.
