@@ -140,7 +140,7 @@ class Release:
     def with_licences(self, wheel, path):
         """A wheel with what Debian says of each library in it, in order and with one date."""
         known = spdx.contents()
-        owners = spdx.components_of("wheel", wheel, known)[len(known["packages"]["wheel"]):]
+        owners = spdx.owners_of_libraries(wheel, known)  # also of what else is compiled in, such as {fmt}
         with zipfile.ZipFile(wheel) as archive:
             files = {info.filename: (archive.read(info), info.external_attr) for info in archive.infolist()
                      if not info.is_dir()}

@@ -75,15 +75,22 @@ def libraries_in(path):
                 yield name.partition("/")[2]
 
 
+def owners_of_libraries(path, known):
+    """The components whose libraries lie in a package, each once."""
+    found = []
+    for library in libraries_in(path):
+        owners = [owner for start, owner in known["files"].items() if library.startswith(start)]
+        if len(owners) != 1:
+            raise Unknown(f"{path.name}: {library} is not in Resources/package/contents.json")
+        found += [owner for owner in owners if owner not in found]
+    return found
+
+
 def components_of(kind, path, known):
     """The components in a package: what is compiled in, and what is found in it."""
     found = list(known["packages"][kind])
     if kind in ("wheel", "zip"):
-        for library in libraries_in(path):
-            owners = [owner for start, owner in known["files"].items() if library.startswith(start)]
-            if len(owners) != 1:
-                raise Unknown(f"{path.name}: {library} is not in Resources/package/contents.json")
-            found += [owner for owner in owners if owner not in found]
+        found += [owner for owner in owners_of_libraries(path, known) if owner not in found]
     return found
 
 
