@@ -100,6 +100,8 @@ std::optional<SampleWords> wordsOfCaf(ByteWindow& file, const FileChunk& desc)
     // It takes the bits for those of a word.
     words.isMisread = bits < 8 * words.bytes;
     words.asInteger.push_back({desc.content + 28, numberBytes(8 * words.bytes, 4, true)});
+    words.asFloat = words.asInteger;
+    words.asFloat.push_back({desc.content + 12, numberBytes(flags | isFloat, 4, true)});
     return words;
 }
 
@@ -111,7 +113,10 @@ std::optional<SampleWords> wordsOfAu(ByteWindow& file, std::uint64_t begin)
         return {};
     constexpr std::uint64_t widths[] = {2, 3, 4, 4, 8};
     const auto bytes = widths[codec - 3];
-    return SampleWords{.bytes = bytes, .bits = 8 * bytes, .isFloat = codec >= 6, .bigEndian = isBig};
+    constexpr std::uint64_t floats = 6;
+    SampleWords words{.bytes = bytes, .bits = 8 * bytes, .isFloat = codec >= floats, .bigEndian = isBig};
+    words.asFloat.push_back({begin + 12, numberBytes(floats, 4, isBig)});
+    return words;
 }
 
 std::optional<SampleWords> sampleWords(ByteWindow& file, std::uint64_t begin, std::uint64_t headerEnd)
@@ -306,6 +311,13 @@ SampleReading readingOf(const SampleWords& words, Justified found, const WordSca
     case Justified::number:
     {
         // Cool Edit wrote such files: "24.0 float" states 24 bits, "16.8 float" others.
+        if (words.asFloat.empty())
+            return {
+                {},
+                1.0,
+                fmt::format("states integers of {} bits, but seems to have floating-point numbers, which this format "
+                            "does not have; it is read as stated, which may be noise; save it anew",
+                            words.bits)};
         constexpr double loudest = 8.0;
         const int scale = scan.peak <= loudest ? 0 : words.bits == 24 || scan.peak > 131072.0 ? 23 : 15;
         return {words.asFloat, std::ldexp(1.0, -scale),

@@ -304,6 +304,30 @@ TEST_CASE("Floating-point numbers that a header calls integers are read as what 
         }
 }
 
+TEST_CASE("Floating-point numbers that a CAF, AU or AIFF calls integers are read, or it is said that they are not",
+          "[io][audio]")
+{
+    for (const double scale : {1.0, 32768.0})
+    {
+        for (const auto& bytes :
+             {cafOf(0, 4, 32, numbersOf(scale, false, true)), cafOf(2, 4, 32, numbersOf(scale, false, false)),
+              auOf(5, numbersOf(scale, false, true))})
+        {
+            CAPTURE(scale, bytes.substr(0, 4));
+            const auto audio = readWords(bytes);
+            CHECK(farthestFrom(audio) < 1e-6);
+            REQUIRE(audio.warnings.size() == 1);
+            CHECK(audio.warnings.front().find("it is read as these") != std::string::npos);
+        }
+        // Its header has no place for the kind of its samples.
+        const auto bytes = aiffOf(4, 32, numbersOf(scale, false, true));
+        const auto audio = readWords(bytes);
+        CHECK(farthestFrom(audio) > 0.1);
+        REQUIRE(audio.warnings.size() == 1);
+        CHECK(audio.warnings.front().find("it is read as stated, which may be noise") != std::string::npos);
+    }
+}
+
 TEST_CASE("Floating-point numbers are read as such, however their header says so", "[io][audio]")
 {
     for (const bool isLong : {false, true})
