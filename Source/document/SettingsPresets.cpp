@@ -2,6 +2,7 @@
 
 #include "io/AtomicFile.h"
 #include "io/FileNames.h"
+#include "io/LiveSettings.h"
 #include "io/SettingsFile.h"
 
 #include <pacini/analysis/methods/MethodChoices.h>
@@ -173,9 +174,7 @@ Result<TranslatorParams> readLiveSettings(std::string_view text)
     const auto settings = readSettings(text);
     if (!settings)
         return settings.error();
-    if (!settings->playback.live)
-        return Error{ErrorCode::invalidData, "live", "is missing: these are no settings of live parameters"};
-    return *settings->playback.live;
+    return liveParamsOf(*settings);
 }
 
 } // namespace pacini

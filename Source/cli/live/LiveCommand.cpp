@@ -16,6 +16,7 @@
 #include "cli/live/SoundPort.h"
 #include "io/FileOrigin.h"
 #include "io/Fingerprint.h"
+#include "io/LiveSettings.h"
 #include "io/SettingsFile.h"
 
 #include <pacini/realtime/TranslatorPresets.h>
@@ -578,15 +579,14 @@ std::optional<TranslatorParams> LiveCommand::chosenParams(Console& console) cons
     {
         ReadWarnings warnings(console.isStrict());
         const auto read = readSettingsFile(settingsFile, &warnings);
-        if (!read || !read->playback.live)
+        const auto live = read ? liveParamsOf(*read) : Result<TranslatorParams>(read.error());
+        if (!live)
         {
-            console.error(settingsFile, !read ? read.error()
-                                              : Error{ErrorCode::invalidData, "live",
-                                                      "is missing: these are no settings of live parameters"});
+            console.error(settingsFile, live.error());
             return std::nullopt;
         }
         console.warnings(settingsFile, warnings.texts());
-        params = *read->playback.live;
+        params = *live;
     }
     described.apply(translatorParameters, params);
     return params;
