@@ -103,6 +103,10 @@ public:
                                         static_cast<double>(bands));
         }
         seconds = static_cast<double>(hop) / rate;
+        fastShare = share(0.025);
+        slowShare = share(0.15);
+        lateShare = share(0.06);
+        meanShare = share(0.5);
         reset();
     }
 
@@ -208,8 +212,8 @@ private:
         put(VoiceEvidence::rise, clampTo(change, 0.0, 12.0) / 4.0);
         put(VoiceEvidence::fall, clampTo(-change, 0.0, 12.0) / 4.0);
         const double floored = std::max(level, -80.0);
-        fast += share(0.025) * (floored - fast);
-        slow += share(0.15) * (floored - slow);
+        fast += fastShare * (floored - fast);
+        slow += slowShare * (floored - slow);
         put(VoiceEvidence::modulation, std::min(std::abs(fast - slow), 15.0) / 6.0);
         findPitch(now);
         constexpr double tiny = 1e-10;
@@ -332,14 +336,12 @@ private:
             late = means = now;
             return;
         }
-        const double shortShare = share(0.06);
-        const double longShare = share(0.5);
         for (std::size_t i = 0; i < voiceEvidences; ++i)
         {
-            late[i] += shortShare * (now[i] - late[i]);
-            means[i] += longShare * (now[i] - means[i]);
+            late[i] += lateShare * (now[i] - late[i]);
+            means[i] += meanShare * (now[i] - means[i]);
             const double away = now[i] - means[i];
-            squares[i] += longShare * (away * away - squares[i]);
+            squares[i] += meanShare * (away * away - squares[i]);
             flushTiny(squares[i]);
         }
     }
@@ -355,7 +357,8 @@ private:
     std::array<BandBins, bands> bandBins{};
     std::array<std::array<double, bands>, cosines> cosine{};
     double scale = 1.0;
-    double seconds = 0.016;
+    double seconds = 0.016; // of a hop
+    double fastShare = 1.0, slowShare = 1.0, lateShare = 1.0, meanShare = 1.0;
     std::size_t firstLag = 1;
     std::size_t lastLag = 1;
 
