@@ -41,7 +41,7 @@ public:
         return analysis.finish().peak;
     }
 
-private:
+    /// Of an analysis of these bands that finds the peak alone.
     [[nodiscard]] static BandAnalysisParams paramsOf(std::vector<BandEdges> bands)
     {
         BandAnalysisParams params;
@@ -50,6 +50,7 @@ private:
         return params;
     }
 
+private:
     AnalysisInput input;
     BandAnalysis analysis;
 };

@@ -28,7 +28,10 @@ class SoundSurvey
 {
 public:
     /// `params` as the encoder has them.
-    explicit SoundSurvey(const EncoderParams& params) : settings(params), analysis(peakOf(params)) {}
+    explicit SoundSurvey(const EncoderParams& params)
+        : settings(params), analysis(SoundPeak::paramsOf(Encoder::bandsOf(params)))
+    {
+    }
 
     /// Begins a sound of 1-64 channels at 8000 to 768000 Hz.
     void start(int sampleRate, int channels)
@@ -100,14 +103,6 @@ private:
         HeardLevel level;
         HeardSurvey survey;
     };
-
-    [[nodiscard]] static BandAnalysisParams peakOf(const EncoderParams& params)
-    {
-        BandAnalysisParams peak;
-        peak.bands = Encoder::bandsOf(params);
-        peak.onlyPeak = true;
-        return peak;
-    }
 
     EncoderParams settings;
     AnalysisInput input;
