@@ -68,12 +68,7 @@ Menu clipMenu(EditorView& view)
         feelAlike, "Feel as on...",
         "Changes the clip so that the chosen actuator feels as the one it was designed on, as one step",
         [&view, &session] { ask(view, alikeOperation(session.actuators)); },
-        [&session]
-        {
-            const auto here = session.actuators.profile();
-            return session.model.clip() && here && canBeAlike(*here) &&
-                   !alikeOperation(session.actuators).fields.front().choices.empty();
-        });
+        [&session] { return session.model.clip() && hasAlike(session.actuators); });
     menu.add(
         splitClipHere, "Split at playhead", "Moves everything after the playhead to a new clip",
         [&session]

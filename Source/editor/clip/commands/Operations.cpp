@@ -49,6 +49,12 @@ OperationField number(const char* name, const char* unit, const char* help, doub
     return {name, unit, help, low, high, value, decimals, {}, std::move(counts)};
 }
 
+/// An actuator that a clip could have been designed on.
+bool isOther(const Actuators& actuators, const NamedProfile& named)
+{
+    return named.name != actuators.profileName() && canBeAlike(*named.profile);
+}
+
 std::function<bool(const OperationValues&)> whenFirstIs(double choice)
 {
     return [choice](const OperationValues& v)
@@ -164,13 +170,21 @@ Operation repeatOperation()
             }};
 }
 
+bool hasAlike(const Actuators& actuators)
+{
+    const auto here = actuators.profile();
+    return here && canBeAlike(*here) &&
+           std::any_of(actuators.profiles().begin(), actuators.profiles().end(),
+                       [&](const NamedProfile& named) { return isOther(actuators, named); });
+}
+
 Operation alikeOperation(const Actuators& actuators)
 {
     const auto here = actuators.profile();
     std::vector<std::shared_ptr<const Profile>> others;
     std::vector<std::string> names;
-    for (const auto& named : actuators.profiles())
-        if (named.name != actuators.profileName() && canBeAlike(*named.profile))
+    for (const NamedProfile& named : actuators.profiles())
+        if (isOther(actuators, named))
         {
             others.push_back(named.profile);
             names.push_back(shortNameOf(*named.profile));
@@ -181,7 +195,7 @@ Operation alikeOperation(const Actuators& actuators)
         auto made = feltAlike(clip, *others[static_cast<std::size_t>(v[0])], *here, strength);
         if (!made)
             return made.error();
-        return MadeClip{std::move(made->clip), fmt::format("{}", fmt::join(made->lost, "; "))};
+        return MadeClip{std::move(made->clip), fmt::format("{}", fmt::join(made->lost, "\n"))};
     };
     return {.name = "Feel as on",
             .wholeClip = true,

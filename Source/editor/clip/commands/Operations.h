@@ -16,7 +16,8 @@ namespace pacini::editor
 [[nodiscard]] Operation transposeOperation();
 [[nodiscard]] Operation stretchOperation(const EditorModel& model);
 [[nodiscard]] Operation repeatOperation();
-/// The project has an actuator, and another of which canBeAlike() is true is in the list.
+/// Whether alikeOperation() can be made: the actuator of the project and another of the list can be felt alike.
+[[nodiscard]] bool hasAlike(const Actuators& actuators);
 [[nodiscard]] Operation alikeOperation(const Actuators& actuators);
 
 } // namespace pacini::editor

@@ -134,6 +134,7 @@ private:
 
     [[nodiscard]] int shortDecimals(double limit) const { return limit == std::round(limit) ? 0 : field.decimals; }
 
+    using juce::Component::keyPressed;
     bool keyPressed(const juce::KeyPress& key, juce::Component*) override
     {
         using K = juce::KeyPress;
@@ -306,7 +307,7 @@ void OperationSheet::show(Result<MadeClip> made)
 {
     possible = made.ok();
     setAnswerEnabled(possible);
-    problem.setText(toText(possible ? made->doubt : made.error().text()), juce::dontSendNotification);
+    problem.setText(translateMessage(toText(possible ? made->doubt : made.error().text())), juce::dontSendNotification);
     if (!possible)
         return model.setPreview(nullptr);
     changes = !(made->clip == *start);
