@@ -5,6 +5,7 @@
 #include "editor/Bench.h"
 #include "editor/Pump.h"
 #include "editor/Translation.h"
+#include "editor/clip/session/ClipSteps.h"
 
 #include <array>
 #include <cmath>
@@ -241,15 +242,25 @@ TEST_CASE("Pictures of the windows in all sizes, themes and languages", "[.look]
         double scale;
     };
     std::vector<State> all = states;
-    for (const auto& [name, command] :
-         {std::pair("new-study", editor::newStudy), std::pair("scene", editor::editScene),
-          std::pair("gain", editor::changeGain), std::pair("humanise", editor::humanise),
-          std::pair("about", editor::about), std::pair("palette", editor::searchCommands),
-          std::pair("comparison", editor::compareWithTheSound), std::pair("history", editor::showHistory)})
+    for (const auto& [name, command] : {std::pair("new-study", editor::newStudy), std::pair("scene", editor::editScene),
+                                        std::pair("gain", editor::changeGain), std::pair("humanise", editor::humanise),
+                                        std::pair("about", editor::about), std::pair("palette", editor::searchCommands),
+                                        std::pair("comparison", editor::compareWithTheSound)})
         all.push_back({name, [command = command](EditorBench& bench)
                        {
                            openSheet(bench, command);
                        }});
+    all.push_back({"history", [](EditorBench& bench)
+                   {
+                       bench.openDemo("drums_tabla_pattern");
+                       editor::editClip(bench.session.model, "Reverse", ReverseEdit{});
+                       REQUIRE(bench.view.doCommand(editor::showHistory));
+                   }});
+    all.push_back({"feel-as-on", [](EditorBench& bench)
+                   {
+                       bench.session.actuators.setProfile("lra-175");
+                       openSheet(bench, editor::feelAlike);
+                   }});
     all.push_back({"project", [](EditorBench& bench)
                    {
                        openPage(bench, 2);
@@ -265,7 +276,7 @@ TEST_CASE("Pictures of the windows in all sizes, themes and languages", "[.look]
                     if (only != nullptr && !name.contains(only))
                         continue;
                     editor::useLanguage(language);
-                    EditorBench bench({shipped("lra-175")});
+                    EditorBench bench({shipped("lra-175"), shipped("quest-controller")});
                     bench.view.setBounds(0, 0, size.width, size.height);
                     bench.view.setScale(size.scale);
                     bench.view.setDark(dark);
