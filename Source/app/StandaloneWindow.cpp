@@ -3,6 +3,7 @@
 
 #include "app/DevicePage.h"
 #include "app/WindowPlace.h"
+#include "editor/FocusEntry.h"
 #include "editor/Theme.h"
 #include "editor/Translation.h"
 
@@ -146,6 +147,12 @@ StandaloneWindow::~StandaloneWindow() = default;
 void StandaloneWindow::closeButtonPressed()
 {
     juce::JUCEApplication::getInstance()->systemRequestedQuit();
+}
+
+bool StandaloneWindow::keyPressed(const juce::KeyPress& key)
+{
+    // As the program starts the window itself has the keyboard, and what is inside hears nothing.
+    return hasKeyboardFocus(false) && (editor::enterByTab(*this, key) || getContentComponent()->keyPressed(key));
 }
 
 } // namespace pacini::app

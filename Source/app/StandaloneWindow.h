@@ -21,6 +21,7 @@ public:
     ~StandaloneWindow() override;
 
     void closeButtonPressed() override;
+    bool keyPressed(const juce::KeyPress& key) override;
 
 private:
     class Content;

@@ -58,6 +58,14 @@ int differingPixels(const juce::Image& a, const juce::Image& b)
     return count;
 }
 
+/// As the system tells it: to what has the keyboard, then to what is around that.
+void pressTab(bool back = false)
+{
+    if (auto* peer = focused() != nullptr ? focused()->getPeer() : nullptr)
+        peer->handleKeyPress(juce::KeyPress(
+            juce::KeyPress::tabKey, back ? juce::ModifierKeys::shiftModifier : juce::ModifierKeys::noModifiers, '\t'));
+}
+
 /// Each stop of Tab from where the keyboard is until it comes round.
 std::vector<juce::Component::SafePointer<juce::Component>> stops()
 {
@@ -68,7 +76,7 @@ std::vector<juce::Component::SafePointer<juce::Component>> stops()
         if (now == nullptr || std::any_of(all.begin(), all.end(), [now](const auto& one) { return one == now; }))
             break;
         all.emplace_back(now);
-        now->moveKeyboardFocusToSibling(true);
+        pressTab();
     }
     return all;
 }
@@ -175,6 +183,46 @@ TEST_CASE("Every stop of Tab is in sight and has a ring, on all pages and sheets
     }
     INFO(found.joinIntoString("\n"));
     CHECK(found.isEmpty());
+}
+
+TEST_CASE("Tab goes into a window that has the keyboard itself, as after the start and behind a sheet")
+{
+    EditorBench bench({shipped("lra-175"), shipped("l5-wristband")});
+    bench.view.setBounds(0, 0, 1280, 800);
+    ShownWindow window(bench.view);
+    for (const bool opened : {false, true})
+    {
+        if (opened)
+            bench.openDemo("drums_tabla_pattern");
+        for (const bool back : {false, true})
+        {
+            CAPTURE(opened, back);
+            bench.view.takeFocus();
+            REQUIRE(focused() == &bench.view);
+            pressTab(back);
+            CAPTURE(nameOf(focused()));
+            CHECK((focused() != &bench.view && bench.view.isParentOf(focused())));
+            auto* first = focused();
+            pressTab(back);
+            CHECK((focused() != first && bench.view.isParentOf(focused())));
+        }
+    }
+    for (const auto& [name, command] : sheetCommands)
+    {
+        CAPTURE(name);
+        bench.view.takeFocus();
+        if (!bench.view.doCommand(command) || bench.view.sheet() == nullptr)
+            continue;
+        auto& sheet = *bench.view.sheet();
+        sheet.grabKeyboardFocus();
+        REQUIRE(focused() == &sheet);
+        pressTab();
+        CAPTURE(nameOf(focused()));
+        CHECK(sheet.isParentOf(focused()));
+        bench.view.showSheet(nullptr);
+        pressTab();
+        CHECK((focused() != &bench.view && bench.view.isParentOf(focused())));
+    }
 }
 
 TEST_CASE("A sheet has the keyboard and keeps it, and Escape gives it back to what had it")

@@ -2,6 +2,7 @@
 #include "app/editor/StudyWindow.h"
 
 #include "editor/DeviceSettings.h"
+#include "editor/FocusEntry.h"
 #include "editor/Text.h"
 #include "editor/Translation.h"
 
@@ -31,6 +32,7 @@ public:
     ~Monitor() override { clearContentComponent(); }
 
     void closeButtonPressed() override {}
+    bool keyPressed(const juce::KeyPress& key) override { return editor::enterByTab(*this, key); }
 
     void refresh()
     {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/clip/EditorView.h"
 
+#include "editor/FocusEntry.h"
 #include "editor/LanguageProblem.h"
 #include "editor/Text.h"
 #include "editor/Translation.h"
@@ -384,7 +385,7 @@ bool EditorView::keyPressed(const juce::KeyPress& key)
         menuBar.showMenu(0);
         return true;
     }
-    return false;
+    return enterByTab(*this, key);
 }
 
 void EditorView::showSheet(std::unique_ptr<Sheet> wanted)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/clip/sheets/Sheet.h"
 
+#include "editor/FocusEntry.h"
 #include "editor/LineBreaks.h"
 #include "editor/Theme.h"
 #include "editor/Translation.h"
@@ -122,7 +123,7 @@ void Sheet::close()
 
 bool Sheet::keyPressed(const juce::KeyPress& key)
 {
-    if (onKey && onKey(key))
+    if ((onKey && onKey(key)) || enterByTab(*this, key))
         return true;
     if (key == juce::KeyPress::escapeKey)
         close();
