@@ -129,10 +129,25 @@ SpecialChannels specialChannelsOf(SNDFILE* sound, int channels)
     return {.lowFrequency = placeOf(SF_CHANNEL_MAP_LFE), .centre = placeOf(SF_CHANNEL_MAP_CENTER)};
 }
 
-/// Why libsndfile could not open a file that exists.
-Error openingFailed(const SoundPart& part)
+/// Whether the file begins as an object of JSON does.
+bool isJson(std::FILE* file)
 {
-    if (sf_error(nullptr) == SF_ERR_UNRECOGNISED_FORMAT)
+    constexpr std::size_t most = 256;
+    ByteWindow window(file);
+    const auto head = window.at(window.has(0, "\xEF\xBB\xBF") ? 3 : 0, most);
+    const auto first =
+        std::find_if(head.begin(), head.end(),
+                     [](unsigned char one) { return one != ' ' && one != '\t' && one != '\r' && one != '\n'; });
+    return first != head.end() && *first == '{';
+}
+
+/// Why libsndfile could not open a file that exists.
+Error openingFailed(std::FILE* file, const SoundPart& part)
+{
+    const bool isUnknown = sf_error(nullptr) == SF_ERR_UNRECOGNISED_FORMAT;
+    if (isUnknown && isJson(file))
+        return invalid("holds JSON, not sound; a clip is for 'pacini render' and 'pacini convert'");
+    if (isUnknown)
         return invalid("is not audio in a supported format; convert it to WAV, AIFF, FLAC, Ogg or CAF");
     if (!part.isWhole && part.promisedBytes)
         return truncated(part.presentBytes, *part.promisedBytes, "bytes of audio");
@@ -339,7 +354,7 @@ struct AudioReader::State
         if (!part().countedFrames || part().promisedFrames || !openView(true))
             openView(false);
         if (!sound)
-            return openingFailed(part());
+            return openingFailed(file.get(), part());
         if (info.channels < 1 || info.samplerate < 1)
             return invalid(fmt::format("has a damaged header, which names no {}; get a complete copy",
                                        info.channels < 1 ? "channels" : "sample rate"));

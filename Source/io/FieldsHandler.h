@@ -3,6 +3,7 @@
 // Streaming reader of JSON documents by lists of fields: fills a value as the text comes, however long it is.
 
 #include "io/Fields.h"
+#include "io/FormatNames.h"
 #include "io/JsonText.h"
 
 #include <pacini/clip/Clip.h>
@@ -444,8 +445,8 @@ private:
         if (!takeAs<std::string>(value, given))
             return handler.wrong(Taken::wrongKind, value);
         return given == format.name ||
-               handler.stop(ErrorCode::invalidData,
-                            fmt::format("is \"{}\"; {} has \"{}\" here", shownText(given), format.noun, format.name));
+               handler.stop(ErrorCode::invalidData, fmt::format("is \"{}\"; {} has \"{}\" here{}", shownText(given),
+                                                                format.noun, format.name, detail::useOfFormat(given)));
     }
 
     static bool checkVersion(FieldsHandler& handler, const Entry& where, JsonScalar& value)

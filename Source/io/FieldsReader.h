@@ -3,6 +3,7 @@
 // Tree reader of JSON documents by lists of fields: fills a value from a parsed object.
 
 #include "io/Fields.h"
+#include "io/FormatNames.h"
 #include "io/JsonText.h"
 #include "io/ReadWarnings.h"
 
@@ -255,7 +256,7 @@ public:
         std::string given;
         text("format", given);
         if (given != name)
-            fail("format", fmt::format("must be \"{}\"", name));
+            fail("format", fmt::format("must be \"{}\"{}", name, detail::useOfFormat(given)));
         double version = 0.0;
         number("version", version, Need::required);
         if (version > newest)

@@ -26,6 +26,12 @@ class BadSounds(CommandTest):
     def test_files_that_are_no_sound(self):
         self.refused("a.wav", b"", "is empty")
         self.refused("a.wav", b"This is text, not sound.\n" * 100, "is not audio in a supported format")
+        for clip in (b'{"format": "pacini.clip"}', b'\xef\xbb\xbf\n  {"Version": 1.0, "Pattern": []}'):
+            self.put("a.json", clip)
+            self.fails(1, ["encode", "a.json", "-o", "b.json"], "pacini: a.json: ",
+                       "holds JSON, not sound; a clip is for 'pacini render'")
+            self.assertEqual(self.names(), ["a.json"])
+        (self.folder / "a.json").unlink()
         self.refused("a.wav", bytes(range(256)) * 40, "is not audio in a supported format")
         self.refused("a.flac", b"fLaC", "")
         self.refused("a.wav", b"RIFF", "")

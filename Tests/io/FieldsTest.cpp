@@ -312,7 +312,8 @@ TEST_CASE("Format and version of a small document must be its own", "[io][json]"
     CHECK(error({{"format", "pacini.thing"}, {"version", 2}}).empty());
     CHECK(error({{"version", 2}}) == "format: is missing");
     CHECK(error({{"format", "pacini.thing"}}) == "version: is missing");
-    CHECK(error({{"format", "pacini.clip"}, {"version", 2}}) == "format: must be \"pacini.thing\"");
+    CHECK(error({{"format", "pacini.clip"}, {"version", 2}}) ==
+          "format: must be \"pacini.thing\"; clips are for 'pacini render'");
     CHECK(error({{"format", "pacini.thing"}, {"version", 3}}) ==
           "version: was written by a newer version (3) of the format; this program reads version 2");
     CHECK(error({{"format", "pacini.thing"}, {"version", 2.5}}) ==
