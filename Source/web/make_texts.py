@@ -40,6 +40,9 @@ NO_TEXTS = {
 SHARED = {"package/sound-file.js", "package/module.js"}
 ATTRIBUTES = ("aria-label", "aria-roledescription", "title", "label", "data-drop")
 LITERAL = re.compile(r"""//[^\n]*|/\*.*?\*/|'((?:\\.|[^'\\\n])*)'|"((?:\\.|[^"\\\n])*)"|`(?:\\.|[^`\\])*`""", re.S)
+# What is told of files of sounds, with values in it.
+SENTENCE = re.compile(r"`((?:has|is|uses|states) [^`]*)`")
+VALUE = re.compile(r"\$\{(?:[^{}]|\{[^{}]*\})*\}")
 PLACEHOLDER = re.compile(r"\{\d(?::text)?\}")
 
 
@@ -123,8 +126,11 @@ def keys(root=ROOT):
         for before, word in literals((ROOT / "Source/web" / name).read_text(encoding="utf-8")):
             if re.search(r"(bad\(|message: )$", before):
                 take(word, name)
+    for name in ("package/sound-file.js", "package/sound-words.js"):
+        for sentence in SENTENCE.findall((ROOT / "Source/web" / name).read_text(encoding="utf-8")):
+            count = iter(range(10))
+            take(VALUE.sub(lambda _: f"{{{next(count)}}}", sentence), name)
     for template in (
-        "has a format that is not read here ({0}, {1} bits)",
         "The page's module cannot be loaded ({0}). Load the page again.",
         "{0:text} cannot be read any more: it was moved or changed. Open it again.",
     ):

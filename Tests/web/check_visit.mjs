@@ -104,7 +104,7 @@ try {
   }
   const listed = await looked.tab.$$eval('link[rel=modulepreload]', (links) => links.map(({ href }) => href).sort())
   const loaded = await looked.tab.evaluate(() => [...new Set(performance.getEntriesByType('resource').map(({ name }) => name))]
-    .filter((name) => name.endsWith('.js') && !/(early|app|worker|gallery.list|pacini.index|pacini.sound)\.js$/.test(name)).sort()) // the last two are the worker's
+    .filter((name) => name.endsWith('.js') && !/(early|app|worker|gallery.list|pacini.index|pacini.sound(-\w+)?)\.js$/.test(name)).sort()) // those of the package are the worker's
   check('the scripts that are loaded at once are those that the page has', listed.join() === loaded.join(), loaded.filter((name) => !listed.includes(name)).join(' '))
   await looked.context.close()
   const slow = await visit('about:blank')
@@ -240,6 +240,11 @@ try {
   await kinds.choose(join(folder, 'broken.wav'))
   const promised = short.readUInt32LE(40) / 2
   check('a cut-off file is told with its numbers', await until(async () => (await kinds.text('status')).includes(`broken.wav is cut off: 478 of ${promised.toLocaleString('en')} frames.`)), await kinds.text('status'))
+  const called = readFileSync(join(sounds, 'WAV_FLOAT.wav'))
+  called.writeUInt16LE(1, 20)
+  writeFileSync(join(folder, 'called.wav'), called)
+  await kinds.choose(join(folder, 'called.wav'))
+  check('floating-point numbers that a header calls integers are told', await until(async () => (await kinds.text('status')).includes('called.wav states integers of 32 bits, but has floating-point numbers; it is read as these; save it anew.')), await kinds.text('status'))
   writeFileSync(join(folder, 'notes.aiff'), 'these are notes')
   await kinds.choose(join(folder, 'notes.aiff'))
   check('what is no sound is told by its name', await until(async () => await kinds.text('error') === 'notes.aiff cannot be opened. Try WAV, FLAC or MP3.'), await kinds.text('error'))

@@ -25,6 +25,8 @@ export interface SoundStream {
 export interface SoundFile extends SoundStream {
   /** Frames that the file states, where fewer are there. */
   promised: number
+  /** What the program says of the file: sizes and samples that are not as its header has them. */
+  warnings: string[]
   /** Samples of each channel. */
   read(from: number, count: number): Float32Array[]
 }
@@ -326,9 +328,9 @@ export function profileInfo(profile: ProfileInput, options?: Stoppable): Promise
  */
 export function openSound(bytesAt: (at: number, length: number) => Uint8Array, size: number): SoundFile
 /** All of such a file. */
-export function readSound(bytes: Uint8Array): { samples: Float32Array | Float32Array[], sampleRate: number }
+export function readSound(bytes: Uint8Array): { samples: Float32Array | Float32Array[], sampleRate: number, warnings: string[] }
 /** The same, by its older name. */
-export function readWav(bytes: Uint8Array): { samples: Float32Array | Float32Array[], sampleRate: number }
+export function readWav(bytes: Uint8Array): { samples: Float32Array | Float32Array[], sampleRate: number, warnings: string[] }
 
 export interface SpectrogramOptions extends Stoppable {
   /** Seconds: the whole sound. */

@@ -1,10 +1,12 @@
 // WAV and AIFF files, read in parts: a long sound needs the memory of the part that is read.
 
 import { PaciniError } from './module.js'
+import { ByteWindow, bitsOfAifcCodec, chunksOf, findAudioChunk, frameBytesOf, layoutAt, stretchOf, tagBytesAt } from './sound-header.js'
+import { fixed, sampleReading } from './sound-words.js'
 
 const bad = (message) => new PaciniError({ code: 'invalidData', where: 'sound file', message })
 
-// ---- samples of G.711 and ADPCM, as libsndfile has them
+// ---- codecs: G.711 and ADPCM, as libsndfile has them
 
 const muLaw = Float32Array.from({ length: 256 }, (_, code) => {
   const bits = ~code & 255, size = ((bits & 15) * 8 + 132) << ((bits & 112) >> 4)
@@ -41,12 +43,14 @@ const imaBlock = (view, channels, frames, into, at) => {
   }
 }
 
+/** Of its predictors. libsndfile takes these, whatever a header states. */
+const microsoftCoefficients = [[256, 0], [512, -256], [0, 0], [192, 64], [240, 0], [460, -208], [392, -232]]
 const microsoftSteps = [230, 230, 230, 230, 307, 409, 512, 614, 768, 614, 512, 409, 307, 230, 230, 230]
 
 /** A block of Microsoft's ADPCM: two samples as they are, then four bits of each channel by turns. */
-const microsoftBlock = (coefficients) => (view, channels, frames, into, at) => {
+const microsoftBlock = (view, channels, frames, into, at) => {
   const all = (offset) => Array.from({ length: channels }, (_, c) => view.getInt16(offset + 2 * c, true))
-  const chosen = Array.from({ length: channels }, (_, c) => coefficients[view.getUint8(c)] ?? coefficients[0])
+  const chosen = Array.from({ length: channels }, (_, c) => microsoftCoefficients[view.getUint8(c)] ?? microsoftCoefficients[0])
   const steps = all(channels), newest = all(3 * channels), older = all(5 * channels)
   for (let c = 0; c < channels; ++c) {
     into[c][at] = older[c] / 32768
@@ -81,55 +85,34 @@ const samplesAre = {
 
 // ---- headers
 
-const tagAt = (view, at) => String.fromCharCode(view.getUint8(at), view.getUint8(at + 1), view.getUint8(at + 2), view.getUint8(at + 3))
-
-/** Calls `work(tag, at, length, view)` for each chunk of a file, `view` having its first bytes, until that returns something. */
-const chunksOf = (viewAt, size, little, work) => {
-  for (let at = 12; at + 8 <= size;) {
-    const head = viewAt(at, 8), tag = tagAt(head, 0), length = head.getUint32(4, little)
-    const found = work(tag, at + 8, length, viewAt(at + 8, Math.min(length, 1024, size - at - 8)))
-    if (found) return found
-    at += 8 + length + (length & 1)
-  }
-  throw bad('has no samples')
-}
-
 const wavKinds = { 1: 'integer', 3: 'float', 6: 'alaw', 7: 'mulaw' }
+const unread = (code, bits) => bad(`has a format that is not read here (${code}, ${bits} bits)`)
 
-const wavLayout = (viewAt, size) => {
-  let format, large
-  return chunksOf(viewAt, size, true, (tag, at, length, view) => {
-    if (tag === 'ds64' && view.byteLength >= 16) large = Number(view.getBigUint64(8, true))
-    if (tag === 'fmt ' && view.byteLength >= 16) {
-      format = { code: view.getUint16(0, true), channels: view.getUint16(2, true), sampleRate: view.getUint32(4, true),
-        blockBytes: view.getUint16(12, true), bits: view.getUint16(14, true), view }
-      if (format.code === 0xfffe && view.byteLength >= 26) format.code = view.getUint16(24, true)
-    }
-    if (tag !== 'data') return undefined
-    if (!format || format.channels < 1 || format.sampleRate < 1) throw bad('has a damaged header')
-    const { code, bits, channels, sampleRate, blockBytes, view: rest } = format
-    const bytes = length === 0xffffffff && large !== undefined ? large : length
-    const common = { little: true, start: at, bytes, channels, sampleRate }
-    if (code === 2 || code === 17) {
-      const least = (code === 2 ? 7 : 4) * channels
-      const blockFrames = rest.byteLength >= 20 ? rest.getUint16(18, true) : 0
-      const fitting = (blockBytes - least) * 2 / channels + (code === 2 ? 2 : 1)
-      if (blockBytes < least || blockFrames < 1 || blockFrames > fitting) throw bad('has a damaged header')
-      const count = code === 2 && rest.byteLength >= 22 ? rest.getUint16(20, true) : 0
-      if (code === 2 && (count < 1 || rest.byteLength < 22 + 4 * count)) throw bad('has a damaged header')
-      const pairs = Array.from({ length: count }, (_, i) => [rest.getInt16(22 + 4 * i, true), rest.getInt16(24 + 4 * i, true)])
-      return { ...common, blockBytes, blockFrames, block: code === 2 ? microsoftBlock(pairs) : imaBlock }
-    }
-    const kind = code === 1 && bits === 8 ? 'unsigned' : wavKinds[code]
-    const sample = samplesAre[`${kind}/${bits}`]
-    if (!sample) throw bad(`has a format that is not read here (${code}, ${bits} bits)`)
-    // Which bytes of longer words the samples are cannot be told from the header.
-    if (blockBytes !== channels * bits / 8)
-      throw bad(`has frames of ${blockBytes} bytes for ${channels} x ${bits} bits, which is not read here; 'pacini encode' reads it`)
-    return { ...common, sample, width: bits / 8 }
-  })
+/** The chunk of that name of the file at `begin`, in front of its audio or behind it. */
+const describing = (file, layout, begin, chunk, audioEnd, name, least) => {
+  const is = ({ offset, bytes }) => file.has(offset, name) && bytes >= least
+  return chunksOf(file, layout, begin, chunk.sizeField, 0).find(is) ?? chunksOf(file, layout, begin, file.size, audioEnd).find(is)
 }
 
+const wavFormat = (file, layout, begin, chunk, audioEnd) => {
+  const found = describing(file, layout, begin, chunk, audioEnd, 'fmt ', 16)
+  if (!found) throw bad('has a damaged header')
+  const at = (place, count = 2) => place + count <= found.bytes ? file.number(found.content + place, count, layout.isBig) : 0
+  const channels = at(2), sampleRate = at(4, 4), blockBytes = at(12), bits = at(14)
+  const code = at(0) === 0xfffe && found.bytes >= 26 ? at(24) : at(0)
+  if (channels < 1 || sampleRate < 1) throw bad('has a damaged header')
+  const common = { little: !layout.isBig, channels, sampleRate }
+  if (code === 2 || code === 17) {
+    const least = (code === 2 ? 7 : 4) * channels, blockFrames = at(18)
+    const fitting = (blockBytes - least) * 2 / channels + (code === 2 ? 2 : 1)
+    if (blockBytes < least || blockFrames < 1 || blockFrames > fitting) throw bad('has a damaged header')
+    return { ...common, blockBytes, blockFrames, block: code === 2 ? microsoftBlock : imaBlock, blockLeast: least }
+  }
+  const width = Math.ceil(bits / 8)
+  return { ...common, kind: code === 1 && width === 1 ? 'unsigned' : wavKinds[code], width, name: code, bits }
+}
+
+const tagAt = (view, at) => String.fromCharCode(view.getUint8(at), view.getUint8(at + 1), view.getUint8(at + 2), view.getUint8(at + 3))
 /** An IEEE 754 number of 80 bits, as AIFF has rates. */
 const extended = (view, at) => {
   const exponent = (view.getUint16(at) & 0x7fff) - 16383
@@ -137,74 +120,195 @@ const extended = (view, at) => {
 }
 const aiffKinds = { 'NONE': 'integer', 'twos': 'integer', 'sowt': 'integer', 'in24': 'integer', 'in32': 'integer', 'raw ': 'unsigned', 'fl32': 'float', 'FL32': 'float',
   'fl64': 'float', 'FL64': 'float', 'ulaw': 'mulaw', 'ULAW': 'mulaw', 'alaw': 'alaw', 'ALAW': 'alaw' }
-const aiffBits = { in24: 24, in32: 32, fl32: 32, FL32: 32, fl64: 64, FL64: 64, ulaw: 8, ULAW: 8, alaw: 8, ALAW: 8 }
 
-const aiffLayout = (viewAt, size, isCompressed) => {
-  let format
-  return chunksOf(viewAt, size, false, (tag, at, length, view) => {
-    if (tag === 'COMM' && view.byteLength >= 18) {
-      const kind = isCompressed && view.byteLength >= 22 ? tagAt(view, 18) : 'NONE'
-      format = { channels: view.getUint16(0), frames: view.getUint32(2), bits: aiffBits[kind] ?? view.getUint16(6), sampleRate: extended(view, 8), kind }
+const aiffFormat = (file, layout, begin, chunk, audioEnd) => {
+  const found = describing(file, layout, begin, chunk, audioEnd, 'COMM', 18)
+  if (!found) throw bad('has a damaged header')
+  const bytes = file.at(found.content, 22), view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength)
+  const kind = file.has(begin + 8, 'AIFC') && found.bytes >= 22 ? tagAt(view, 18) : 'NONE'
+  const channels = view.getUint16(0), sampleRate = Math.trunc(extended(view, 8))
+  if (channels < 1 || !(sampleRate >= 1)) throw bad('has a damaged header')
+  const bits = /^[au]law$/i.test(kind) ? 8 : bitsOfAifcCodec(file, found) ?? view.getUint16(6)
+  return { little: kind === 'sowt', channels, sampleRate, kind: aiffKinds[kind], width: Math.ceil(bits / 8), name: kind, bits }
+}
+
+/** Whether a WAV says twice how its samples look, and differently. */
+const hasOtherFormat = (file, layout, begin, chunk) => {
+  const [first, ...others] = chunksOf(file, layout, begin, chunk.sizeField, 0).filter(({ offset }) => file.has(offset, 'fmt '))
+    .map(({ content, bytes }) => String.fromCharCode(...file.at(content, Math.min(bytes, 4096))))
+  return others.some((other) => other !== first)
+}
+
+const mostParts = 1000, mostChannels = 64, slowest = 1000, fastest = 768000 // as AudioReader.h has them
+
+/** The sound of the file at `begin`: its format, its stretches of audio, and where another sound begins. */
+const soundAt = (file, begin) => {
+  const end = file.size, layout = layoutAt(file, begin)
+  if (!layout) throw bad('is neither WAV nor AIFF')
+  const first = findAudioChunk(file, layout, begin, end)
+  if (!first) throw bad('has no samples')
+  const audio = []
+  for (let chunk = first; chunk; chunk = audio.at(-1).later) {
+    if (audio.length === mostParts) {
+      audio.at(-1).leftOut += end - chunk.start
+      break
     }
-    if (tag !== 'SSND' || view.byteLength < 8) return undefined
-    if (!format || format.channels < 1 || !(format.sampleRate >= 1)) throw bad('has a damaged header')
-    const { kind, channels, sampleRate } = format, width = Math.ceil(format.bits / 8)
-    const sample = samplesAre[`${aiffKinds[kind]}/${8 * width}`]
-    if (!sample) throw bad(`has a format that is not read here (${kind}, ${format.bits} bits)`)
-    return { little: kind === 'sowt', start: at + 8 + view.getUint32(0), bytes: format.frames * width * channels, channels, sampleRate, sample, width }
+    audio.push(stretchOf(file, layout, chunk, begin, end))
+  }
+  const format = (layout.isWave ? wavFormat : aiffFormat)(file, layout, begin, first, first.start + audio[0].bytes)
+  const reading = sampleReading(file, layout, begin, first.sizeField, audio)
+  const { name, bits, channels, block } = format
+  const stated = frameBytesOf(file, layout, begin, first.sizeField)
+  if (reading.as) {
+    format.kind = reading.as
+    format.width = reading.bytes
+  } else if (reading.isUnclear)
+    throw bad(`has frames of ${stated} bytes for ${channels} x ${bits} bits, which is not read here; 'pacini encode' reads it`)
+  format.gain = reading.gain
+  if (channels > mostChannels) throw bad(`has ${channels} channels, but only 1 to ${mostChannels} are supported; mix it down`)
+  if (format.sampleRate < slowest || format.sampleRate > fastest)
+    throw bad(`has a sample rate of ${format.sampleRate} Hz, but only ${slowest} to ${fastest} Hz are supported; resample it`)
+  format.sample = block ? undefined : samplesAre[`${format.kind}/${8 * format.width}`]
+  if (!format.sample && !block) throw unread(name, bits)
+  const lasting = audio[0].end - begin, frames = block ? Math.ceil(audio[0].bytes / format.blockBytes) * format.blockFrames : Math.floor(lasting / format.width / channels)
+  return { begin, format, audio, stated, warning: reading.warning, hasOtherFormat: hasOtherFormat(file, layout, begin, first), seconds: frames / format.sampleRate,
+    next: audio.at(-1).next }
+}
+
+/** Frames, and what is told of them, in the order in which the program tells it. */
+const framesOf = ({ begin, format, audio, stated, warning, hasOtherFormat }) => {
+  const { block, blockBytes, blockFrames, channels, sampleRate, width } = format
+  const frameBytes = width * channels, told = [], stretches = []
+  let promised = 0
+  audio.forEach((part, i) => {
+    const frames = block ? Math.ceil(part.bytes / blockBytes) * blockFrames : Math.floor(part.bytes / frameBytes)
+    const seconds = (bytes) => (block ? bytes / Math.max(1, part.end - begin) * frames : Math.floor(bytes / frameBytes)) / sampleRate
+    const short = (value) => fixed(value, 3)
+    const isBroken = part.promised !== undefined && !part.isWhole && (block || frames !== Math.floor(part.promised / frameBytes))
+    const before = [], behind = []
+    if (isBroken) before.push(`is cut off: ${short(seconds(part.bytes))} s of ${short(seconds(part.promised))} s are there`)
+    else if (part.promised !== undefined && part.isWhole && seconds(part.promised) !== seconds(part.bytes)) {
+      const [claim, there] = [seconds(part.promised), seconds(part.bytes)], digits = short(claim) === short(there) ? 6 : 3
+      before.push(`has a header that states ${fixed(claim, digits)} s, but ${fixed(there, digits)} s are there and all of them are read; save it anew`)
+    }
+    if (i === 0 && !block && stated > 0 && stated !== frameBytes)
+      before.push(`has a header that states frames of ${stated} bytes, but its samples make frames of ${frameBytes}; read by these it lasts ${short(frames / sampleRate)} s, by the others it would last ${short(Math.floor(part.bytes / stated) / sampleRate)} s; save it anew`)
+    if (i === 0 && warning) before.push(warning)
+    if (i === 0 && hasOtherFormat)
+      before.push(`has two descriptions of its samples that differ; it is read by the first, as ${channels} channels at ${sampleRate} Hz, and lasts ${short(frames / sampleRate)} s; save it anew`)
+    if (part.leftOut > 0)
+      behind.push(`has ${part.leftOut} bytes behind its sound that are left out; as sound they would be ${short(seconds(part.leftOut))} s`)
+    if (part.silence > 0) stretches.push({ frames: part.silence, isSilent: true })
+    stretches.push({ frames, start: part.start, bytes: part.bytes, format })
+    promised += part.silence + (isBroken ? Math.round(seconds(part.promised) * sampleRate) : frames)
+    told.push(...before, ...behind)
+  })
+  return { stretches, promised, told }
+}
+
+const behindTags = (file) => {
+  let begin = 0
+  while (file.has(begin, 'ID3') || file.has(begin, 'APETAGEX')) {
+    const tag = tagBytesAt(file, begin)
+    if (tag === 0) break
+    begin += tag
+  }
+  return begin
+}
+
+/** The stretches of all sounds of one kind that lie one behind the other in a file, with what is told of them. */
+const planOf = (file) => {
+  const first = soundAt(file, behindTags(file)), { channels, sampleRate } = first.format
+  const plan = { channels, sampleRate, stretches: [], frames: 0, promised: 0, warnings: [] }
+  const add = (sound) => {
+    const { stretches, promised, told } = framesOf(sound)
+    for (const stretch of stretches) {
+      plan.stretches.push({ ...stretch, first: plan.frames })
+      plan.frames += stretch.frames
+    }
+    plan.promised += promised
+    plan.warnings.push(...told)
+  }
+  add(first)
+  for (let next = first.next, sounds = 1; next !== undefined && sounds < mostParts; ++sounds) {
+    const from = fixed(plan.frames / sampleRate, 3)
+    let sound
+    try {
+      sound = soundAt(file, next)
+    } catch (error) {
+      if (!(error instanceof PaciniError)) throw error
+      plan.warnings.push(`has another sound behind ${from} s, which is left out: it ${error.message.slice('sound file: '.length)} (${file.size - next} bytes)`)
+      break
+    }
+    if (sound.format.sampleRate === sampleRate && sound.format.channels === channels) add(sound)
+    else {
+      const { channels: count, sampleRate: other } = sound.format
+      plan.warnings.push(`has another sound behind ${from} s, which is left out: it has ${count} channels at ${other} Hz (${fixed(sound.seconds, 3)} s); save it as a file of its own`)
+    }
+    next = sound.next
+  }
+  return plan
+}
+
+// ---- samples
+
+const readPlain = ({ format }, view, count, into, at) => {
+  const { sample, width, channels, little, gain } = format
+  into.forEach((channel, c) => {
+    for (let n = 0, place = c * width; n < count; ++n, place += width * channels) channel[at + n] = gain === 1 ? sample(view, place, little) : gain * Math.fround(sample(view, place, little))
   })
 }
 
-/** Whether a file that begins with these bytes is read here. */
-export const isSoundFile = (bytes) => {
-  const text = String.fromCharCode(...bytes.subarray(0, 12))
-  return /^(RIFF|RF64|BW64)....WAVE$/s.test(text) || /^FORM....AIF[FC]$/s.test(text)
+const readBlocks = ({ start, bytes, format }, viewAt, first, count, into, at) => {
+  const { block, blockBytes, blockFrames, blockLeast, channels } = format
+  const begin = Math.floor(first / blockFrames), end = Math.ceil((first + count) / blockFrames)
+  const whole = Array.from({ length: channels }, () => new Float32Array((end - begin) * blockFrames))
+  const view = viewAt(start + begin * blockBytes, Math.min((end - begin) * blockBytes, bytes - begin * blockBytes))
+  for (let i = 0; begin + i < end; ++i) {
+    const length = Math.min(blockBytes, view.byteLength - i * blockBytes)
+    if (length < blockLeast) break
+    block(new DataView(view.buffer, view.byteOffset + i * blockBytes, length), channels, blockFrames, whole, i * blockFrames)
+  }
+  into.forEach((channel, c) => channel.set(whole[c].subarray(first - begin * blockFrames, first - begin * blockFrames + count), at))
+}
+
+/** Whether the file, of which `bytesAt(at, length)` gives bytes, is read here. */
+export const isSoundFile = (bytesAt, size) => {
+  const file = new ByteWindow(bytesAt, size)
+  return layoutAt(file, behindTags(file)) !== undefined
 }
 
 /**
  * A WAV or AIFF file (8 to 32 bits, floating point, mu-law, A-law; in WAV also IMA's and Microsoft's ADPCM), sample for sample as
  * other programs have it. `bytesAt(at, length)` gives bytes of the file, `size` is how many it has. Returns
- * `{sampleRate, channels, frames, promised, read(from, count), reader()}`: `promised` frames are stated where fewer are there,
- * `read` gives an array of samples for each channel, `reader` is what encode() takes.
+ * `{sampleRate, channels, frames, promised, warnings, read(from, count), reader()}`: `promised` frames are stated where fewer are
+ * there, `warnings` are what the program says of the file, `read` gives an array of samples for each channel, `reader` is what
+ * encode() takes.
  */
 export const openSound = (bytesAt, size) => {
   const viewAt = (at, length) => {
     const bytes = bytesAt(at, Math.max(0, Math.min(length, size - at)))
     return new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength)
   }
-  const start = bytesAt(0, Math.min(12, size))
-  if (!isSoundFile(start)) throw bad('is neither WAV nor AIFF')
-  const isWav = start[0] !== 70 // F
-  const layout = isWav ? wavLayout(viewAt, size) : aiffLayout(viewAt, size, start[11] === 67)
-  const { channels, sampleRate, little, sample, width, block, blockFrames, blockBytes } = layout
-  const there = Math.max(0, Math.min(layout.bytes, size - layout.start))
-  const framesIn = (bytes) => block ? Math.ceil(bytes / blockBytes) * blockFrames : Math.floor(bytes / (width * channels))
-  const frames = framesIn(there)
-  // Writers that do not know how long a stream gets state no length, or the largest.
-  const isStated = layout.bytes > 0 && layout.bytes < 0xfffffff0
-  const promised = isStated ? Math.max(frames, block ? frames : framesIn(layout.bytes)) : frames
+  const { channels, sampleRate, frames, promised, warnings, stretches } = planOf(new ByteWindow(bytesAt, size))
   const read = (from, count, parts) => {
     const first = Math.min(frames, Math.max(0, from)), last = Math.min(frames, first + Math.max(0, count))
-    if (block) {
-      const begin = Math.floor(first / blockFrames), end = Math.ceil(last / blockFrames)
-      const whole = Array.from({ length: channels }, () => new Float32Array((end - begin) * blockFrames))
-      const bytes = viewAt(layout.start + begin * blockBytes, Math.min((end - begin) * blockBytes, there - begin * blockBytes))
-      for (let i = 0; begin + i < end; ++i) {
-        const length = Math.min(blockBytes, bytes.byteLength - i * blockBytes)
-        if (length < (layout.block === imaBlock ? 4 : 7) * channels) break
-        block(new DataView(bytes.buffer, bytes.byteOffset + i * blockBytes, length), channels, blockFrames, whole, i * blockFrames)
+    const into = parts?.[0].length === last - first ? parts : Array.from({ length: channels }, () => new Float32Array(last - first))
+    for (const stretch of stretches) {
+      const begin = Math.max(first, stretch.first), length = Math.min(last, stretch.first + stretch.frames) - begin
+      if (length <= 0) continue
+      const inside = begin - stretch.first, at = begin - first
+      if (stretch.isSilent) for (const channel of into) channel.fill(0, at, at + length)
+      else if (stretch.format.block) readBlocks(stretch, viewAt, inside, length, into, at)
+      else {
+        const frameBytes = stretch.format.width * channels
+        readPlain(stretch, viewAt(stretch.start + inside * frameBytes, length * frameBytes), length, into, at)
       }
-      return whole.map((one) => one.subarray(first - begin * blockFrames, last - begin * blockFrames))
     }
-    const view = viewAt(layout.start + first * width * channels, (last - first) * width * channels)
-    return Array.from({ length: channels }, (_, c) => {
-      const into = parts?.[c].length === last - first ? parts[c] : new Float32Array(last - first)
-      for (let n = 0, at = c * width; n < into.length; ++n, at += width * channels) into[n] = sample(view, at, little)
-      return into
-    })
+    return into
   }
   return {
-    sampleRate, channels, frames, promised, read,
+    sampleRate, channels, frames, promised, warnings, read,
     reader: () => {
       let done = 0, part, begin = 0 // what was read last, and where it begins
       return (into) => {
@@ -233,5 +337,5 @@ export const openSound = (bytesAt, size) => {
 export const readSound = (bytes) => {
   const file = openSound((at, length) => bytes.subarray(at, at + length), bytes.length)
   const samples = file.read(0, file.frames)
-  return { samples: file.channels === 1 ? samples[0] : samples, sampleRate: file.sampleRate }
+  return { samples: file.channels === 1 ? samples[0] : samples, sampleRate: file.sampleRate, warnings: file.warnings }
 }

@@ -133,7 +133,7 @@ const open = async (file, reading) => {
       if (sound.frames === 0) throw new Error(t('{0} has no samples.', file))
       if (own !== opened) return
       document = { sound, ...await analysed({ name, source: file, sound }, history.now?.sound ? await knobs.values() : {}) }
-      said = document.said + cutOff(file, sound)
+      said = [document.said, ...doubts(file, sound)].join(' ')
     }
     if (own !== opened) return
     opening = undefined
@@ -149,8 +149,10 @@ const open = async (file, reading) => {
     knobs.show()
   }
 }
-const cutOff = (file, { frames, promised }) => promised > frames
-  ? ` ${t('{0} is cut off: {1} of {2} frames.', file, frames, promised)}` : ''
+/** What the program says of a file, a sentence each. */
+const doubts = (file, { frames, promised, warnings }) => [
+  ...promised > frames ? [t('{0} is cut off: {1} of {2} frames.', file, frames, promised)] : [],
+  ...warnings.filter((warning) => !/^is cut off/.test(warning)).map((warning) => t('{0} {1}.', file, told(warning)))]
 
 let progressShown // timer
 /** Shows, if it takes long, how much is done, and that it can be cancelled. */

@@ -1,6 +1,5 @@
 // Sounds of the page: files of which parts are read, kept as Blobs, so that neither length nor Undo takes memory.
 
-import { isSoundFile } from './pacini/sound-file.js'
 import { t } from './text.js'
 import { Core } from './core.js'
 import { newId } from './store.js'
@@ -28,7 +27,7 @@ export const wavOf = (channels, sampleRate) => {
   return new Blob(parts)
 }
 
-/** A sound that was opened: `{id, blob, sampleRate, channels, frames, promised}`. */
+/** A sound that was opened: `{id, blob, sampleRate, channels, frames, promised, warnings}`. */
 const opened = async (blob) => ({ id: newId(), blob, ...await reader.call('open', blob) })
 
 /**
@@ -36,7 +35,7 @@ const opened = async (blob) => ({ id: newId(), blob, ...await reader.call('open'
  * rate of its own choice, and of that it needs all at once. `file` is its name.
  */
 export const soundOf = async (blob, file) => {
-  if (isSoundFile(new Uint8Array(await blob.slice(0, 12).arrayBuffer())))
+  if (await reader.call('isSound', blob))
     return opened(blob.size > copied ? blob : new Blob([await blob.arrayBuffer()]))
   const context = new OfflineAudioContext(1, 1, 48000)
   let buffer

@@ -3,6 +3,7 @@
 
 import { compare, defaults, encode, exportParameters, felt, formats, loadFrom, openSound, profileInfo, read, reapply, render, reports, rumble, spectrogram,
   touch, write } from './pacini/index.js'
+import { isSoundFile } from './pacini/sound-file.js'
 import { FirstLevel } from './peaks.js'
 
 let module
@@ -14,13 +15,14 @@ const loaded = () => module ??= (async () => {
   loadFrom({ encode: visit, render: visit, research: visit, devices: visit })
 })()
 
-const fileOf = (blob) => openSound((at, length) => {
+const bytesOf = (blob) => (at, length) => {
   try {
     return new Uint8Array(new FileReaderSync().readAsArrayBuffer(blob.slice(at, at + length)))
   } catch {
     throw new Error(`${blob.name ?? 'The sound'} cannot be read any more: it was moved or changed. Open it again.`)
   }
-}, blob.size)
+}
+const fileOf = (blob) => openSound(bytesOf(blob), blob.size)
 /** The mean of all channels, from one frame to another. */
 const monoOf = (file, from, count) => {
   const [mono, ...others] = file.read(from, count)
@@ -73,9 +75,10 @@ const calls = {
   compare: (sound, candidate) => compare(partOf(sound), candidate),
   spectrogram: (sound, options) => spectrogram(partOf(sound), options),
   open: (blob) => {
-    const { sampleRate, channels, frames, promised } = fileOf(blob)
-    return { sampleRate, channels, frames, promised }
+    const { sampleRate, channels, frames, promised, warnings } = fileOf(blob)
+    return { sampleRate, channels, frames, promised, warnings }
   },
+  isSound: (blob) => isSoundFile(bytesOf(blob), blob.size),
   mono: (blob, from, count) => {
     const mono = monoOf(fileOf(blob), from, count)
     return mono.byteLength < mono.buffer.byteLength ? mono.slice() : mono
@@ -90,7 +93,7 @@ const calls = {
     return peaks.values
   }
 }
-const needsNoModule = new Set(['open', 'mono', 'peaks'])
+const needsNoModule = new Set(['open', 'isSound', 'mono', 'peaks'])
 const buffersOf = (result) => [result, ...Object.values(result ?? {})].filter((one) => ArrayBuffer.isView(one)).map(({ buffer }) => buffer)
 
 self.onmessage = async ({ data: { number, name, parameters } }) => {
