@@ -17,6 +17,7 @@ ROOT = Path(__file__).resolve().parent.parent.parent
 SCHEMA = "Resources/schema/pacini.settings.schema.json"
 PRESETS = "Source/web/package/presets.js"
 TYPES = "Source/web/package/index.d.ts"
+LIVE_TYPES = "Source/web/package/translator.d.ts"
 PYTHON = "Source/python/pacini/_options.py"
 PAGES = ["Resources/docs/settings.md", "Resources/docs/getting-started.md"]
 WIDTH = 120
@@ -139,7 +140,7 @@ def schema(described, methods, presets, play):
     return json.dumps(whole, indent=2) + "\n"
 
 
-def types(text, described, presets):
+def typed(text, described):
     script = {"number": "number", "whole": "number", "truth": "boolean"}
 
     def lines(part):
@@ -149,10 +150,14 @@ def types(text, described, presets):
             made.append(f"  /** {told(one)} */\n  {one['name']}?: {kind}")
         return "\n".join(made)
 
+    return filled(text, r"// parameters: (\w+)", "// end", lambda found: lines(found[2]))
+
+
+def types(text, described, presets):
     names = " | ".join(f"'{preset['name']}'" for preset in presets)
     text = filled(text, r"// presets", "// end of presets",
                   lambda _: f"  /** Values for a kind of sound; other options override it. */\n  preset?: {names}")
-    return filled(text, r"// parameters: (\w+)", "// end", lambda found: lines(found[2]))
+    return typed(text, described)
 
 
 def python(described):
@@ -189,7 +194,8 @@ def main():
     usual_values = {one["name"]: one["default"] for one in described["encode"] if one["name"] in varied}
     names = [preset["name"] for preset in presets]
     made = {PRESETS: script_presets(presets, usual_values), PYTHON: python(described),
-            SCHEMA: schema(described, methods, names, printed["play"]), TYPES: types((ROOT / TYPES).read_text(), described, presets)}
+            SCHEMA: schema(described, methods, names, printed["play"]), TYPES: types((ROOT / TYPES).read_text(), described, presets),
+            LIVE_TYPES: typed((ROOT / LIVE_TYPES).read_text(), {"live": printed["play"]["live"]})}
     for name in PAGES:
         made[name] = page((ROOT / name).read_text(), every)
     made[PAGES[0]] = filled(made[PAGES[0]], "<!-- presets -->", "<!-- end of presets -->", lambda _: preset_table(presets))

@@ -1,7 +1,7 @@
 // The npm package in Node: the same bytes as the program, errors as they are documented, the examples of its README.
 //
-// check_package.mjs PACKAGE MODULES PACINI SOUNDS    PACKAGE: the built folder; MODULES: where TypeScript is; SOUNDS: a
-// folder of WAV files. Exit 0, 1 on a failed check.
+// check_package.mjs PACKAGE MODULES PACINI LIVE SOUNDS    PACKAGE: the built folder; MODULES: where TypeScript is; LIVE:
+// pacini_live_reference; SOUNDS: a folder of WAV files. Exit 0, 1 on a failed check.
 import { execFileSync, spawn } from 'node:child_process'
 import { cpSync, existsSync, mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs'
 import { tmpdir } from 'node:os'
@@ -10,7 +10,7 @@ import { gzipSync } from 'node:zlib'
 
 import { launch, until } from './browser.mjs'
 
-const [packageFolder, modules, program, sounds] = process.argv.slice(2)
+const [packageFolder, modules, program, live, sounds] = process.argv.slice(2)
 const folder = mkdtempSync(join(tmpdir(), 'pacini-web-'))
 let failures = 0
 const check = (what, holds, detail = '') => {
@@ -164,6 +164,38 @@ try {
   const { warnings } = readWav(spaced)
   check('and what a header says that is not so', warnings.length === 1 && warnings[0].startsWith('has a header that states frames of 8 bytes'), warnings.join(' '))
 
+  // The live translator with its parameters, whichever way they come: the samples of the program.
+  const { Translator, translatorParameters } = await import(join(installed, 'translator.js'))
+  const { default: profiles } = await import(join(installed, 'profiles.js'))
+  const { samples: mono, sampleRate: spokenRate } = readWav(readFileSync(new URL('../analysis/spoken_sentence.wav', import.meta.url)))
+  writeFileSync(join(folder, 'l5.json'), JSON.stringify(profiles['l5-wristband']))
+  const driven = (...words) => execFileSync(live, [String(spokenRate), 'l5.json', ...words],
+    { cwd: folder, input: new Uint8Array(mono.buffer, mono.byteOffset, mono.byteLength), maxBuffer: 1e8 })
+  const translated = async (options, change = () => {}) => {
+    const translator = await Translator.create({ sampleRate: spokenRate, profile: 'l5-wristband', ...options })
+    await change(translator)
+    const drive = new Float32Array(mono.length)
+    for (let done = 0, block = 1; done < mono.length; done += block, block = block * 7 % 4099 + 1) drive.set(translator.process(mono.subarray(done, done + block)), done)
+    return drive
+  }
+  const usualDrive = driven()
+  check('the live translator gives the samples of the program', same(await translated({}), usualDrive))
+  for (const one of [{ speech: 0 }, { audible: 0.1 }, { intensity: -12, inputGain: 6 }, { rumble: -60, transientsMuted: true }, { transposition: 7, direct: 0 }]) {
+    const name = Object.keys(one).join(', '), document = { format: 'pacini.settings', version: 1, live: one }
+    writeFileSync(join(folder, 'live.json'), JSON.stringify(document))
+    const wanted = driven('live.json'), other = { ...document, live: { ...one, [Object.keys(one)[0]]: 0.5 } }
+    const ways = [one, { settings: document }, { settings: JSON.stringify(document) }, { settings: other, ...one }]
+    const drives = await Promise.all(ways.map((options) => translated(options)))
+    drives.push(await translated({}, (translator) => translator.set(one)))
+    check(`and with ${name}`, drives.every((drive) => same(drive, wanted)) && wanted.compare(usualDrive) !== 0,
+      drives.map((drive) => same(drive, wanted)).join())
+  }
+  const described = await translatorParameters(), ranges = JSON.parse(native('encode', '--print-settings', '--json')).play.live
+  check('parameters of the live translator are those of the program', JSON.stringify(described) === JSON.stringify(ranges))
+  const beyond = described.filter(({ highest }) => highest !== undefined)
+  const refusals = await Promise.all(beyond.map(({ name, highest }) => fails(() => Translator.create({ [name]: highest + 1 }))))
+  check('and have their ranges', beyond.length >= 13 && refusals.every((error, i) => error instanceof PaciniError && error.where === beyond[i].name), refusals[0]?.message)
+
   // What is wrong.
   const broken = (value) => {
     const samples = Float32Array.from(Array.isArray(sound.samples) ? sound.samples[0] : sound.samples)
@@ -206,6 +238,17 @@ try {
     ['an edit that is no number', () => pacini.reapply(clip, clip, [{ kind: 'points', lane: 'envelope', from: 0, to: 'x', points: [], frequencies: [], clipDuration: 1 }]), 'edits[0].to'],
     ['an unknown profile', () => render(clip, { profile: 'x' }), 'profile'],
     ['reports of an unknown controller', () => reports(clip, { vendor: 1, product: 2 }), '0001:0002'],
+    ['an unknown parameter of the live translator', () => Translator.create({ spech: 0 }), 'spech'],
+    ['live settings without live parameters', () => Translator.create({ settings: { format: 'pacini.settings', version: 1 } }), 'settings.live'],
+    ['a live parameter of settings out of range', () => Translator.create({ settings: { format: 'pacini.settings', version: 1, live: { speech: 2 } } }), 'settings.live.speech'],
+    ['live settings that are no JSON', () => Translator.create({ settings: '{' }), 'settings'],
+    ['live settings that are none', () => Translator.create({ settings: '[]' }), 'settings'],
+    ['too many bands of the live translator', () => Translator.create({ bands: 13 }), 'bands'],
+    ['half a band of the live translator', () => Translator.create({ bands: 1.5 }), 'bands'],
+    ['a profile of the live translator that is none', () => Translator.create({ profile: '{}' }), 'profile'],
+    ['a change of what is fixed', async () => (await Translator.create()).set({ bands: 2 }), 'bands'],
+    ['a change out of range', async () => (await Translator.create()).set({ attack: -1 }), 'attack'],
+    ['a block that is none', async () => (await Translator.create()).process([1]), 'block'],
     ['no WAV', async () => readWav(new Uint8Array(50)), 'sound file'],
     ['a WAV without samples', async () => readWav(new TextEncoder().encode('RIFF....WAVE')), 'sound file']
   ]

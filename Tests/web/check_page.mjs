@@ -266,26 +266,29 @@ try {
   writeFileSync(join(folder, 'lra.json'), profileText)
   const heard = Float32Array.from({ length: 48000 }, (_, n) => 0.6 * Math.exp(-(n % 12000) / 3000) * Math.sin(2 * Math.PI * (60 + n / 200) * n / 48000))
   writeFileSync(join(folder, 'heard.f32'), Buffer.from(heard.buffer))
-  const expected = execFileSync('sh', ['-c', '"$0" 48000 lra.json < heard.f32', live], { cwd: folder, maxBuffer: 1e8 })
-  const translated = await tab.evaluate(async (base64) => {
-    const samples = new Float32Array(Uint8Array.from(atob(base64), (c) => c.charCodeAt(0)).buffer)
-    const { createTranslator } = await import('./pacini/translator.js')
-    const context = new OfflineAudioContext(1, samples.length, 48000)
-    const buffer = new AudioBuffer({ length: samples.length, sampleRate: 48000 })
-    buffer.copyToChannel(samples, 0)
-    const node = await createTranslator(context, { profile: 'lra-175' })
-    const source = new AudioBufferSourceNode(context, { buffer })
-    source.connect(node).connect(context.destination)
-    source.start()
-    return { latency: node.latency, samples: [...(await context.startRendering()).getChannelData(0)] }
-  }, Buffer.from(heard.buffer).toString('base64'))
-  const reference = new Float32Array(expected.buffer.slice(expected.byteOffset, expected.byteOffset + expected.length))
-  let largest = 0, loudest = 0
-  for (let n = 0; n < reference.length; ++n) {
-    largest = Math.max(largest, Math.abs(reference[n] - translated.samples[n]))
-    loudest = Math.max(loudest, Math.abs(reference[n]))
+  for (const parameters of [{}, { intensity: -6, speech: 0.2, texture: 3 }]) {
+    writeFileSync(join(folder, 'live.json'), JSON.stringify({ format: 'pacini.settings', version: 1, live: parameters }))
+    const expected = execFileSync('sh', ['-c', '"$0" 48000 lra.json live.json < heard.f32', live], { cwd: folder, maxBuffer: 1e8 })
+    const translated = await tab.evaluate(async (base64, parameters) => {
+      const samples = new Float32Array(Uint8Array.from(atob(base64), (c) => c.charCodeAt(0)).buffer)
+      const { createTranslator } = await import('./pacini/translator.js')
+      const context = new OfflineAudioContext(1, samples.length, 48000)
+      const buffer = new AudioBuffer({ length: samples.length, sampleRate: 48000 })
+      buffer.copyToChannel(samples, 0)
+      const node = await createTranslator(context, { profile: 'lra-175', ...parameters })
+      const source = new AudioBufferSourceNode(context, { buffer })
+      source.connect(node).connect(context.destination)
+      source.start()
+      return { latency: node.latency, samples: [...(await context.startRendering()).getChannelData(0)] }
+    }, Buffer.from(heard.buffer).toString('base64'), parameters)
+    const reference = new Float32Array(expected.buffer.slice(expected.byteOffset, expected.byteOffset + expected.length))
+    let largest = 0, loudest = 0
+    for (let n = 0; n < reference.length; ++n) {
+      largest = Math.max(largest, Math.abs(reference[n] - translated.samples[n]))
+      loudest = Math.max(loudest, Math.abs(reference[n]))
+    }
+    check(`the live translator gives the samples of the program ${JSON.stringify(parameters)}`, largest === 0 && loudest > 0.05, `largest difference ${largest}, loudest ${loudest.toFixed(2)}, ${translated.latency} frames late`)
   }
-  check('the live translator gives the samples of the program', largest === 0 && loudest > 0.05, `largest difference ${largest}, loudest ${loudest.toFixed(2)}, ${translated.latency} frames late`)
   const refused = await tab.evaluate(() => import('./pacini/translator.js').then(({ createTranslator }) => createTranslator(new OfflineAudioContext(1, 1, 48000), { profile: '{}' })).catch(({ name, where }) => `${name} ${where}`))
   check('a profile that is none is refused', refused === 'PaciniError profile', refused)
   await tab.click('#live')

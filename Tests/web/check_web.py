@@ -59,7 +59,7 @@ with tempfile.TemporaryDirectory() as name:
     script = ROOT / "Tests/web" / f"check_{what}.mjs"
     sound = folder / "knock_wood_bridge.wav"
     pictures = [os.environ["PACINI_WEB_PICTURES"]] if "PACINI_WEB_PICTURES" in os.environ else []
-    arguments = {"package": [WEB / "package", MODULES, program, folder],
+    arguments = {"package": [WEB / "package", MODULES, program, live, folder],
                  "page": [WEB / "page", MODULES, program, live, sound, *pictures],
                  "work": [WEB / "page", MODULES, program, sound, folder / "drums_tabla_pattern.wav", *pictures],
                  "visit": [WEB / "page", MODULES, program, kinds, *pictures],

@@ -1,6 +1,7 @@
-// What the live translator of the audio worklet is to give: live_reference RATE PROFILE.json < mono.f32 > drive.f32, in
-// blocks of 128 frames as Web Audio has them.
+// What the live translator of the package is to give: live_reference RATE PROFILE.json [SETTINGS.json] < mono.f32 >
+// drive.f32, in blocks of 128 frames as Web Audio has them.
 
+#include "io/LiveSettings.h"
 #include "io/ProfileJson.h"
 
 #include <pacini/realtime/Translator.h>
@@ -13,13 +14,20 @@
 #include <span>
 #include <string>
 
+namespace
+{
+std::string textOf(const char* name)
+{
+    std::ifstream file(name);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+} // namespace
+
 int main(int count, char** arguments)
 {
-    if (count != 3)
+    if (count != 3 && count != 4)
         return 2;
-    std::ifstream file(arguments[2]);
-    const std::string text((std::istreambuf_iterator<char>(file)), {});
-    auto profile = pacini::readProfileJson(text);
+    auto profile = pacini::readProfileJson(textOf(arguments[2]));
     if (!profile)
         return 1;
     pacini::TranslatorSetup setup;
@@ -29,6 +37,15 @@ int main(int count, char** arguments)
     pacini::Translator translator;
     translator.setSetup(setup);
     translator.prepare(spec);
+    if (count == 4)
+    {
+        const auto settings = pacini::readSettings(textOf(arguments[3]));
+        const auto params =
+            settings ? pacini::liveParamsOf(*settings) : pacini::Result<pacini::TranslatorParams>(settings.error());
+        if (!params)
+            return 1;
+        translator.setParams(*params);
+    }
     translator.reset();
     std::array<float, 128> block{};
     while (const std::size_t n = std::fread(block.data(), sizeof(float), block.size(), stdin))

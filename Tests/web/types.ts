@@ -1,7 +1,7 @@
 // What the package says of its types, read by a compiler: each line that must be refused stands under its mark.
 import { encode, felt, formats, lint, openSound, PaciniError, profileNames, read, reapply, render, reports, rumble, touch, write } from 'pacini'
 import type { Clip, Loss, RumblePlan, Sound, TouchPlan } from 'pacini'
-import { createTranslator } from 'pacini/translator'
+import { createTranslator, Translator } from 'pacini/translator'
 
 const sound: Sound = { samples: new Float32Array(4800), sampleRate: 48000 }
 const decoded: Sound = new AudioBuffer({ length: 1, sampleRate: 48000 })
@@ -18,7 +18,12 @@ export const use = async (context: AudioContext): Promise<number> => {
   const { reports: bytes } = await reports(clip, { vendor: 0x054c, product: 0x0ce6 })
   const { motors }: RumblePlan = await rumble(packed)
   const { touches }: TouchPlan = await touch(packed)
-  const node: AudioWorkletNode = await createTranslator(context, { profile: 'lra-175' })
+  const node: AudioWorkletNode = await createTranslator(context, { profile: 'lra-175', settings: '{}', speech: 0 })
+  const translator = await Translator.create({ sampleRate: 44100, bands: 4, rumbleMuted: true })
+  await translator.set({ audible: 0.5 })
+  const block: Float32Array = translator.process(new Float32Array(128))
+  // @ts-expect-error parameters have names
+  await translator.set({ audibel: 0.5 })
   const { unfitting } = await reapply(clip, packed, [{ kind: 'transient', after: { time: 0, amplitude: 1, sharpness: 0 }, frequencies: [], clipDuration: 1 }])
   const { warnings } = await read(files[0].bytes)
   // @ts-expect-error bands are a number
@@ -31,5 +36,5 @@ export const use = async (context: AudioContext): Promise<number> => {
   await reports(clip, {})
   const wrong: unknown = new Error()
   const where: string = wrong instanceof PaciniError ? wrong.where : ''
-  return inParts.duration + unfitting.length + drive.frames + skin.frames + losses.length + bytes.length + node.numberOfOutputs + warnings.length + where.length
+  return inParts.duration + unfitting.length + drive.frames + skin.frames + losses.length + bytes.length + node.numberOfOutputs + warnings.length + where.length + block.length
 }

@@ -78,6 +78,8 @@ struct NamedHandler
 [[nodiscard]] Result<void> translateSound(Call& call);
 [[nodiscard]] Result<void> tellDefaults(Call& call);
 [[nodiscard]] Result<void> describeParameters(Call& call);
+[[nodiscard]] Result<void> readLive(Call& call);
+[[nodiscard]] Result<void> describeLive(Call& call);
 [[nodiscard]] Result<void> readClipBytes(Call& call);
 [[nodiscard]] Result<void> writeClipBytes(Call& call);
 [[nodiscard]] Result<void> listFormats(Call& call);

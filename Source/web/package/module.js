@@ -12,7 +12,7 @@ export class PaciniError extends Error {
 }
 
 /** What an error is about that names no place: the input of a call. */
-const subjects = { encode: 'sound', translate: 'sound', spectrogram: 'sound', compare: 'sound', profile: 'profile', reapply: 'edits' }
+const subjects = { encode: 'sound', translate: 'sound', spectrogram: 'sound', compare: 'sound', profile: 'profile', reapply: 'edits', live: 'settings' }
 
 const noImports = (module) => {
   // The C library closes, seeks and writes standard output when it ends, which never happens.

@@ -3,7 +3,7 @@
 class PaciniTranslator extends AudioWorkletProcessor {
   constructor({ processorOptions }) {
     super()
-    const { module, profile } = processorOptions
+    const { module, profile, setup, values } = processorOptions
     const wasi = {}
     for (const one of WebAssembly.Module.imports(module))
       if (one.module === 'wasi_snapshot_preview1') wasi[one.name] = () => 0
@@ -11,11 +11,20 @@ class PaciniTranslator extends AudioWorkletProcessor {
     exports._initialize()
     const address = exports.allocate(profile.length)
     new Uint8Array(exports.memory.buffer, address, profile.length).set(profile)
-    this.handle = exports.translatorCreate(sampleRate, address, profile.length)
+    this.handle = exports.translatorCreate(sampleRate, address, profile.length, ...setup)
     exports.release(address)
     this.exports = exports
     this.from = new Float32Array(exports.memory.buffer, exports.translatorIn(this.handle), 1024)
     this.to = new Float32Array(exports.memory.buffer, exports.translatorOut(this.handle), 1024)
+    const set = (given) => {
+      new Float64Array(exports.memory.buffer, exports.translatorValues(this.handle), given.length).set(given)
+      exports.translatorSet(this.handle)
+    }
+    if (values) {
+      set(values)
+      exports.translatorReset(this.handle)
+    }
+    this.port.onmessage = ({ data }) => set(data)
   }
 
   process([input], [output]) {

@@ -1,4 +1,5 @@
-// The module of Pacini's own method: encoding of sounds, and edits over the clips.
+// The module of Pacini's own method: encoding of sounds, edits over the clips, and settings, those of the live
+// translator among them.
 
 #include "web/core/Call.h"
 
@@ -7,8 +8,11 @@ namespace pacini::web
 
 std::span<const NamedHandler> handlers()
 {
-    static constexpr NamedHandler all[]{
-        {"encode", encodeSound}, {"reapply", reapplyEdits}, {"parameters", describeParameters}};
+    static constexpr NamedHandler all[]{{"encode", encodeSound},
+                                        {"reapply", reapplyEdits},
+                                        {"parameters", describeParameters},
+                                        {"live", readLive},
+                                        {"liveParameters", describeLive}};
     return all;
 }
 
