@@ -131,6 +131,7 @@ def keys(root=ROOT):
             count = iter(range(10))
             take(VALUE.sub(lambda _: f"{{{next(count)}}}", sentence), name)
     for template in (
+        "is no clip in a format that is read",
         "The page's module cannot be loaded ({0}). Load the page again.",
         "{0:text} cannot be read any more: it was moved or changed. Open it again.",
     ):

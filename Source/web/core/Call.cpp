@@ -79,7 +79,7 @@ Result<Clip> clipOf(const Call& call, std::size_t input, std::string_view extens
     const ClipFormat* format = clipFormatOf(extension, call.text(input));
     if (format == nullptr || !format->isRead())
         return Error{ErrorCode::invalidData, "",
-                     format == nullptr ? "is a clip in no format that is read"
+                     format == nullptr ? "is no clip in a format that is read"
                                        : fmt::format("is of the format {}, which is only written", format->name)};
     auto read = format->read(call.text(input));
     if (!read)

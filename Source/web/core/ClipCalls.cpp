@@ -64,7 +64,7 @@ Result<void> readClipBytes(Call& call)
     const std::string extension = call.word("extension", "");
     const ClipFormat* format = clipFormatOf(extension, call.text(0));
     if (format == nullptr || !format->isRead())
-        return Error{ErrorCode::invalidData, "", "is a clip in no format that is read"};
+        return Error{ErrorCode::invalidData, "", "is no clip in a format that is read"};
     auto read = format->read(call.text(0), call.truth("strict", false));
     if (!read)
         return read.error();

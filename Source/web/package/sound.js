@@ -18,6 +18,8 @@ export const soundOf = (sound) => {
       sampleRate: sound.sampleRate
     })
   if (!sound || typeof sound !== 'object') throw wrong('sound', 'must be an object with samples and sampleRate, or an AudioBuffer')
+  if (sound instanceof ArrayBuffer || ArrayBuffer.isView(sound))
+    throw wrong('sound', 'is bytes, and not a sound: readSound() reads those of WAV and AIFF files, decodeAudioData() of browsers those of others')
   if (!(sound.sampleRate > 0)) throw wrong('sampleRate', 'is missing: it must be a number of Hz above 0')
   if (typeof sound.reader === 'function') return sound
   const channels = (Array.isArray(sound.samples) ? sound.samples : [sound.samples]).map((channel) => {

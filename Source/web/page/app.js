@@ -125,7 +125,11 @@ const open = async (file, reading) => {
     let document, said
     if (clipExtensions.includes(extensionOf(file))) {
       const { clip, warnings } = await side.call('read', new Uint8Array(await blob.arrayBuffer()), { extension: extensionOf(file) })
-        .catch((error) => { throw error.superseded ? error : new Error(t('{0} cannot be opened: {1}', file, told(error.message))) })
+        .catch((error) => {
+          if (error.superseded) throw error
+          const [, what] = /^clip: (.*)$/s.exec(error.message) ?? []
+          throw new Error(what ? t('{0} {1}.', file, told(what)) : t('{0} cannot be opened: {1}', file, told(error.message)))
+        })
       document = { clip }
       said = warnings.map(told).join(' ')
     } else {
