@@ -164,6 +164,12 @@ try {
   const { warnings } = readWav(spaced)
   check('and what a header says that is not so', warnings.length === 1 && warnings[0].startsWith('has a header that states frames of 8 bytes'), warnings.join(' '))
 
+  const slow = bytesOfFile.slice()
+  new DataView(slow.buffer).setUint32(24, 3000, true)
+  writeFileSync(join(folder, 'slow.wav'), slow)
+  native('encode', 'slow.wav', '-o', 'slow.pacb', '--format', 'packed', '-y', '-q')
+  check('a slow sound gives the clip of the program', same(await encode(readWav(slow), { name: 'slow', source: 'slow.wav', format: 'packed' }), readFileSync(join(folder, 'slow.pacb'))))
+
   // The live translator with its parameters, whichever way they come: the samples of the program.
   const { Translator, translatorParameters } = await import(join(installed, 'translator.js'))
   const { default: profiles } = await import(join(installed, 'profiles.js'))
@@ -227,6 +233,7 @@ try {
     ['no points', () => write(clip, { format: 'haptic', points: 0 }), 'points'],
     ['garbage', () => read(new Uint8Array([1, 2, 3])), 'clip'],
     ['nothing', () => encode(), 'sound'],
+    ['bytes for a sound', () => encode(bytesOfFile), 'sound'],
     ['a number for a sound', () => encode(4), 'sound'],
     ['an unknown option of render', () => render(clip, { gian: 3 }), 'gian'],
     ['an unknown option of write', () => write(clip, { format: 'ahap', pionts: 3 }), 'pionts'],

@@ -32,8 +32,8 @@ const big = (value, bytes) => Buffer.from(little(value, bytes)).reverse()
 const joined = (...parts) => Buffer.concat(parts.map((part) => typeof part === 'string' ? text(part) : part))
 
 const rate = 8000
-const formatOf = ({ tag = 1, bytes, bits = 8 * bytes, channels = 1, isLong = false, frame = bytes * channels, n = little }) => {
-  const common = joined(n(isLong ? 0xfffe : tag, 2), n(channels, 2), n(rate, 4), n(rate * frame, 4), n(frame, 2), n(isLong ? 8 * bytes : bits, 2))
+const formatOf = ({ tag = 1, bytes, bits = 8 * bytes, channels = 1, isLong = false, frame = bytes * channels, n = little, at = rate }) => {
+  const common = joined(n(isLong ? 0xfffe : tag, 2), n(channels, 2), n(at, 4), n(at * frame, 4), n(frame, 2), n(isLong ? 8 * bytes : bits, 2))
   return isLong ? joined(common, n(22, 2), n(bits, 2), n(0, 4), n(tag, 2), Buffer.from([0, 0, 0, 0, 0x10, 0, 0x80, 0, 0, 0xaa, 0, 0x38, 0x9b, 0x71])) : common
 }
 const chunk = (id, content, n = little, size = content.length) => joined(id, n(size, 4), content)
@@ -158,6 +158,10 @@ add('two tags in front', joined(id3, id3, aiff(16, data)))
 add('a second sound behind', joined(wave(plain, data), wave(plain, data)))
 add('a second sound of another kind behind', joined(wave(plain, data), aiff(16, data)))
 add('a second sound of two channels behind', joined(wave(plain, data), wave(formatOf({ bytes: 2, channels: 2 }), data)))
+for (const at of [999, 1000, 3000, 7999, 8000, 768000, 768001]) {
+  add(`a WAV of ${at} Hz`, wave(formatOf({ bytes: 2, at }), data, { behind: Buffer.alloc(500) }))
+  add(`a WAV of ${at} Hz of numbers called integers`, wave(formatOf({ bytes: 4, at }), floats(values, 4), { size: 0 }))
+}
 add('frames that are no samples', wave(formatOf({ bytes: 2, frame: 8 }), data))
 add('frames that are too short', wave(formatOf({ bytes: 2, channels: 2, frame: 2 }), data))
 for (const [name, tag] of [['A-law', 6], ['mu-law', 7]]) add(`WAV ${name}`, wave(formatOf({ tag, bytes: 1 }), noise(3000)))

@@ -4,6 +4,7 @@
 
 #include "io/AudioReader.h"
 #include "io/FinishedClip.h"
+#include "io/RateRaiser.h"
 #include "io/formats/ClipFormat.h"
 #include "web/core/Call.h"
 
@@ -22,13 +23,14 @@
 namespace pacini::web
 {
 
-/// Options `sampleRate`, `channels`, `frames`, `name`, `source` and `format` of a call, and its sound.
+/// Options `sampleRate`, `channels`, `frames`, `name`, `source` and `format` of a call, and its sound: one that is
+/// slower than what is encoded at a multiple of its rate, as files are read.
 class SoundInput
 {
 public:
     explicit SoundInput(Call& ofSound)
         : call(ofSound),
-          rate(static_cast<int>(call.number("sampleRate", 0.0, limits::lowestSampleRate, limits::highestSampleRate))),
+          rate(static_cast<int>(call.number("sampleRate", 0.0, limits::slowestSound, limits::highestSampleRate))),
           channels(static_cast<int>(call.number("channels", 1.0, 1.0, limits::channels))),
           frames(static_cast<std::uint64_t>(call.number("frames", 0.0, 0.0, 1e12))),
           name(call.word("name", "")),
@@ -40,6 +42,11 @@ public:
             call.reader.fail("format", "must be json or packed", ErrorCode::invalidArgument);
         if (rate == 0)
             call.reader.fail("sampleRate", "is missing", ErrorCode::invalidArgument);
+        if (call.reader.error || rate >= limits::lowestSampleRate)
+            return;
+        raiser.emplace(rate, limits::lowestSampleRate, static_cast<std::size_t>(channels));
+        rate *= raiser->multiple();
+        frames *= static_cast<std::uint64_t>(raiser->multiple());
     }
 
     [[nodiscard]] SoundFormat sound() const { return {rate, channels, frames, std::nullopt}; }
@@ -47,15 +54,11 @@ public:
     /// The next part, empty at the end. Errors: notFinite, also beyond limits::sample.
     [[nodiscard]] SoundPart operator()()
     {
-        const std::size_t got = call.pullSound(buffer);
-        const auto width = static_cast<std::size_t>(channels);
-        const auto samples = std::span<const float>(buffer).first(got * width);
-        for (std::size_t i = 0; i < samples.size(); ++i)
-            if (!areWithinLimit(samples.subspan(i, 1)))
-                return Error{ErrorCode::notFinite, fmt::format("frame {}, channel {}", done + i / width, i % width),
-                             std::isfinite(samples[i]) ? "is far beyond full scale" : "is not a finite number"};
-        done += got;
-        return samples;
+        const auto got =
+            raiser ? raiser->read(buffer, [this](std::span<float> into) { return pull(into); }) : pull(buffer);
+        if (!got)
+            return got.error();
+        return std::span<const float>(buffer).first(*got * static_cast<std::size_t>(channels));
     }
 
     /// Puts the clip that was made of it, on its grids, into the call's outputs.
@@ -71,6 +74,20 @@ public:
     }
 
 private:
+    /// Frames of the sound as it comes. Errors: notFinite.
+    [[nodiscard]] Result<std::size_t> pull(std::span<float> into)
+    {
+        const std::size_t got = call.pullSound(into);
+        const auto width = static_cast<std::size_t>(channels);
+        const auto samples = std::span<const float>(into).first(got * width);
+        for (std::size_t i = 0; i < samples.size(); ++i)
+            if (!areWithinLimit(samples.subspan(i, 1)))
+                return Error{ErrorCode::notFinite, fmt::format("frame {}, channel {}", done + i / width, i % width),
+                             std::isfinite(samples[i]) ? "is far beyond full scale" : "is not a finite number"};
+        done += got;
+        return got;
+    }
+
     Call& call;
     int rate;
     int channels;
@@ -78,7 +95,8 @@ private:
     std::string name, source;
     const ClipFormat* format;
     std::vector<float> buffer;
-    std::uint64_t done = 0;
+    std::optional<RateRaiser> raiser;
+    std::uint64_t done = 0; ///< frames as they came
 };
 
 } // namespace pacini::web

@@ -139,7 +139,7 @@ const hasOtherFormat = (file, layout, begin, chunk) => {
   return others.some((other) => other !== first)
 }
 
-const mostParts = 1000, mostChannels = 64, slowest = 1000, fastest = 768000 // as AudioReader.h has them
+const mostParts = 1000, mostChannels = 64, slowest = 1000, fastest = 768000, slowestEncoded = 8000 // as AudioReader.h has them
 
 /** The sound of the file at `begin`: its format, its stretches of audio, and where another sound begins. */
 const soundAt = (file, begin) => {
@@ -176,7 +176,7 @@ const soundAt = (file, begin) => {
 }
 
 /** Frames, and what is told of them, in the order in which the program tells it. */
-const framesOf = ({ begin, format, audio, stated, warning, hasOtherFormat }) => {
+const framesOf = ({ begin, format, audio, stated, warning, hasOtherFormat }, isFirst) => {
   const { block, blockBytes, blockFrames, channels, sampleRate, width } = format
   const frameBytes = width * channels, told = [], stretches = []
   let promised = 0
@@ -196,6 +196,8 @@ const framesOf = ({ begin, format, audio, stated, warning, hasOtherFormat }) => 
     if (i === 0 && warning) before.push(warning)
     if (i === 0 && hasOtherFormat)
       before.push(`has two descriptions of its samples that differ; it is read by the first, as ${channels} channels at ${sampleRate} Hz, and lasts ${short(frames / sampleRate)} s; save it anew`)
+    if (i === 0 && isFirst && sampleRate < slowestEncoded) // which encode() raises
+      before.push(`is sampled at ${sampleRate} Hz, so all above ${Math.floor(sampleRate / 2)} Hz is missing; it is read at ${sampleRate * Math.ceil(slowestEncoded / sampleRate)} Hz`)
     if (part.leftOut > 0)
       behind.push(`has ${part.leftOut} bytes behind its sound that are left out; as sound they would be ${short(seconds(part.leftOut))} s`)
     if (part.silence > 0) stretches.push({ frames: part.silence, isSilent: true })
@@ -221,7 +223,7 @@ const planOf = (file) => {
   const first = soundAt(file, behindTags(file)), { channels, sampleRate } = first.format
   const plan = { channels, sampleRate, stretches: [], frames: 0, promised: 0, warnings: [] }
   const add = (sound) => {
-    const { stretches, promised, told } = framesOf(sound)
+    const { stretches, promised, told } = framesOf(sound, sound === first)
     for (const stretch of stretches) {
       plan.stretches.push({ ...stretch, first: plan.frames })
       plan.frames += stretch.frames
