@@ -126,12 +126,14 @@ def keys(root=ROOT):
         for before, word in literals((ROOT / "Source/web" / name).read_text(encoding="utf-8")):
             if re.search(r"(bad\(|message: )$", before):
                 take(word, name)
-    for name in ("package/sound-file.js", "package/sound-words.js"):
+    for name in ("package/sound-file.js", "package/sound-markers.js", "package/sound-words.js"):
         for sentence in SENTENCE.findall((ROOT / "Source/web" / name).read_text(encoding="utf-8")):
             count = iter(range(10))
             take(VALUE.sub(lambda _: f"{{{next(count)}}}", sentence), name)
     for template in (
         "is no clip in a format that is read",
+        "has chapters in an ID3 tag, which are not read here",
+        "has a marker behind the end of its sound, which is left out",
         "The page's module cannot be loaded ({0}). Load the page again.",
         "{0:text} cannot be read any more: it was moved or changed. Open it again.",
     ):

@@ -170,6 +170,31 @@ try {
   native('encode', 'slow.wav', '-o', 'slow.pacb', '--format', 'packed', '-y', '-q')
   check('a slow sound gives the clip of the program', same(await encode(readWav(slow), { name: 'slow', source: 'slow.wav', format: 'packed' }), readFileSync(join(folder, 'slow.pacb'))))
 
+  // Markers, and six channels with their places.
+  const { samples: one } = readWav(bytesOfFile), frames = 20000, six = Buffer.alloc(68 + 12 * frames)
+  six.write('RIFF', 0)
+  six.writeUInt32LE(60 + 12 * frames, 4)
+  six.write('WAVEfmt ', 8)
+  for (const [at, value] of [[16, 40], [20, 0xfffe | 6 << 16], [24, 48000], [28, 576000], [32, 12 | 16 << 16], [36, 22 | 16 << 16], [40, 0x3f], [44, 1], [48, 0x00100000], [52, 0xaa000080], [56, 0x719b3800], [64, 12 * frames]])
+    six.writeUInt32LE(value >>> 0, at)
+  six.write('data', 60)
+  for (let n = 0; n < frames; ++n) for (let c = 0; c < 6; ++c) six.writeInt16LE(Math.round(6000 * Math.sin(n * (c + 1) / 90) + 2000 * one[n]), 68 + 12 * n + 2 * c)
+  const cue = Buffer.alloc(80)
+  cue.write('cue ', 0)
+  for (const [at, value] of [[4, 52], [8, 2], [12, 1], [32, 4800], [36, 2], [56, 9000]]) cue.writeUInt32LE(value, at)
+  cue.write('LIST', 60)
+  cue.writeUInt32LE(12, 64)
+  cue.write('adtllabl', 68)
+  const marked = Buffer.concat([bytesOfFile, cue])
+  for (const [name, bytes] of [['six', six], ['marked', marked]]) {
+    writeFileSync(join(folder, `${name}.wav`), bytes)
+    native('encode', `${name}.wav`, '-o', `${name}.pacb`, '--format', 'packed', '-y', '-q')
+    const wanted = readFileSync(join(folder, `${name}.pacb`)), options = { name, source: `${name}.wav`, format: 'packed' }
+    const whole = readWav(bytes), parts = pacini.openSound((at, length) => bytes.subarray(at, at + length), bytes.length)
+    check(`a sound with ${name === 'six' ? 'six channels' : 'markers'} gives the clip of the program`, same(await encode(whole, options), wanted) && same(await encode(parts, options), wanted) &&
+      (name === 'six' ? whole.lowFrequency === 3 : whole.markers.length === 2))
+  }
+
   // The live translator with its parameters, whichever way they come: the samples of the program.
   const { Translator, translatorParameters } = await import(join(installed, 'translator.js'))
   const { default: profiles } = await import(join(installed, 'profiles.js'))
@@ -233,6 +258,8 @@ try {
     ['no points', () => write(clip, { format: 'haptic', points: 0 }), 'points'],
     ['garbage', () => read(new Uint8Array([1, 2, 3])), 'clip'],
     ['nothing', () => encode(), 'sound'],
+    ['a marker without a name', () => encode({ ...sound, markers: [{ time: 0 }] }), 'markers[0].name'],
+    ['a channel that is not there', () => encode({ ...sound, lowFrequency: 7 }), 'lowFrequency'],
     ['bytes for a sound', () => encode(bytesOfFile), 'sound'],
     ['a number for a sound', () => encode(4), 'sound'],
     ['an unknown option of render', () => render(clip, { gian: 3 }), 'gian'],

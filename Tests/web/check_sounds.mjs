@@ -121,7 +121,7 @@ for (const channels of [1, 2])
 // Sizes that are stated, and what lies behind the audio.
 const data = integers(values, 2, 16), stated = data.length, plain = formatOf({ bytes: 2 })
 const list = chunk('LIST', joined('INFO', chunk('INAM', text('knock!'))))
-const id3 = joined('ID3', Buffer.from([4, 0, 0, 0, 0, 0, 100]), noise(100))
+const id3 = joined('ID3', Buffer.from([4, 0, 0, 0, 0, 0, 100]), Buffer.alloc(100)) // filling
 const tails = [['', Buffer.alloc(0)], [' LIST', list], [' ID3', id3], [' ID3v1', joined('TAG', Buffer.alloc(125))], [' zeros', Buffer.alloc(700)], [' a byte', Buffer.from([7])],
   [' more', noise(1001)], [' more and LIST', joined(noise(1000), list)]]
 const claims = [['true', stated], ['0', 0], ['less', stated - 2000], ['odd', stated - 1], ['more by a header', stated + 44], ['double', 2 * stated], ['more', stated + 5000],
@@ -190,6 +190,25 @@ add('an RF64 cut off', longWave('RF64', plain, data).subarray(0, 4001))
 // What only a guess could read: the program guesses.
 const unclear = files.length
 add('floating-point numbers called 24 bits, too few to tell', wave(formatOf({ bytes: 4, bits: 24, frame: 4 }), floats(ringing(60).concat(new Array(500).fill(0)), 4)))
+// Markers.
+const cues = (frames, { n = little, stated = frames.length, byPlay = false } = {}) =>
+  chunk('cue ', joined(n(stated, 4), ...frames.map((frame, i) => joined(n(i + 1, 4), n(byPlay ? frame : i, 4), 'data', n(0, 4), n(0, 4), n(byPlay ? 0 : frame, 4)))), n)
+const label = (id, name, kind = 'labl') => padded(chunk(kind, joined(little(id, 4), ...kind === 'ltxt' ? [little(100, 4), Buffer.alloc(12)] : [], Buffer.from(name, 'latin1'), Buffer.alloc(1))))
+const labels = (...all) => chunk('LIST', joined('adtl', ...all))
+const loops = (...ends) => chunk('smpl', joined(Buffer.alloc(28), little(ends.length, 4), little(0, 4), ...ends.map(([first, last]) => joined(Buffer.alloc(8), little(first, 4), little(last, 4), Buffer.alloc(8)))))
+const named = labels(label(1, 'knock'), label(2, 'Gr\xfc\xdfe'), label(3, Buffer.from('Grüße', 'utf8').toString('latin1')), label(3, 'a note', 'note'), label(4, 'a region', 'ltxt'), label(5, ''))
+for (const [name, before, behind] of [['cues', Buffer.alloc(0), joined(cues([2000, 100, 700, 50, 60]), named)], ['cues in front', joined(named, cues([100, 200, 300, 400])), Buffer.alloc(0)],
+  ['cues by play', cues([100, 200], { byPlay: true }), named], ['more cues than stated', cues([1, 2, 3], { stated: 2 }), named], ['fewer cues than stated', cues([1], { stated: 9 }), named],
+  ['cues behind the end', cues([100, 2501, 90000]), named], ['one cue behind the end', cues([100, 90000]), named], ['loops', loops([100, 200], [300, 250], [0, 2499]), cues([100])],
+  ['loops like cues', joined(cues([100, 201]), labels(label(1, 'loop start'), label(2, 'loop end'))), loops([100, 200])]]) {
+  add(`WAV with ${name}`, wave(plain, data, { before, behind }))
+  add(`RF64 with ${name}`, longWave('RF64', plain, data, { behind: joined(before, behind) }))
+  add(`WAV of size 0 with ${name}`, wave(plain, data, { before, behind, size: 0 }))
+}
+const mark = (...all) => chunk('MARK', joined(big(all.length, 2), ...all.map(([frame, name], i) => padded(joined(big(i + 1, 2), big(frame, 4), Buffer.from([name.length]), name, name.length % 2 ? '' : Buffer.alloc(1))))), big)
+add('AIFF with markers', aiff(16, integers(values, 2, 16, 0, big), { behind: mark([100, 'knock'], [50, 'odd'], [2400, '']) }))
+add('two sounds with markers', joined(wave(plain, data, { behind: cues([10, 2000]) }), wave(plain, data, { behind: joined(cues([10]), named) })))
+
 const whole = files.length
 // Headers by chance: of each of these, so many with one to three bytes changed.
 for (const { name, bytes } of files.filter((_, i) => i % 7 === 0).concat(files.slice(-40)))
@@ -215,7 +234,7 @@ const ownLine = (bytes) => {
   const bytesAt = (at, length) => bytes.subarray(at, at + length)
   const sound = openSound(bytesAt, bytes.length)
   if (!isSoundFile(bytesAt, bytes.length)) throw new Error('is read, but is no sound file')
-  return [sound.sampleRate, sound.channels, sound.frames, hashOf(sound), ...sound.warnings].join('\t')
+  return [sound.sampleRate, sound.channels, sound.frames, hashOf(sound), ...sound.markers.map(({ time, name }) => `${time.toFixed(9)} ${name}`), ...sound.warnings].join('\t')
 }
 
 let failures = 0
@@ -242,6 +261,8 @@ try {
     }
     if (own === line) ++counts.same
     else if (line.startsWith('error') && !isWhole) ++counts.kept
+    // libsndfile loses its way in some chunks that it looks into, which the program tells.
+    else if (line.includes('\tis damaged: ') && Number(own.split('\t')[2]) > Number(line.split('\t')[2])) ++counts.kept
     else fail(name, own, line)
   })
   console.log(`${lines.length} files: ${counts.same} read alike, ${counts.both} refused by both, ${counts.refused} by the package alone, ${counts.kept} by the program alone, ${failures} differ`)

@@ -40,6 +40,9 @@ int main()
             told = &*raised;
         std::printf("%d\t%d\t%llu\t%u", reader->sampleRate(), reader->channels(),
                     static_cast<unsigned long long>(frames), hash);
+        const auto markers = told->takeMarkers(static_cast<double>(frames) / reader->sampleRate());
+        for (const Marker& marker : markers)
+            std::printf("\t%.9f %s", marker.time, marker.name.c_str());
         for (const std::string& warning : told->warnings())
             std::printf("\t%s", warning.c_str());
         std::printf("\n");

@@ -5,10 +5,12 @@
 #include "io/AudioReader.h"
 #include "io/FinishedClip.h"
 #include "io/RateRaiser.h"
+#include "io/SoundEncoder.h"
 #include "io/formats/ClipFormat.h"
 #include "web/core/Call.h"
 
 #include <pacini/analysis/EncodeSound.h>
+#include <pacini/clip/PackedClip.h>
 #include <pacini/foundation/DspBlock.h>
 
 #include <cmath>
@@ -42,6 +44,14 @@ public:
             call.reader.fail("format", "must be json or packed", ErrorCode::invalidArgument);
         if (rate == 0)
             call.reader.fail("sampleRate", "is missing", ErrorCode::invalidArgument);
+        call.reader.list("markers", markers, limits::soundMarkers, "markers",
+                         [this](Marker& marker)
+                         {
+                             call.reader.number("time", marker.time, Need::required);
+                             call.reader.text("name", marker.name);
+                         });
+        if (const auto channel = call.optionalNumber("lowFrequency", 0.0, channels - 1.0))
+            lowFrequency = static_cast<std::size_t>(*channel);
         if (call.reader.error || rate >= limits::lowestSampleRate)
             return;
         raiser.emplace(rate, limits::lowestSampleRate, static_cast<std::size_t>(channels));
@@ -66,6 +76,13 @@ public:
     {
         clip.source.sampleRate = rate;
         clip.source.channels = channels;
+        if (const auto record = readingRecord({}, lowFrequency ? lowFrequencyEffectsGain : 1.0); !record.empty())
+            clip.encoder.insert(clip.encoder.end(), record.begin(), record.end());
+        for (const Marker& marker : markers)
+            if (marker.time <= clip.duration)
+                clip.markers.push_back(marker);
+        if (!clip.markers.empty())
+            clip = onGrids(std::move(clip));
         const auto written = format->write(finishClip(std::move(clip), {name, source}));
         if (!written)
             return written.error();
@@ -79,11 +96,14 @@ private:
     {
         const std::size_t got = call.pullSound(into);
         const auto width = static_cast<std::size_t>(channels);
-        const auto samples = std::span<const float>(into).first(got * width);
+        const auto samples = into.first(got * width);
         for (std::size_t i = 0; i < samples.size(); ++i)
             if (!areWithinLimit(samples.subspan(i, 1)))
                 return Error{ErrorCode::notFinite, fmt::format("frame {}, channel {}", done + i / width, i % width),
                              std::isfinite(samples[i]) ? "is far beyond full scale" : "is not a finite number"};
+        if (lowFrequency)
+            for (std::size_t i = *lowFrequency; i < samples.size(); i += width)
+                samples[i] *= static_cast<float>(lowFrequencyEffectsGain);
         done += got;
         return got;
     }
@@ -96,7 +116,9 @@ private:
     const ClipFormat* format;
     std::vector<float> buffer;
     std::optional<RateRaiser> raiser;
-    std::uint64_t done = 0; ///< frames as they came
+    std::vector<Marker> markers;
+    std::optional<std::size_t> lowFrequency; ///< channel
+    std::uint64_t done = 0;                  ///< frames as they came
 };
 
 } // namespace pacini::web

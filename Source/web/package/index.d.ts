@@ -8,12 +8,20 @@ export class PaciniError extends Error {
 
 /** Samples within ±1, a Float32Array for one channel or one for each; or what Web Audio decoded. */
 export type Sound =
-  | { samples: Float32Array | Float64Array | (Float32Array | Float64Array)[], sampleRate: number }
+  | { samples: Float32Array | Float64Array | (Float32Array | Float64Array)[], sampleRate: number } & SoundNotes
   | { getChannelData(channel: number): Float32Array, numberOfChannels: number, sampleRate: number }
   | SoundStream
 
+/** What a clip has of a sound beside its samples. */
+export interface SoundNotes {
+  /** In order of time, s. */
+  markers?: { time: number, name: string }[]
+  /** The channel of low-frequency effects, from 0, which counts 10 dB more than the others. */
+  lowFrequency?: number
+}
+
 /** A sound that is read in parts: what openSound() gives, or one's own. */
-export interface SoundStream {
+export interface SoundStream extends SoundNotes {
   sampleRate: number
   channels: number
   frames: number
@@ -328,9 +336,9 @@ export function profileInfo(profile: ProfileInput, options?: Stoppable): Promise
  */
 export function openSound(bytesAt: (at: number, length: number) => Uint8Array, size: number): SoundFile
 /** All of such a file. */
-export function readSound(bytes: Uint8Array): { samples: Float32Array | Float32Array[], sampleRate: number, warnings: string[] }
+export function readSound(bytes: Uint8Array): { samples: Float32Array | Float32Array[], sampleRate: number, warnings: string[] } & SoundNotes
 /** The same, by its older name. */
-export function readWav(bytes: Uint8Array): { samples: Float32Array | Float32Array[], sampleRate: number, warnings: string[] }
+export function readWav(bytes: Uint8Array): { samples: Float32Array | Float32Array[], sampleRate: number, warnings: string[] } & SoundNotes
 
 export interface SpectrogramOptions extends Stoppable {
   /** Seconds: the whole sound. */

@@ -61,7 +61,7 @@ export const profileInfo = async (profile, { signal } = {}) =>
  */
 export const encode = async (sound, options = {}) => {
   const { signal, progress, ...settings } = options
-  const { sampleRate, channels, frames, reader } = soundOf(sound)
+  const { sampleRate, channels, frames, reader, markers, lowFrequency } = soundOf(sound)
   const own = (options.method ?? options.settings?.encode?.method ?? 'a2vt') === 'a2vt'
   const name = own ? 'encode' : 'research'
   const module = await ready(name, signal)
@@ -69,7 +69,7 @@ export const encode = async (sound, options = {}) => {
   let done = 0
   settings.format = options.format === 'packed' ? 'packed' : 'json'
   try {
-    const { value, outputs } = module.call(own ? 'encode' : 'translate', { ...settings, sampleRate, channels, frames }, [], {
+    const { value, outputs } = module.call(own ? 'encode' : 'translate', { ...settings, sampleRate, channels, frames, markers, lowFrequency }, [], {
       channels,
       read: (into) => {
         signal?.throwIfAborted()

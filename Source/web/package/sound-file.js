@@ -2,6 +2,7 @@
 
 import { PaciniError } from './module.js'
 import { ByteWindow, bitsOfAifcCodec, chunksOf, findAudioChunk, frameBytesOf, layoutAt, stretchOf, tagBytesAt } from './sound-header.js'
+import { addMarkers, hasChapters, keptMarkers, markersOf } from './sound-markers.js'
 import { fixed, sampleReading } from './sound-words.js'
 
 const bad = (message) => new PaciniError({ code: 'invalidData', where: 'sound file', message })
@@ -101,7 +102,9 @@ const wavFormat = (file, layout, begin, chunk, audioEnd) => {
   const channels = at(2), sampleRate = at(4, 4), blockBytes = at(12), bits = at(14)
   const code = at(0) === 0xfffe && found.bytes >= 26 ? at(24) : at(0)
   if (channels < 1 || sampleRate < 1) throw bad('has a damaged header')
-  const common = { little: !layout.isBig, channels, sampleRate }
+  // The channel of low-frequency effects, by the map of those that name their channels.
+  const mask = at(0) === 0xfffe && channels > 2 ? at(20, 4) : 0, before = [1, 2, 4].filter((bit) => mask & bit).length
+  const common = { little: !layout.isBig, channels, sampleRate, lowFrequency: mask & 8 && before < channels ? before : undefined }
   if (code === 2 || code === 17) {
     const least = (code === 2 ? 7 : 4) * channels, blockFrames = at(18)
     const fitting = (blockBytes - least) * 2 / channels + (code === 2 ? 2 : 1)
@@ -112,7 +115,7 @@ const wavFormat = (file, layout, begin, chunk, audioEnd) => {
   return { ...common, kind: code === 1 && width === 1 ? 'unsigned' : wavKinds[code], width, name: code, bits }
 }
 
-const tagAt = (view, at) => String.fromCharCode(view.getUint8(at), view.getUint8(at + 1), view.getUint8(at + 2), view.getUint8(at + 3))
+const tagAt = (bytes) => String.fromCharCode(...bytes.subarray(0, 4))
 /** An IEEE 754 number of 80 bits, as AIFF has rates. */
 const extended = (view, at) => {
   const exponent = (view.getUint16(at) & 0x7fff) - 16383
@@ -125,7 +128,7 @@ const aiffFormat = (file, layout, begin, chunk, audioEnd) => {
   const found = describing(file, layout, begin, chunk, audioEnd, 'COMM', 18)
   if (!found) throw bad('has a damaged header')
   const bytes = file.at(found.content, 22), view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength)
-  const kind = file.has(begin + 8, 'AIFC') && found.bytes >= 22 ? tagAt(view, 18) : 'NONE'
+  const kind = file.has(begin + 8, 'AIFC') && found.bytes >= 22 ? tagAt(bytes.subarray(18)) : 'NONE'
   const channels = view.getUint16(0), sampleRate = Math.trunc(extended(view, 8))
   if (channels < 1 || !(sampleRate >= 1)) throw bad('has a damaged header')
   const bits = /^[au]law$/i.test(kind) ? 8 : bitsOfAifcCodec(file, found) ?? view.getUint16(6)
@@ -139,6 +142,7 @@ const hasOtherFormat = (file, layout, begin, chunk) => {
   return others.some((other) => other !== first)
 }
 
+const chapters = 'has chapters in an ID3 tag, which are not read here'
 const mostParts = 1000, mostChannels = 64, slowest = 1000, fastest = 768000, slowestEncoded = 8000 // as AudioReader.h has them
 
 /** The sound of the file at `begin`: its format, its stretches of audio, and where another sound begins. */
@@ -171,8 +175,14 @@ const soundAt = (file, begin) => {
   format.sample = block ? undefined : samplesAre[`${format.kind}/${8 * format.width}`]
   if (!format.sample && !block) throw unread(name, bits)
   const lasting = audio[0].end - begin, frames = block ? Math.ceil(audio[0].bytes / format.blockBytes) * format.blockFrames : Math.floor(lasting / format.width / channels)
+  const { next } = audio.at(-1), until = next ?? end
+  const chunks = chunksOf(file, layout, begin, until, audio[0].bytes > 0 ? first.start + audio[0].bytes : 0)
+  const found = markersOf(file, layout, chunks, format.sampleRate)
+  if (chunks.some(({ offset, content, bytes }) => /^id3 $/i.test(tagAt(file.at(offset, 4))) && hasChapters(file, content, content + bytes)) ||
+    hasChapters(file, audio.at(-1).end, until))
+    found.warnings.push(chapters)
   return { begin, format, audio, stated, warning: reading.warning, hasOtherFormat: hasOtherFormat(file, layout, begin, first), seconds: frames / format.sampleRate,
-    next: audio.at(-1).next }
+    found, next }
 }
 
 /** Frames, and what is told of them, in the order in which the program tells it. */
@@ -220,10 +230,12 @@ const behindTags = (file) => {
 
 /** The stretches of all sounds of one kind that lie one behind the other in a file, with what is told of them. */
 const planOf = (file) => {
-  const first = soundAt(file, behindTags(file)), { channels, sampleRate } = first.format
-  const plan = { channels, sampleRate, stretches: [], frames: 0, promised: 0, warnings: [] }
+  const first = soundAt(file, behindTags(file)), { channels, sampleRate, lowFrequency } = first.format
+  const plan = { channels, sampleRate, lowFrequency, stretches: [], frames: 0, promised: 0, warnings: [] }
+  const found = { markers: [], warnings: hasChapters(file, 0, first.begin) ? [chapters] : [] }
   const add = (sound) => {
     const { stretches, promised, told } = framesOf(sound, sound === first)
+    addMarkers(found, sound.found, (plan.frames + sound.audio[0].silence) / sampleRate)
     for (const stretch of stretches) {
       plan.stretches.push({ ...stretch, first: plan.frames })
       plan.frames += stretch.frames
@@ -249,7 +261,9 @@ const planOf = (file) => {
     }
     next = sound.next
   }
-  return plan
+  const { markers, warnings } = keptMarkers(found, plan.frames / sampleRate)
+  plan.warnings.push(...warnings)
+  return { ...plan, markers }
 }
 
 // ---- samples
@@ -283,16 +297,16 @@ export const isSoundFile = (bytesAt, size) => {
 /**
  * A WAV or AIFF file (8 to 32 bits, floating point, mu-law, A-law; in WAV also IMA's and Microsoft's ADPCM), sample for sample as
  * other programs have it. `bytesAt(at, length)` gives bytes of the file, `size` is how many it has. Returns
- * `{sampleRate, channels, frames, promised, warnings, read(from, count), reader()}`: `promised` frames are stated where fewer are
- * there, `warnings` are what the program says of the file, `read` gives an array of samples for each channel, `reader` is what
- * encode() takes.
+ * `{sampleRate, channels, frames, promised, warnings, markers, lowFrequency, read(from, count), reader()}`: `promised` frames are
+ * stated where fewer are there, `warnings` are what the program says of the file, `lowFrequency` is the channel of low-frequency
+ * effects of a file that names its channels, `read` gives an array of samples for each channel, `reader` is what encode() takes.
  */
 export const openSound = (bytesAt, size) => {
   const viewAt = (at, length) => {
     const bytes = bytesAt(at, Math.max(0, Math.min(length, size - at)))
     return new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength)
   }
-  const { channels, sampleRate, frames, promised, warnings, stretches } = planOf(new ByteWindow(bytesAt, size))
+  const { channels, sampleRate, frames, promised, warnings, markers, lowFrequency, stretches } = planOf(new ByteWindow(bytesAt, size))
   const read = (from, count, parts) => {
     const first = Math.min(frames, Math.max(0, from)), last = Math.min(frames, first + Math.max(0, count))
     const into = parts?.[0].length === last - first ? parts : Array.from({ length: channels }, () => new Float32Array(last - first))
@@ -310,7 +324,7 @@ export const openSound = (bytesAt, size) => {
     return into
   }
   return {
-    sampleRate, channels, frames, promised, warnings, read,
+    sampleRate, channels, frames, promised, warnings, markers, lowFrequency, read,
     reader: () => {
       let done = 0, part, begin = 0 // what was read last, and where it begins
       return (into) => {
@@ -339,5 +353,5 @@ export const openSound = (bytesAt, size) => {
 export const readSound = (bytes) => {
   const file = openSound((at, length) => bytes.subarray(at, at + length), bytes.length)
   const samples = file.read(0, file.frames)
-  return { samples: file.channels === 1 ? samples[0] : samples, sampleRate: file.sampleRate, warnings: file.warnings }
+  return { samples: file.channels === 1 ? samples[0] : samples, sampleRate: file.sampleRate, warnings: file.warnings, markers: file.markers, lowFrequency: file.lowFrequency }
 }

@@ -34,6 +34,8 @@ export const soundOf = (sound) => {
     sampleRate: sound.sampleRate,
     channels: channels.length,
     frames,
+    markers: sound.markers,
+    lowFrequency: sound.lowFrequency,
     reader: () => {
       let done = 0
       return (into) => {

@@ -6,7 +6,7 @@ const language = new URL(location.href).searchParams.get('language') // besides 
 const first = ['./', 'style.css', 'app.js', 'cards.js', 'core.js', 'curve.js', 'early.js', 'editing.js', 'edits.js', 'feel.js', 'fields.js', 'film.js', 'first-part.js', 'hid.js',
   'figures.js', 'guide.html', 'guide.js', 'guide/list.js', 'history.js', 'kinds.js', 'lanes.js', 'live.js',
   'microphone.js', 'peaks.js', 'sound-player.js', 'sounds.js', 'store.js', 'text.js', 'vibration.js', 'words.js', 'worker.js', 'zip.js', 'visit.wasm',
-  'gallery/list.js', 'pacini/index.js', 'pacini/module.js', 'pacini/sound.js', 'pacini/sound-file.js', 'pacini/sound-header.js', 'pacini/sound-words.js', 'pacini/presets.js', 'pacini/profiles.js', 'pacini/translator.js',
+  'gallery/list.js', 'pacini/index.js', 'pacini/module.js', 'pacini/sound.js', 'pacini/sound-file.js', 'pacini/sound-header.js', 'pacini/sound-markers.js', 'pacini/sound-words.js', 'pacini/presets.js', 'pacini/profiles.js', 'pacini/translator.js',
   ...['bands', 'breakpoints', 'actuators', 'scenes', 'protection', 'time'].map((name) => `guide/${language ? `${language}/` : ''}${name}.html`),
   ...(language ? [`texts/${language}.js`] : []),
   ...['knock_wood_bridge', 'ui_click'].map((name) => `guide/${name}.flac`)]

@@ -43,7 +43,7 @@ const notedPeaks = (file) => {
   return {
     peaks: peaks.values,
     sound: {
-      sampleRate: file.sampleRate, channels, frames,
+      sampleRate: file.sampleRate, channels, frames, markers: file.markers, lowFrequency: file.lowFrequency,
       reader: () => {
         const read = file.reader()
         let mono = new Float32Array(0)
