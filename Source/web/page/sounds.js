@@ -36,7 +36,7 @@ const opened = async (blob) => ({ id: newId(), blob, ...await reader.call('open'
  */
 export const soundOf = async (blob, file) => {
   if (await reader.call('isSound', blob))
-    return opened(blob.size > copied ? blob : new Blob([await blob.arrayBuffer()]))
+    return opened(blob.size > copied ? blob : new Blob([await blob.arrayBuffer()], { type: `audio/x-own-${newId()}` }))
   const context = new OfflineAudioContext(1, 1, 48000)
   let buffer
   try {

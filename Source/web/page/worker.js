@@ -22,7 +22,17 @@ const bytesOf = (blob) => (at, length) => {
     throw new Error(`${blob.name ?? 'The sound'} cannot be read any more: it was moved or changed. Open it again.`)
   }
 }
-const fileOf = (blob) => openSound(bytesOf(blob), blob.size)
+const known = new Map() // files that were opened: some are read whole to tell how their samples lie
+/** What tells a file from others; nothing where that cannot be told. */
+const keyOf = (blob) => blob instanceof File ? `${blob.name} ${blob.size} ${blob.lastModified}` : /^audio\/x-own-/.test(blob.type) && blob.type
+const fileOf = (blob) => {
+  const key = keyOf(blob)
+  if (known.has(key)) return known.get(key)
+  const file = openSound(bytesOf(blob), blob.size)
+  if (key) known.set(key, file)
+  if (known.size > 4) known.delete(known.keys().next().value)
+  return file
+}
 /** The mean of all channels, from one frame to another. */
 const monoOf = (file, from, count) => {
   const [mono, ...others] = file.read(from, count)
