@@ -289,6 +289,21 @@ try {
     }
     check(`the live translator gives the samples of the program ${JSON.stringify(parameters)}`, largest === 0 && loudest > 0.05, `largest difference ${largest}, loudest ${loudest.toFixed(2)}, ${translated.latency} frames late`)
   }
+  const levels = await tab.evaluate(async () => {
+    const { createTranslator } = await import('./pacini/translator.js')
+    const context = new OfflineAudioContext(1, 96000, 48000), node = await createTranslator(context, { profile: 'lra-175' })
+    const source = new OscillatorNode(context, { frequency: 170 })
+    source.connect(node).connect(context.destination)
+    source.start()
+    context.suspend(1).then(async () => {
+      await node.set({ intensity: -60 })
+      await new Promise((resolve) => { setTimeout(resolve, 100) }) // until the worklet has it
+      context.resume()
+    })
+    const drive = (await context.startRendering()).getChannelData(0), peak = (from, to) => drive.subarray(from, to).reduce((most, value) => Math.max(most, Math.abs(value)), 0)
+    return [peak(24000, 48000), peak(72000, 96000), await node.set({ bands: 3 }).catch(({ where }) => where)]
+  })
+  check('and its parameters change while it runs', levels[0] > 0.1 && levels[1] < levels[0] / 500 && levels[2] === 'bands', levels.join(' '))
   const refused = await tab.evaluate(() => import('./pacini/translator.js').then(({ createTranslator }) => createTranslator(new OfflineAudioContext(1, 1, 48000), { profile: '{}' })).catch(({ name, where }) => `${name} ${where}`))
   check('a profile that is none is refused', refused === 'PaciniError profile', refused)
   await tab.click('#live')
