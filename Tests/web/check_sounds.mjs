@@ -196,7 +196,7 @@ const cues = (frames, { n = little, stated = frames.length, byPlay = false } = {
 const label = (id, name, kind = 'labl') => padded(chunk(kind, joined(little(id, 4), ...kind === 'ltxt' ? [little(100, 4), Buffer.alloc(12)] : [], Buffer.from(name, 'latin1'), Buffer.alloc(1))))
 const labels = (...all) => chunk('LIST', joined('adtl', ...all))
 const loops = (...ends) => chunk('smpl', joined(Buffer.alloc(28), little(ends.length, 4), little(0, 4), ...ends.map(([first, last]) => joined(Buffer.alloc(8), little(first, 4), little(last, 4), Buffer.alloc(8)))))
-const named = labels(label(1, 'knock'), label(2, 'Gr\xfc\xdfe'), label(3, Buffer.from('Grüße', 'utf8').toString('latin1')), label(3, 'a note', 'note'), label(4, 'a region', 'ltxt'), label(5, ''))
+const named = labels(label(1, 'knock'), label(2, 'Gr\xfc\xdfe \x80\x81\x9f'), label(3, Buffer.from('Grüße', 'utf8').toString('latin1')), label(3, 'a note', 'note'), label(4, 'a region', 'ltxt'), label(5, ''))
 for (const [name, before, behind] of [['cues', Buffer.alloc(0), joined(cues([2000, 100, 700, 50, 60]), named)], ['cues in front', joined(named, cues([100, 200, 300, 400])), Buffer.alloc(0)],
   ['cues by play', cues([100, 200], { byPlay: true }), named], ['more cues than stated', cues([1, 2, 3], { stated: 2 }), named], ['fewer cues than stated', cues([1], { stated: 9 }), named],
   ['cues behind the end', cues([100, 2501, 90000]), named], ['one cue behind the end', cues([100, 90000]), named], ['loops', loops([100, 200], [300, 250], [0, 2499]), cues([100])],

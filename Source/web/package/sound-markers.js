@@ -12,6 +12,8 @@ const isUtf8 = (bytes) => {
     return undefined
   }
 }
+// Bytes 0x80 to 0x9F of Windows-1252. Decoders of Node.js take them for controls.
+const others = '\u20ac\x81\u201a\u0192\u201e\u2026\u2020\u2021\u02c6\u2030\u0160\u2039\u0152\x8d\u017d\x8f\x90\u2018\u2019\u201c\u201d\u2022\u2013\u2014\u02dc\u2122\u0161\u203a\u0153\x9d\u017e\u0178'
 /** A text that is UTF-8, perhaps cut within a character, or else Windows-1252. */
 const textOf = (bytes) => {
   const end = bytes.indexOf(0), text = end < 0 ? bytes : bytes.subarray(0, end), whole = isUtf8(text)
@@ -20,7 +22,7 @@ const textOf = (bytes) => {
     const rest = text.subarray(0, text.length - cut), shorter = rest.every((byte) => byte < 128) ? undefined : isUtf8(rest)
     if (shorter !== undefined) return shorter
   }
-  return new TextDecoder('windows-1252').decode(text)
+  return Array.from(text, (byte) => byte >= 0x80 && byte < 0xa0 ? others[byte - 0x80] : String.fromCharCode(byte)).join('')
 }
 const textAt = (file, offset, bytes) => textOf(file.at(offset, Math.min(bytes, ByteWindow.most)))
 
