@@ -512,10 +512,19 @@ struct AudioReader::State
     {
         const bool opus = (info.format & SF_FORMAT_SUBMASK) == SF_FORMAT_OPUS;
         const double unit = opus ? 48000.0 : info.samplerate;
+        if (part().framesLeftOut > 0)
+            warn("has times that leave out {:.3f} s at its end", static_cast<double>(part().framesLeftOut) / unit);
         // Pages that were cut off before the first may count from any time; what is damaged may be the first.
         const auto first = part().skippedBytes > 0 ? 0 : part().firstTime;
         const double missing = static_cast<double>(part().lastTime - first) / unit - seconds(here);
-        if (part().skippedBytes > 0)
+        if (part().damagedPages > 0)
+        {
+            const double held =
+                static_cast<double>(part().packetFrames) - static_cast<double>(part().preSkip + part().framesLeftOut);
+            warn("is damaged: {} of its pages have wrong checksums, about {:.3f} s are missing", part().damagedPages,
+                 std::max(part().packetFrames > 0 ? held / unit - seconds(here) : missing, 0.0));
+        }
+        else if (part().skippedBytes > 0)
             warn("is damaged: {} bytes are no sound, about {:.3f} s are missing", part().skippedBytes,
                  std::max(missing, 0.0));
         else if (part().lostPages > 0)

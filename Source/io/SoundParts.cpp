@@ -5,10 +5,10 @@
 #include "io/FilmSound.h"
 #include "io/MpegFrames.h"
 #include "io/OggPages.h"
+#include "io/OggTimes.h"
 #include "io/SampleWords.h"
 #include "io/SoundCodec.h"
 #include "io/SoundTags.h"
-#include "io/VorbisTimes.h"
 
 #include <algorithm>
 #include <limits>
@@ -512,8 +512,14 @@ private:
         bool isSound = false; // what `stream` is
         const auto mendTimes = [&]
         {
-            if (!parts.empty() && isSound)
-                mendEarlyStart(parts.back(), stream);
+            if (parts.empty() || !isSound)
+                return;
+            SoundPart& part = parts.back();
+            const auto content = oggContent(file, part.begin, part.end, stream);
+            part.framesLeftOut = content.leftOut;
+            part.damagedPages = content.damagedPages;
+            part.packetFrames = content.frames;
+            mendEarlyStart(part, stream);
         };
         for (auto offset = begin; offset < end;)
         {

@@ -48,8 +48,11 @@ struct SoundPart
     std::uint64_t lastTime = 0;                  ///< frames, those of Opus at 48 kHz
     std::uint64_t leadFrames = 0;                ///< decoded before its first that are no sound of it
     std::uint64_t preSkip = 0;                   ///< of Opus: frames at 48 kHz that its header leaves out
+    std::uint64_t packetFrames = 0;              ///< of an Ogg stream: frames of all packets, those of Opus at 48 kHz
+    std::uint64_t framesLeftOut = 0;             ///< of these, left out at the end by its times
     std::uint64_t shiftedFrames = 0;             ///< of an Ogg stream, by which its times are too early
     std::uint64_t lostPages = 0;                 ///< of an Ogg stream, which counts them
+    std::uint64_t damagedPages = 0;              ///< of an Ogg stream, with wrong checksums, which decoders leave out
     bool endsInFrame = false;                    ///< it ends within a frame of its codec
     bool isContinued = false;                    ///< more audio of the file of chunks that the part before is of
     bool isUnended = false;                      ///< of an Ogg stream: no page says that it ends

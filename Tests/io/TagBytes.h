@@ -62,11 +62,10 @@ inline std::vector<OggPage> oggPages(const std::string& bytes)
     return pages;
 }
 
-inline std::string oggPageBytes(std::string head, const std::string& lengths, const std::string& content,
-                                std::uint32_t number)
+/// The same page with a checksum that is right (RFC 3533, 6).
+inline std::string withOggChecksum(std::string page)
 {
-    head.replace(18, 8, littleEndian(number, 4) + std::string(4, '\0'));
-    std::string page = head + static_cast<char>(lengths.size()) + lengths + content;
+    page.replace(22, 4, 4, '\0');
     std::uint32_t sum = 0;
     for (const char c : page)
     {
@@ -75,6 +74,13 @@ inline std::string oggPageBytes(std::string head, const std::string& lengths, co
             sum = sum << 1u ^ ((sum & 0x80000000u) != 0 ? 0x04C11DB7u : 0u);
     }
     return page.replace(22, 4, littleEndian(sum, 4));
+}
+
+inline std::string oggPageBytes(std::string head, const std::string& lengths, const std::string& content,
+                                std::uint32_t number)
+{
+    head.replace(18, 4, littleEndian(number, 4));
+    return withOggChecksum(head + static_cast<char>(lengths.size()) + lengths + content);
 }
 
 /// The Ogg file with other comments, on as many pages as they need.

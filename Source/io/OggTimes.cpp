@@ -1,4 +1,4 @@
-#include "io/VorbisTimes.h"
+#include "io/OggTimes.h"
 
 #include "io/OggPages.h"
 
@@ -98,8 +98,8 @@ std::uint64_t bitsOf(const std::string& packet, std::size_t place, std::size_t c
     return value;
 }
 
-/// Counts the frames of a stream by its packets, the first three of which are headers.
-class PacketLengths
+/// Counts the frames of a stream of Vorbis by its packets, the first three of which are headers.
+class VorbisPackets
 {
 public:
     /// Takes the next packet; false where it is none of Vorbis.
@@ -116,17 +116,18 @@ public:
         if (packet.empty() || bitsOf(packet, 0, 1) != 0 || mode >= isLong.size())
             return false;
         const auto size = sizes[isLong[static_cast<std::size_t>(mode)] ? 1 : 0];
-        if (number > 3)
-            frames += (last + size) / 4;
+        newest = number > 3 ? (previous + size) / 4 : 0;
+        frames += newest;
         if (number <= 4)
             overlap = frames;
-        last = size;
+        previous = size;
         return true;
     }
 
     [[nodiscard]] bool isBehindHeaders() const noexcept { return taken > 3; }
 
     std::uint64_t frames = 0;
+    std::uint64_t newest = 0;  ///< of these, those of the last packet
     std::uint64_t overlap = 0; ///< frames of the first two packets together
 
 private:
@@ -168,32 +169,67 @@ private:
 
     std::size_t taken = 0;
     std::array<std::uint64_t, 2> sizes{};
-    std::uint64_t last = 0;
+    std::uint64_t previous = 0; ///< size of the block before
     std::vector<bool> isLong;
     std::size_t modeBits = 0;
 };
 
-/// The shift by the time of the first page with audio, without patches.
-VorbisShift shiftOfStart(ByteWindow& file, std::uint64_t begin, std::uint64_t end, std::uint64_t serial)
+/// Counts the frames at 48 kHz of a stream of Opus by its packets, the first two of which are headers (RFC 6716, 3.1).
+class OpusPackets
 {
-    constexpr std::size_t largestHeader = 1u << 22u;
-    constexpr std::uint64_t most = std::uint64_t{1} << 40u; // frames; times that are later wrap around
-    PacketLengths lengths;
+public:
+    /// Takes the next packet; false where it is none of Opus.
+    bool take(const std::string& packet)
+    {
+        const auto number = taken++;
+        if (number == 0)
+            return packet.starts_with("OpusHead");
+        if (number < 2)
+            return true;
+        const auto first = bitsOf(packet, 0, 8);
+        const auto count = (first & 3u) == 0 ? 1u : (first & 3u) < 3 ? 2u : bitsOf(packet, 8, 6);
+        newest = packet.empty() ? 0 : count * framesOf(first >> 3u);
+        frames += newest;
+        return true;
+    }
+
+    [[nodiscard]] bool isBehindHeaders() const noexcept { return taken > 2; }
+
+    std::uint64_t frames = 0;
+    std::uint64_t newest = 0; ///< of these, those of the last packet
+
+private:
+    /// Of a frame by the five bits of its configuration.
+    static std::uint64_t framesOf(std::uint64_t configuration)
+    {
+        constexpr std::array<std::uint64_t, 4> speech{480, 960, 1920, 2880}, music{120, 240, 480, 960};
+        if (configuration < 12)
+            return speech[configuration & 3u];
+        return configuration < 16 ? speech[configuration & 1u] : music[configuration & 3u];
+    }
+
+    std::size_t taken = 0;
+};
+
+/// Gives the packets of a stream to `lengths` until it refuses one, and calls `take` behind each page with whether a
+/// packet of audio ends on it, until it returns false.
+template <typename Lengths, typename Take>
+void countPackets(ByteWindow& file, std::uint64_t begin, std::uint64_t end, std::uint64_t serial, Lengths& lengths,
+                  Take take)
+{
+    constexpr std::size_t largest = 1u << 22u;
     std::string packet;
-    VorbisShift shift;
     forEachPage(file, begin, end, serial,
                 [&](const Page& page)
                 {
-                    if (!page.isSound())
-                        return false;
-                    bool ends = false; // a packet of audio, on this page
+                    bool ends = false;
                     auto place = oggHeaderBytes + page.laces();
                     for (std::size_t i = 0; i < page.laces(); ++i)
                     {
                         const auto lace = page.byte(oggHeaderBytes + i);
                         packet.append(page.bytes, place, lace);
                         place += lace;
-                        if (packet.size() > largestHeader)
+                        if (packet.size() > largest)
                             return false;
                         if (lace == 255)
                             continue;
@@ -202,16 +238,55 @@ VorbisShift shiftOfStart(ByteWindow& file, std::uint64_t begin, std::uint64_t en
                         ends = lengths.isBehindHeaders();
                         packet.clear();
                     }
-                    const auto time = page.time();
-                    if (!ends || time == ~std::uint64_t{0})
-                        return true;
-                    // The last page of a stream leaves out frames at its end.
-                    if (const auto before = lengths.frames - time; before < most && !page.endsStream())
-                        shift = {before, before <= lengths.overlap, {}};
-                    return false;
+                    return take(page, ends && page.time() != ~std::uint64_t{0});
                 });
+}
+
+constexpr std::uint64_t mostFrames = std::uint64_t{1} << 40u; // times that are later wrap around
+
+/// The shift by the time of the first page with audio, without patches.
+VorbisShift shiftOfStart(ByteWindow& file, std::uint64_t begin, std::uint64_t end, std::uint64_t serial)
+{
+    VorbisPackets lengths;
+    VorbisShift shift;
+    countPackets(file, begin, end, serial, lengths,
+                 [&](const Page& page, bool hasTime)
+                 {
+                     if (!page.isSound())
+                         return false;
+                     if (!hasTime)
+                         return true;
+                     // The last page of a stream leaves out frames at its end.
+                     if (const auto before = lengths.frames - page.time(); before < mostFrames && !page.endsStream())
+                         shift = {before, before <= lengths.overlap, {}};
+                     return false;
+                 });
     return shift;
 }
+
+/// Counts those of either; of other streams, 0.
+class SoundPackets
+{
+public:
+    bool take(const std::string& packet)
+    {
+        isVorbis = isVorbis && vorbis.take(packet);
+        isOpus = isOpus && opus.take(packet);
+        return true;
+    }
+
+    [[nodiscard]] bool isBehindHeaders() const noexcept
+    {
+        return (isVorbis && vorbis.isBehindHeaders()) || (isOpus && opus.isBehindHeaders());
+    }
+    [[nodiscard]] std::uint64_t frames() const noexcept { return isVorbis ? vorbis.frames : isOpus ? opus.frames : 0; }
+    [[nodiscard]] std::uint64_t newest() const noexcept { return isVorbis ? vorbis.newest : isOpus ? opus.newest : 0; }
+
+private:
+    VorbisPackets vorbis;
+    OpusPackets opus;
+    bool isVorbis = true, isOpus = true;
+};
 } // namespace
 
 VorbisShift vorbisShift(ByteWindow& file, std::uint64_t begin, std::uint64_t end, std::uint64_t serial)
@@ -237,6 +312,33 @@ VorbisShift vorbisShift(ByteWindow& file, std::uint64_t begin, std::uint64_t end
                     return true;
                 });
     return shift;
+}
+
+OggContent oggContent(ByteWindow& file, std::uint64_t begin, std::uint64_t end, std::uint64_t serial)
+{
+    SoundPackets lengths;
+    OggContent content;
+    std::int64_t start = 0, leftOut = 0;
+    bool isTimed = false;
+    countPackets(file, begin, end, serial, lengths,
+                 [&](const Page& page, bool hasTime)
+                 {
+                     const bool isSound = page.isSound();
+                     content.damagedPages += isSound ? 0u : 1u;
+                     if (!hasTime || !isSound || page.time() > mostFrames)
+                         return true;
+                     const auto time = static_cast<std::int64_t>(page.time());
+                     const auto frames = static_cast<std::int64_t>(lengths.frames());
+                     if (!isTimed && !page.endsStream())
+                         start = time - frames; // of a stream that was cut at its beginning, or begins before it
+                     isTimed = true;
+                     leftOut = page.endsStream() ? start + frames - time : 0;
+                     return true;
+                 });
+    content.frames = lengths.frames();
+    if (leftOut > 0 && leftOut >= static_cast<std::int64_t>(lengths.newest()))
+        content.leftOut = static_cast<std::uint64_t>(leftOut);
+    return content;
 }
 
 } // namespace pacini

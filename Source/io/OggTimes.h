@@ -1,6 +1,6 @@
 #pragma once
 
-// Times of the pages of an Ogg stream of Vorbis, and the frames that its packets hold.
+// Times of the pages of an Ogg stream of Vorbis or Opus, and the frames that its packets hold.
 
 #include "io/ByteWindow.h"
 #include "io/SoundParts.h"
@@ -25,5 +25,19 @@ struct VorbisShift
 /// on both: some leave out as much at the end instead. Trusts no number. Source: Xiph.Org Foundation, "Vorbis I
 /// specification", 2020, 4.3 and A.2.
 [[nodiscard]] VorbisShift vorbisShift(ByteWindow& file, std::uint64_t begin, std::uint64_t end, std::uint64_t serial);
+
+/// What the packets of a stream hold. Frames of Opus are at 48 kHz; those of other codecs than it and Vorbis are not
+/// counted.
+struct OggContent
+{
+    std::uint64_t frames = 0;       ///< of all packets, also of damaged pages
+    std::uint64_t leftOut = 0;      ///< of these at the end, by the time of the last page; 0 for less than a packet
+    std::uint64_t damagedPages = 0; ///< whose checksum is wrong, which decoders leave out
+};
+
+/// The content of the stream `serial` whose pages lie in [begin, end). An encoder fills up the last packet and leaves
+/// that out by the time of the last page; a whole packet is more than that. Sources: as above, A.2; RFC 7845, 4.4; RFC
+/// 3533, 6.
+[[nodiscard]] OggContent oggContent(ByteWindow& file, std::uint64_t begin, std::uint64_t end, std::uint64_t serial);
 
 } // namespace pacini
