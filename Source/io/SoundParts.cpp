@@ -509,7 +509,8 @@ private:
         bool headers = false;
         std::uint64_t skipped = 0;
         std::uint64_t stream = 0, nextPage = 0;
-        bool isSound = false; // what `stream` is
+        bool isSound = false;          // what `stream` is
+        std::set<std::uint64_t> begun; // streams of the part
         const auto mendTimes = [&]
         {
             if (parts.empty() || !isSound)
@@ -546,6 +547,7 @@ private:
                 mendTimes();
                 parts.emplace_back().begin = offset;
                 isSound = false;
+                begun.clear();
             }
             const bool beginsSound = starts && startsOggSound(offset);
             SoundPart& part = parts.back();
@@ -560,7 +562,12 @@ private:
             else if (beginsSound)
                 ++part.streamsBeside;
             headers = starts;
-            if (file.number(offset + 14, 4, false) == stream)
+            const auto serial = file.number(offset + 14, 4, false);
+            if ((starts && begun.size() < mostParts) || part.begin == offset)
+                begun.insert(serial);
+            else if (!begun.contains(serial))
+                part.skippedBytes += bytes; // of a stream that never began
+            if (serial == stream)
             {
                 const auto page = file.number(offset + 18, 4, false);
                 part.lostPages += page > nextPage ? page - nextPage : 0;

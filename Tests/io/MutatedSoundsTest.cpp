@@ -906,4 +906,14 @@ TEST_CASE("What the times of an Ogg leave out at its end, and a page of wrong su
     CHECK(audio->samples.size() < 2000);
     REQUIRE(audio->warnings.size() == 1);
     CHECK(audio->warnings.front().starts_with("is damaged: 1 of its pages have wrong checksums, about 0.9"));
+    // An end before the last page, which names a stream that never began.
+    auto stray = bytesOf(testFolder() / "io/audio/tone.ogg");
+    const auto pages = pagesIn(stray);
+    stray[pages.at(2) + 5] = '\4';
+    stray[pages.at(3) + 14] = '\x07';
+    const auto ended = readAudio(put(folder / "x", withChecksums(stray)));
+    REQUIRE(ended.ok());
+    CHECK(ended->samples.size() < 24000);
+    REQUIRE(ended->warnings.size() == 1);
+    CHECK(ended->warnings.front().starts_with("is damaged: 316 bytes are no sound, about 0.0"));
 }
