@@ -93,6 +93,9 @@ public:
         return words;
     }
 
+    /// Bytes behind the one that was taken last.
+    [[nodiscard]] std::size_t wholeBytesLeft() const { return hasFailed ? 0 : bytes.size() - (place + 7) / 8; }
+
     /// Whether more was taken than there is.
     [[nodiscard]] bool failed() const { return hasFailed; }
 

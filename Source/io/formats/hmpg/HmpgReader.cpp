@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <optional>
 #include <span>
 #include <string>
@@ -68,6 +69,8 @@ public:
         if (!error && version.empty())
             fail(0, "has no description of the file");
         if (!error)
+            checkEffects();
+        if (!error)
             error = checkHjifVersion(version, warnings);
         if (error)
             return *std::move(error);
@@ -88,6 +91,7 @@ private:
     struct Place
     {
         std::size_t perception = none, channel = 0, band = 0;
+        std::uint64_t stated = 0;           ///< effects
         std::vector<std::uint32_t> effects; ///< index + 1 by number
     };
 
@@ -119,7 +123,12 @@ private:
         if (kind <= static_cast<std::uint64_t>(HmpgUnit::temporal))
             for (std::size_t packet = first; packet < end && !error;)
                 packet = readPacket(packet, end);
-        else if (kind != static_cast<std::uint64_t>(HmpgUnit::silent))
+        else if (kind == static_cast<std::uint64_t>(HmpgUnit::silent))
+        {
+            if (length > 0)
+                leaveOut(at, "the content of a unit of silence");
+        }
+        else
             leaveOut(at, kind == static_cast<std::uint64_t>(HmpgUnit::spatial) ? "a unit of spatial haptics"
                                                                                : "a unit of an unknown kind");
         time += static_cast<double>(ticks);
@@ -179,22 +188,36 @@ private:
             readData(bits);
             break;
         case HmpgPacket::checksum16:
-        case HmpgPacket::checksum32:
         case HmpgPacket::checksumOfAll16:
+            bits.skip(16);
+            break;
+        case HmpgPacket::checksum32:
         case HmpgPacket::checksumOfAll32:
+            bits.skip(32);
             break;
         default:
             leaveOut(at, fmt::format("a packet of kind {}", kind));
         }
         if (bits.failed())
             fail(at, "is a packet that ends before its content");
+        // Of others, what follows is of no use here.
+        constexpr HmpgPacket whole[] = {HmpgPacket::timing,          HmpgPacket::band,           HmpgPacket::data,
+                                        HmpgPacket::library,         HmpgPacket::checksum16,     HmpgPacket::checksum32,
+                                        HmpgPacket::checksumOfAll16, HmpgPacket::checksumOfAll32};
+        if (bits.wholeBytesLeft() > 0 && !isLeftOut &&
+            std::find(std::begin(whole), std::end(whole), static_cast<HmpgPacket>(kind)) != std::end(whole))
+            leaveOut(at, "what follows the content of a packet");
+        isLeftOut = false;
         return first + static_cast<std::size_t>(length);
     }
 
     void readFirstTiming(HmpgBitReader& bits)
     {
         time = static_cast<double>(bits.take(32));
-        file.ticks = static_cast<double>(bits.take(32));
+        const bool isFirst = !std::exchange(isTimed, true);
+        const double before = std::exchange(file.ticks, static_cast<double>(bits.take(32)));
+        if (!isFirst && file.ticks != before)
+            fail(place, fmt::format("has {} ticks per second, but {} before", file.ticks, before));
         if (!(file.ticks >= 1.0 && file.ticks <= 1e9))
             fail(place, fmt::format("has {} ticks per second, not 1 to 1000000000", file.ticks));
     }
@@ -287,13 +310,37 @@ private:
             band.blockLength = static_cast<double>(bits.take(8));
         band.low = static_cast<double>(bits.take(16));
         band.high = static_cast<double>(bits.take(16));
+        const std::uint64_t stated = bits.take(16);
         if (channel == none)
             return fail(place, "is a band of no channel");
-        if (bands[number].perception != none)
+        if (const Place& known = bands[number]; known.perception != none)
+        {
+            const HjifBand& first = file.perceptions[known.perception].channels[known.channel].bands[known.band];
+            if (known.perception != owner || known.channel != channel || first.type != band.type ||
+                first.low != band.low || first.high != band.high)
+                leaveOut(place, "a band with the number of another");
             return;
+        }
         auto& siblings = file.perceptions[owner].channels[channel].bands;
-        bands[number] = {owner, channel, siblings.size(), {}};
+        bands[number] = {owner, channel, siblings.size(), stated, {}};
         siblings.emplace_back() = std::move(band);
+    }
+
+    /// Tells of effects that a band states and no packet had: a file that ends between units is not cut off otherwise.
+    void checkEffects()
+    {
+        constexpr std::uint64_t most = 65535; // which may stand for more
+        for (std::size_t number = 0; number < bands.size(); ++number)
+        {
+            const Place& known = bands[number];
+            if (known.perception == none || known.stated == most ||
+                isSpatial(file.perceptions[known.perception].modality))
+                continue;
+            const auto& found = file.perceptions[known.perception].channels[known.channel].bands[known.band].effects;
+            if (found.size() < known.stated)
+                warnings.push_back(fmt::format("lacks {} of the {} effects of band {}; it may have been cut off",
+                                               known.stated - found.size(), known.stated, number));
+        }
     }
 
     void readLibrary(HmpgBitReader& bits)
@@ -361,7 +408,10 @@ private:
         const HjifPerception& perception = file.perceptions[target.perception];
         HjifBand& band = file.perceptions[target.perception].channels[target.channel].bands[target.band];
         if (isSpatial(perception.modality))
-            return; // has another layout, and the import leaves it out with a warning
+        {
+            isLeftOut = true; // has another layout, and the import leaves it out with a warning
+            return;
+        }
         for (std::uint64_t n = bits.take(16); n > 0 && !bits.failed() && countEffect(); --n)
             if (band.type == "WaveletWave")
                 band.effects.emplace_back() = block(bits, band);
@@ -448,6 +498,8 @@ private:
     std::vector<Channel> channels;
     std::vector<Place> bands = std::vector<Place>(256); ///< by number
     std::vector<std::string> leftOut;
+    bool isTimed = false;
+    bool isLeftOut = false; ///< the packet that is read
     std::size_t place = 0, effects = 0, keyframes = 0;
     double time = 0.0; ///< ticks, of the unit
 };
