@@ -434,11 +434,20 @@ struct AudioReader::State
         }
         else if (part().isUnended && isFormat(SF_FORMAT_OGG))
             warn("lacks the mark of its end behind {:.3f} s; it may have been cut off", seconds(here));
+        if (part().preSkip > 0 && part().preSkip >= part().packetFrames && part().packetFrames > 0)
+            return invalid(fmt::format("has a header that leaves out {:.3f} s at its beginning, but only {:.3f} s are "
+                                       "there; get a complete copy",
+                                       static_cast<double>(part().preSkip) / 48000.0,
+                                       static_cast<double>(part().packetFrames) / 48000.0));
         // RFC 7845 advises 80 ms.
         constexpr std::uint64_t mostPreSkip = 4800;
         if (part().preSkip > mostPreSkip)
             warn("has a header that leaves out {:.3f} s at its beginning",
                  static_cast<double>(part().preSkip) / 48000.0);
+        // Programs that level loudness write up to some 30 dB.
+        constexpr double mostGain = 40.0;
+        if (const double gain = part().opusGain / 256.0; std::abs(gain) > mostGain)
+            warn("has a header that makes it {:.0f} dB {}", std::abs(gain), gain < 0.0 ? "softer" : "louder");
         if (part().shiftedFrames > 0)
             warn(
                 "has times by which its first {:.3f} s lie before its start, more than an edit can; all of it is read; "

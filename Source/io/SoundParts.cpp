@@ -557,7 +557,8 @@ private:
                 stream = file.number(offset + 14, 4, false);
                 nextPage = file.number(offset + 18, 4, false);
                 isSound = beginsSound;
-                part.preSkip = preSkipOf(offset);
+                part.preSkip = opusNumber(offset, 10);
+                part.opusGain = static_cast<std::int16_t>(opusNumber(offset, 16));
             }
             else if (beginsSound)
                 ++part.streamsBeside;
@@ -605,11 +606,11 @@ private:
         part.lastTime += shift.frames;
     }
 
-    /// Frames at 48 kHz that the header of Opus on the page at `offset` leaves out (RFC 7845, 5.1), 0 for other sounds.
-    std::uint64_t preSkipOf(std::uint64_t offset)
+    /// A number of 16 bits of the header of Opus on the page at `offset` (RFC 7845, 5.1), 0 for other sounds.
+    std::uint64_t opusNumber(std::uint64_t offset, std::uint64_t place)
     {
         const auto packet = offset + oggHeaderBytes + file.number(offset + 26, 1, true);
-        return file.has(packet, "OpusHead") ? file.number(packet + 10, 2, false) : 0;
+        return file.has(packet, "OpusHead") ? file.number(packet + place, 2, false) : 0;
     }
 
     /// Whether the page at `offset` begins a stream of sound.

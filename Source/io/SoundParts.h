@@ -50,6 +50,7 @@ struct SoundPart
     std::uint64_t preSkip = 0;                   ///< of Opus: frames at 48 kHz that its header leaves out
     std::uint64_t packetFrames = 0;              ///< of an Ogg stream: frames of all packets, those of Opus at 48 kHz
     std::uint64_t framesLeftOut = 0;             ///< of these, left out at the end by its times
+    int opusGain = 0;                            ///< of Opus: dB / 256 that its header adds
     std::uint64_t shiftedFrames = 0;             ///< of an Ogg stream, by which its times are too early
     std::uint64_t lostPages = 0;                 ///< of an Ogg stream, which counts them
     std::uint64_t damagedPages = 0;              ///< of an Ogg stream, with wrong checksums, which decoders leave out

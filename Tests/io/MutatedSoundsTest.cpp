@@ -857,20 +857,27 @@ TEST_CASE("An Opus that leaves out more of its beginning than a decoder needs to
     const auto opus = bytesOf(testFolder() / "io/audio/tone.opus");
     const auto place = opus.find("OpusHead");
     const auto second = opus.find("OggS", place);
-    const auto withSkip = [&](std::uint64_t frames)
+    const auto withNumber = [&](std::size_t at, std::uint64_t number)
     {
         auto packet = opus.substr(place, second - place);
-        packet.replace(10, 2, littleEndian(frames, 2));
+        packet.replace(at, 2, littleEndian(number, 2));
         return oggPageBytes(opus.substr(0, 26), opus.substr(26 + 1, static_cast<unsigned char>(opus[26])), packet, 0) +
                opus.substr(second);
     };
-    const auto usual = readAudio(put(folder / "x", withSkip(3840)));
+    const auto usual = readAudio(put(folder / "x", withNumber(10, 3840)));
     REQUIRE(usual.ok());
     CHECK(usual->warnings.empty());
-    const auto longer = readAudio(put(folder / "x", withSkip(24000)));
+    const auto longer = readAudio(put(folder / "x", withNumber(10, 24000)));
     REQUIRE(longer.ok());
     CHECK(longer->samples.size() < usual->samples.size());
     CHECK(longer->warnings == std::vector<std::string>{"has a header that leaves out 0.500 s at its beginning"});
+    const auto all = readAudio(put(folder / "x", withNumber(10, 65535)));
+    REQUIRE(!all.ok());
+    CHECK(all.error().message.starts_with("has a header that leaves out 1.365 s at its beginning, but only 1.0"));
+    // Its gain, dB / 256.
+    CHECK(readAudio(put(folder / "x", withNumber(16, 20 * 256)))->warnings.empty());
+    CHECK(readAudio(put(folder / "x", withNumber(16, 65536 - 60 * 256)))->warnings ==
+          std::vector<std::string>{"has a header that makes it 60 dB softer"});
 }
 
 TEST_CASE("What the times of an Ogg leave out at its end, and a page of wrong sums and times, are told", "[io][audio]")
