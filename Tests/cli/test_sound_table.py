@@ -222,6 +222,21 @@ class SoundTable(CommandTest):
         self.assertEqual(self.encode(b"".join(others)), 0, self.said)
         self.reads_with_a_word(says, b"".join([ogg_page(long, 0), *others[1:]]), "leaves out 0.500 s",
                                self.clip_read["duration"] - 0.5 + struct.unpack("<H", others[0][38:40])[0] / 48000)
+        says = self.row("an Opus that leaves out all of its sound")
+        long[28 + 10:28 + 12] = b"\xff\xff"
+        self.refuses(says, b"".join([ogg_page(long, 0), *others[1:]]), "leaves out 1.365 s")
+        says = self.row("an Opus that its header makes more")
+        soft = bytearray(others[0])
+        soft[28 + 16:28 + 18] = struct.pack("<h", -60 * 256)
+        self.reads_with_a_word(says, b"".join([ogg_page(soft, 0), *others[1:]]), "makes it 60 dB softer")
+        says = self.row("an Ogg of Vorbis or Opus whose times leave out")
+        end = struct.unpack("<q", pages[-1][6:14])[0]
+        self.reads_with_a_word(says, b"".join([*pages[:-1], ogg_page(pages[-1], end - rate // 8)]), "leave out 0.1",
+                               alone - 0.125)
+        says = self.row("pages of an Ogg whose checksums")
+        wrong = bytearray(pages[2])
+        wrong[13] = 0xf8
+        self.reads_with_a_word(says, b"".join([*pages[:2], bytes(wrong), *pages[3:]]), "checksums, about 0.9", 0.037)
         says = self.row("a WAV, W64 or CAF that states other frames")
         self.reads_with_a_word(says, sound[:32] + struct.pack("<H", 4) + sound[34:], "states frames of 4 bytes")
         says = self.row("two descriptions of its samples")
