@@ -165,6 +165,11 @@ TEST_CASE("What a bundle of Pulsar holds besides is named, and what is wrong ref
               pulsarBundle(R"({"continuousPattern": {"amplitude": [{"time": 5, "value": 1}, {"time": 4, "value": 1}]},
         "discretePattern": []})")) ==
           "haptics/tap.json: continuousPattern.amplitude[1]: is earlier than the point before it");
+    const auto misspelt = readPulsarBundle(pulsarBundle(R"({"continuousPattern": {"amplitud": [], "frequenzy": []},
+        "discretePattern": [{"time": 100, "amplitude": 0.75, "frequency": 0.25}], "audio": 1, "$schema": 2})"));
+    REQUIRE(misspelt);
+    CHECK(misspelt->warnings.size() == 3);
+    CHECK(misspelt->warnings.back() == "continuousPattern.frequenzy: is unknown and left out");
     const auto whole = pulsarBundle();
     for (std::size_t length = 0; length < whole.size(); ++length)
         CHECK_FALSE(readPulsarBundle(whole.substr(0, length)));

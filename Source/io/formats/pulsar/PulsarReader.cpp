@@ -3,6 +3,7 @@
 #ifdef PACINI_HAS_LIBZIP
 
 #include "io/JsonTree.h"
+#include "io/ReadWarnings.h"
 #include "io/formats/ForeignText.h"
 #include "io/formats/ImportReport.h"
 #include "io/formats/JsonEntry.h"
@@ -12,8 +13,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <initializer_list>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -69,11 +72,17 @@ Result<Preset> presetOf(const nlohmann::json& manifest, ImportReport& report)
 class PulsarPattern
 {
 public:
-    PulsarPattern(const nlohmann::json& tree, ImportReport& toFill) : report(toFill), root(&tree, "", report.error) {}
+    PulsarPattern(const nlohmann::json& toRead, ImportReport& toFill)
+        : tree(toRead), report(toFill), root(&toRead, "", report.error)
+    {
+    }
 
     Clip read()
     {
         const JsonEntry continuous = root.required("continuousPattern");
+        warnOfOthers(tree, {"continuousPattern", "discretePattern"}, "");
+        if (const auto found = tree.find("continuousPattern"); found != tree.end())
+            warnOfOthers(*found, {"amplitude", "frequency"}, "continuousPattern.");
         Curve amplitude = curveOf(continuous.optional("amplitude"));
         Curve pitch = curveOf(continuous.optional("frequency"));
         Clip clip;
@@ -109,6 +118,16 @@ public:
     }
 
 private:
+    /// Tells of entries that are not read: a curve under a name that is misspelt would be missing without a word.
+    void warnOfOthers(const nlohmann::json& object, std::initializer_list<std::string_view> known,
+                      std::string_view place)
+    {
+        if (object.is_object())
+            for (const auto& entry : object.items())
+                if (std::find(known.begin(), known.end(), entry.key()) == known.end() && !isRemark(entry.key()))
+                    report.warn(fmt::format("{}{}", place, shownText(entry.key())), "is unknown and left out");
+    }
+
     [[nodiscard]] double timeOf(const JsonEntry& point) const
     {
         const JsonEntry time = point.required("time");
@@ -141,6 +160,7 @@ private:
         return curve;
     }
 
+    const nlohmann::json& tree;
     ImportReport& report;
     JsonEntry root;
 };
