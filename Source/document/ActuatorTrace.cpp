@@ -228,7 +228,9 @@ void addBands(ActuatorTrace& trace, const Clip& clip, const FittedClip& made)
             if (!mine || left.reason == "is silent")
                 continue;
             source.whole = Loss::dropped;
-            source.why = left.reason + (std::isfinite(left.error) ? fmt::format(" ({:.0f} dB)", left.error) : "");
+            source.why = std::isfinite(left.error)
+                             ? fmt::format("left out with an error of {:.0f} dB: {}", left.error, left.reason)
+                             : left.reason;
         }
         const SourceCurves curves{band.amplitude, &band.pitch, band.centreFrequency,
                                   &to.amplitude,  &to.pitch,   to.centreFrequency};

@@ -133,7 +133,7 @@ class Lint(CommandTest):
         several = [dict(steady, lowFrequency=70 * i, centreFrequency=75 * i, highFrequency=80 * i)
                    for i in range(1, 8)]
         self.clip(bands=several, transients=[])
-        self.assertRegex(self.only("bands", "hjif")["message"], "^7 bands share [456]$")  # what is most alike
+        self.assertRegex(self.only("bands", "hjif")["message"], "^7 bands share [456] voices$")  # what is most alike
         self.clip(envelope=[], bands=several, transients=[])  # nothing to level: bands stay as they are
         self.assertNotIn("bands", [loss["kind"] for loss in self.losses("clip.json", "--target", "hjif")])
         self.clip(transients=[weak[0], dict(weak[1], amplitude=0.2)])  # the second is reached by the envelope

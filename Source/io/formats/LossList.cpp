@@ -39,6 +39,13 @@ void LossList::add(LossKind kind, double time, double duration, double error, st
     losses.push_back({kind, time, duration, error, std::move(message)});
 }
 
+void LossList::addShared(const Clip& clip, std::size_t bands, std::size_t voices)
+{
+    add(LossKind::bands, 0.0, clip.duration, 0.0,
+        voices == 1 ? fmt::format("{} bands share {} voice", bands, voices)
+                    : fmt::format("{} bands share {} voices", bands, voices));
+}
+
 void LossList::addMarkers(const Clip& clip)
 {
     for (const Marker& marker : clip.markers)
@@ -177,8 +184,9 @@ void addStrengthLosses(LossList& losses, const Clip& clip, const SingleVoice& vo
 {
     if (!clip.bands.empty())
         losses.add(LossKind::bands, 0.0, clip.duration, 0.0,
-                   fmt::format("only the strength of {} is kept, not the frequency",
-                               clip.bands.size() == 1 ? "the band" : fmt::format("{} bands", clip.bands.size())));
+                   clip.bands.size() == 1
+                       ? "only the strength of the band is kept, not the frequency"
+                       : fmt::format("only the strength of {} bands is kept, not the frequency", clip.bands.size()));
     for (const Transient& event : voice.events)
         losses.add(LossKind::event, event.time, 0.0, 0.0, "events become bursts without sharpness");
     losses.addNoise(clip, inVoice);

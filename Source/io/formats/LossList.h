@@ -5,6 +5,7 @@
 #include "io/formats/ClipFormat.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <iterator>
 #include <string>
 #include <utility>
@@ -69,6 +70,9 @@ public:
 
     /// Adds residual noise where it sounds: left out, or as in `message`.
     void addNoise(const Clip& clip, const std::string& message = {});
+
+    /// Adds that `bands` of a clip play with `voices`, which are fewer.
+    void addShared(const Clip& clip, std::size_t bands, std::size_t voices);
 
     void addMarkers(const Clip& clip);
 

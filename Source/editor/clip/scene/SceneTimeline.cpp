@@ -281,7 +281,7 @@ void SceneTimeline::mouseMove(const juce::MouseEvent& event)
 {
     const auto part = partAt(event.getPosition());
     const auto reason = part ? leftOut.find(*part) : leftOut.end();
-    setTooltip(reason != leftOut.end() ? toText(reason->second)
+    setTooltip(reason != leftOut.end() ? translateMessage(toText(reason->second))
                : part                  ? tr("Drag: moves it; Delete: removes it")
                                        : tr("Click: places the cursor, where clips are added"));
 }

@@ -341,8 +341,7 @@ HjifFile hjifModelOf(const Clip& clip, const ExportParams& params, LossList& los
     const std::size_t room = bandsOfLevel2 - (played.transients.empty() ? 0 : 2); // events take up to two
     if (played.bands.size() > room)
     {
-        losses.add(LossKind::bands, 0.0, clip.duration, 0.0,
-                   fmt::format("{} bands share {}", played.bands.size(), room));
+        losses.addShared(clip, played.bands.size(), room);
         mergeVoices(played, room);
     }
     HjifFile file = Model(played, voices.events, params, limits, losses).file();

@@ -381,8 +381,7 @@ HjifVoices hjifVoicesOf(const Clip& clip, LossList& losses, HjifEffort effort, E
         written = usual(clip, decoder.carriers, taps ? sharesOfAll(clip, usualShare) : TapShares{});
     HjifVoices& all = written.all;
     if (clip.bands.size() > all.clip.bands.size())
-        losses.add(LossKind::bands, 0.0, clip.duration, 0.0,
-                   fmt::format("{} bands share {}", clip.bands.size(), all.clip.bands.size()));
+        losses.addShared(clip, clip.bands.size(), all.clip.bands.size());
     for (std::size_t i = 0; i < written.curves.size(); ++i)
         if (!written.curves[i].empty() && !all.clip.bands[i].amplitude.empty())
             losses.addThinned(all.clip.bands[i].amplitude, written.curves[i]);
