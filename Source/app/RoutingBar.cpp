@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <initializer_list>
 #include <utility>
 
 namespace pacini::app
@@ -66,6 +67,13 @@ RoutingBar::RoutingBar(AudioDevices& wanted)
     prepare(sidechain, sidechainLabel, "Sidechain", "Input of the sidechain");
     prepare(heard, heardLabel, "Sound output", "Output for the sound");
     prepare(haptic, hapticLabel, "Haptic output", "Output, or outputs, connected to the actuators' amplifiers");
+    missing.setText("No audio device is open, so nothing is heard or felt. Click 'Devices' to choose one or to search "
+                    "again.",
+                    juce::dontSendNotification);
+    missing.setTitle("Notice");
+    missing.setFont(editor::usualFont());
+    missing.setMinimumHorizontalScale(1.0f);
+    addChildComponent(missing);
     rig.devices().addChangeListener(this);
     fillMenus();
 }
@@ -82,11 +90,17 @@ void RoutingBar::paint(juce::Graphics& g)
     g.fillRect(getLocalBounds().removeFromBottom(1));
 }
 
+void RoutingBar::lookAndFeelChanged()
+{
+    missing.setColour(juce::Label::textColourId, editor::paletteFor(*this).warning);
+}
+
 void RoutingBar::resized()
 {
     auto area = getLocalBounds().reduced(2 * grid, grid);
     devicesButton.setBounds(area.removeFromLeft(editor::buttonWidth(devicesButton, 11 * grid)));
     area.removeFromLeft(2 * grid);
+    missing.setBounds(area);
     const std::array<std::pair<juce::Label*, juce::ComboBox*>, 4> groups{
         {{&inputLabel, &input}, {&sidechainLabel, &sidechain}, {&heardLabel, &heard}, {&hapticLabel, &haptic}}};
     std::array<int, 4> labels{};
@@ -145,17 +159,25 @@ void RoutingBar::fillMenus()
     heard.setSelectedId(now.mainOutput + 1 < outs.size() ? now.mainOutput + 2 : none, juce::dontSendNotification);
 
     fillHapticMenu(now, outs);
-    // "Nowhere" would be somebody's choice.
-    const bool missing = rig.devices().getCurrentAudioDevice() == nullptr;
+    showMissing(rig.devices().getCurrentAudioDevice() == nullptr);
+}
+
+/// Menus of channels say nothing without a device, and "None" would be somebody's choice.
+void RoutingBar::showMissing(bool isMissing)
+{
     for (juce::ComboBox* box : {&heard, &haptic})
     {
-        box->setTextWhenNothingSelected(missing ? tr("No audio device") : juce::String());
-        if (missing)
+        box->setTextWhenNothingSelected(isMissing ? tr("No audio device") : juce::String());
+        if (isMissing)
             box->setSelectedId(0, juce::dontSendNotification);
-        box->setEnabled(!missing);
+        box->setEnabled(!isMissing);
     }
-    devicesButton.setTooltip(missing ? "No audio device is open: click for help"
-                                     : "Chooses the audio device, sample rate and block size");
+    for (juce::Component* one : std::initializer_list<juce::Component*>{
+             &input, &sidechain, &heard, &haptic, &inputLabel, &sidechainLabel, &heardLabel, &hapticLabel, &fileButton})
+        one->setVisible(!isMissing);
+    missing.setVisible(isMissing);
+    devicesButton.setTooltip(tr(isMissing ? "No audio device is open: click for help"
+                                          : "Chooses the audio device, sample rate and block size"));
 }
 
 /// One actuator, several side by side, or each somewhere.

@@ -14,6 +14,7 @@
 namespace pacini::app
 {
 
+/// While no device is open, a line that says so and what to do stands in the place of the menus.
 class RoutingBar final : public juce::Component, private juce::ChangeListener
 {
 public:
@@ -22,12 +23,14 @@ public:
 
     void paint(juce::Graphics& g) override;
     void resized() override;
+    void lookAndFeelChanged() override;
 
     std::function<void()> onDevices; ///< the button for the sound devices was pressed
 
 private:
     void changeListenerCallback(juce::ChangeBroadcaster*) override { fillMenus(); }
     void fillMenus();
+    void showMissing(bool isMissing);
     void readMenus();
     void fillHapticMenu(const Routing& now, const juce::StringArray& outputs);
     void readHapticMenu(Routing& wanted) const;
@@ -37,6 +40,7 @@ private:
     juce::TextButton devicesButton, fileButton;
     juce::ComboBox input, sidechain, heard, haptic;
     juce::Label inputLabel, sidechainLabel, heardLabel, hapticLabel;
+    juce::Label missing;
     std::unique_ptr<juce::FileChooser> chooser;
 };
 
