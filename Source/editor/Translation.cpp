@@ -100,6 +100,9 @@ std::optional<juce::StringArray> valuesOf(const Template& wanted, const juce::St
         const int found = last ? text.length() - next.length() : text.indexOf(at, next);
         if (found <= at || (last && !text.endsWith(next)) || (next.isEmpty() && !last))
             return std::nullopt;
+        // A number or a name is within a line: what has several is translated line by line.
+        if (!wanted.translated[static_cast<std::size_t>(i - 1)] && text.substring(at, found).containsChar('\n'))
+            return std::nullopt;
         values.add(text.substring(at, found));
         at = found + next.length();
     }

@@ -95,6 +95,9 @@ TEST_CASE("Templates put values where the language has them, and messages are fo
     // A template of few letters says nothing of what a sentence means.
     CHECK(editor::translateMessage("from here to there in s") == "from here to there in s");
     CHECK(editor::translateMessage("travel\nheat") == editor::toText("Weg\nWärme"));
+    // A value is none over several lines, each of which may be a sentence.
+    CHECK(editor::translateMessage("2 of 5 files not opened\n1 of 3 files not opened") ==
+          "von 5 Dateien 2 nicht\nvon 3 Dateien 1 nicht");
     // A value is no template.
     CHECK(editor::tr("{0} points", {"{0}"}) == "{0} Punkte");
     editor::useLanguage("en");
