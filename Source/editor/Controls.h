@@ -3,6 +3,7 @@
 
 // Sliders, buttons and child components, as all windows have them.
 
+#include "editor/Tokens.h"
 #include "editor/Translation.h"
 
 #include <juce_gui_basics/juce_gui_basics.h>
@@ -130,6 +131,45 @@ inline void placeNamed(juce::Label& name, int nameWidth, juce::ComboBox& box, ju
     for (const juce::Label* label : labels)
         widest = std::max(widest, label->getFont().getStringWidth(label->getText()));
     return std::clamp(widest + 8, least, most);
+}
+
+/// A slider, its name, and the width of its number where that stands at the right end of the track.
+struct NamedSlider
+{
+    juce::Label& name;
+    juce::Slider& slider;
+    int numberWidth;
+};
+
+/// Whether sliders with names of `namesWidth` at their left have room for their tracks in lines of this width.
+[[nodiscard]] inline bool hasTracks(std::initializer_list<NamedSlider> sliders, int namesWidth, int lineWidth)
+{
+    return std::all_of(sliders.begin(), sliders.end(),
+                       [&](const NamedSlider& one)
+                       {
+                           const int ends = 2 * one.slider.getLookAndFeel().getSliderThumbRadius(one.slider);
+                           return lineWidth - namesWidth - one.numberWidth - ends >= space::leastTrack;
+                       });
+}
+
+/// A horizontal slider and its name on one line of its parent; `stacked`, for lines without room for the track: the
+/// name and the number above the track.
+inline void placeSlider(const NamedSlider& one, int nameWidth, juce::Rectangle<int> line, bool stacked)
+{
+    auto* parent = one.slider.getParentComponent();
+    const auto style = stacked ? juce::Slider::TextBoxAbove : juce::Slider::TextBoxRight;
+    const int numberHeight = stacked ? 2 * grid : line.getHeight();
+    if (one.slider.getTextBoxPosition() != style || one.slider.getTextBoxHeight() != numberHeight)
+        one.slider.setTextBoxStyle(style, false, one.numberWidth, numberHeight);
+    // The name lies in the slider then: a click on it is none on the track.
+    auto* holder = stacked ? &one.slider : parent;
+    if (holder != nullptr && one.name.getParentComponent() != holder)
+        holder->addAndMakeVisible(one.name);
+    if (stacked)
+        one.name.setBounds(0, 0, line.getWidth() - one.numberWidth, numberHeight);
+    else
+        one.name.setBounds(line.removeFromLeft(nameWidth));
+    one.slider.setBounds(line);
 }
 
 /// Adds children in this order, visible.

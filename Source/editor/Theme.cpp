@@ -16,6 +16,7 @@ namespace
 const juce::Identifier quietProperty("quiet");
 const juce::Identifier primaryProperty("primary");
 const juce::Identifier originProperty("origin");
+constexpr float sliderThumb = 12.0f;
 constexpr float disabledAlpha = 0.45f;
 
 /// Whether a value goes both ways.
@@ -215,7 +216,8 @@ void Look::drawRotarySlider(juce::Graphics& g, int x, int y, int width, int heig
     drawFocusRing(g, slider, slider.getLocalBounds().toFloat());
 }
 
-/// A knob has its number right below it, however tall its box is.
+/// A knob has its number right below it, however tall its box is. A slider whose number is above its track has it at
+/// the right end, since the slider's name stands at the left one.
 juce::Slider::SliderLayout Look::getSliderLayout(juce::Slider& slider)
 {
     auto layout = juce::LookAndFeel_V4::getSliderLayout(slider);
@@ -226,6 +228,12 @@ juce::Slider::SliderLayout Look::getSliderLayout(juce::Slider& slider)
         const int top = std::max(0, (slider.getHeight() - knob - text) / 2);
         layout.sliderBounds = {(slider.getWidth() - knob) / 2, top, knob, knob};
         layout.textBoxBounds = {0, top + knob, slider.getWidth(), text};
+    }
+    if (slider.isHorizontal() && slider.getTextBoxPosition() == juce::Slider::TextBoxAbove)
+    {
+        auto area = slider.getLocalBounds();
+        layout.textBoxBounds = area.removeFromTop(slider.getTextBoxHeight()).removeFromRight(slider.getTextBoxWidth());
+        layout.sliderBounds = area.reduced(static_cast<int>(sliderThumb) / 2, 0); // in line with both texts
     }
     return layout;
 }
@@ -250,7 +258,7 @@ void Look::drawLinearSlider(juce::Graphics& g, int x, int y, int width, int heig
         g.fillRect(juce::Rectangle<float>(from - 0.5f, middle - 5.0f, 1.0f, 10.0f));
     }
     g.setColour(enabled ? p.text : p.dim);
-    g.fillEllipse(juce::Rectangle<float>(12.0f, 12.0f).withCentre({position, middle}));
+    g.fillEllipse(juce::Rectangle<float>(sliderThumb, sliderThumb).withCentre({position, middle}));
     drawFocusRing(g, slider, slider.getLocalBounds().toFloat());
 }
 
@@ -451,6 +459,8 @@ juce::Label* Look::createSliderTextBox(juce::Slider& slider)
     label->setColour(juce::Label::backgroundColourId, juce::Colours::transparentBlack);
     label->setColour(juce::Label::backgroundWhenEditingColourId, palette().well);
     label->setBorderSize({});
+    if (slider.isHorizontal() && slider.getTextBoxPosition() == juce::Slider::TextBoxAbove)
+        label->setJustificationType(juce::Justification::centredRight);
     return label;
 }
 

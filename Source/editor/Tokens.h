@@ -76,6 +76,7 @@ inline constexpr float corner = 4.0f; ///< of controls
 inline constexpr float cardCorner = 6.0f;
 inline constexpr int leastKnob = 32; ///< diameter
 inline constexpr int mostKnob = 64;
+inline constexpr int leastTrack = 80; ///< length of a slider's track, so that a step of the mouse is a small one
 } // namespace space
 
 /// Heights of type, from the top of the highest letter to the bottom of the lowest.

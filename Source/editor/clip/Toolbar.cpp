@@ -16,7 +16,8 @@ namespace
 {
 constexpr int plainDrive = 1; // menus know no item 0; profiles follow
 constexpr int fromFile = 100000;
-constexpr int sliderWidth = 124;
+constexpr int strengthNumber = 6 * grid;
+constexpr int sliderWidth = space::leastTrack + strengthNumber + 3 * grid; // with the thumb at both ends
 constexpr int iconWidth = 34, playWidth = 52;
 constexpr int leastClips = 104;
 constexpr int leastHeard = 76, mostHeard = 140, leastLabel = 28;
@@ -94,7 +95,7 @@ Toolbar::Toolbar(EditorModel& project, Actuators& profiles, Transport& playing)
         strength, strengthLabel, "Strength",
         "Fidelity versus strength: 0 % is as faithful as possible, 100 % plays everything at the actuator's resonance");
     strength.setSliderStyle(juce::Slider::LinearHorizontal);
-    strength.setTextBoxStyle(juce::Slider::TextBoxRight, false, 6 * grid, 3 * grid);
+    strength.setTextBoxStyle(juce::Slider::TextBoxRight, false, strengthNumber, 3 * grid);
     strength.setRange(0.0, 100.0, 1.0);
     strength.setTextValueSuffix(" %");
     strength.setDoubleClickReturnValue(true, 100.0 * standardStrength);

@@ -18,6 +18,7 @@ namespace pacini::editor
 namespace
 {
 constexpr int rowHeight = 3 * grid;
+constexpr int numberWidth = 7 * grid + 4;
 constexpr int preferredHeight = 94 * grid;
 constexpr int labelWidth = 9 * grid;
 constexpr int pause = 350; // ms without a change
@@ -183,7 +184,7 @@ void AnalysisPanel::prepare(Which which, const juce::String& name, const juce::S
     prepareLabel(one.name, name, smallFont());
     one.name.setBorderSize({});
     one.slider.setSliderStyle(juce::Slider::LinearHorizontal);
-    one.slider.setTextBoxStyle(juce::Slider::TextBoxRight, false, 7 * grid + 4, rowHeight);
+    one.slider.setTextBoxStyle(juce::Slider::TextBoxRight, false, numberWidth, rowHeight);
     one.slider.setTextValueSuffix(unit);
     one.slider.setTitle(name);
     one.slider.setTooltip(help);
@@ -405,20 +406,18 @@ void AnalysisPanel::resized()
     };
     line = row();
     placeNamed(presetLabel, labels, preset, line);
-    for (const Which which : {bands, low, high})
+    const auto named = [this](Which which)
     {
-        line = row();
-        knobs[which].name.setBounds(line.removeFromLeft(labels - grid));
-        knob(which).setBounds(line);
-    }
+        return NamedSlider{knobs[which].name, knob(which), numberWidth};
+    };
+    // All look alike.
+    const bool above = !hasTracks({named(bands)}, labels - grid, inside.getWidth());
+    for (const Which which : {bands, low, high})
+        placeSlider(named(which), labels - grid, row(), above);
     line = row();
     placeNamed(spacingLabel, labels, spacing, line);
     for (const Which which : {detail, sensitivity, audible, speech, bits})
-    {
-        line = row();
-        knobs[which].name.setBounds(line.removeFromLeft(labels - grid));
-        knob(which).setBounds(line);
-    }
+        placeSlider(named(which), labels - grid, row(), above);
     line = row();
     if (stacked)
     {

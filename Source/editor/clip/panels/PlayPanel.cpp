@@ -19,6 +19,7 @@ namespace
 constexpr int playRowHeight = 3 * grid;
 constexpr int playPreferredHeight = 56 * grid;
 constexpr int playLabelWidth = 9 * grid;
+constexpr int playNumberWidth = 8 * grid;
 constexpr double leastDecibels = CharacterSettings::leastGain, mostDecibels = CharacterSettings::mostGain;
 constexpr int noPan = 1; // menus know no item 0; the laws follow
 constexpr int neutral = 1;
@@ -118,7 +119,7 @@ void PlayPanel::prepare(Row& row, const juce::String& name, const juce::String& 
     row.label.setBorderSize({});
     juce::Slider& slider = row.slider;
     slider.setSliderStyle(juce::Slider::LinearHorizontal);
-    slider.setTextBoxStyle(juce::Slider::TextBoxRight, false, 8 * grid, playRowHeight);
+    slider.setTextBoxStyle(juce::Slider::TextBoxRight, false, playNumberWidth, playRowHeight);
     slider.setTitle(name);
     slider.setTooltip(help);
     slider.setRange(range, step);
@@ -222,12 +223,16 @@ void PlayPanel::resized()
     const int boxLabels = labelsWidth({&presetLabel, &panLabel}, playLabelWidth, 12 * grid);
     const int labels =
         labelsWidth({&gain.label, &intensity.label, &pitch.label, &speed.label, &position.label}, boxLabels, 12 * grid);
-    const auto put = [&](juce::Rectangle<int>& from, juce::Component& label, juce::Component& control)
+    const auto named = [](Row& row)
     {
-        auto line = from.removeFromTop(playRowHeight);
-        from.removeFromTop(grid);
-        label.setBounds(line.removeFromLeft(labels));
-        control.setBounds(line);
+        return NamedSlider{row.label, row.slider, playNumberWidth};
+    };
+    const bool above = !hasTracks({named(gain)}, labels, inside.getWidth());
+    const auto put = [&](juce::Rectangle<int>& from, Row& row)
+    {
+        // Stacked, a row takes some of the gap to the next as well.
+        placeSlider(named(row), labels, from.removeFromTop(playRowHeight + (above ? 4 : 0)), above);
+        from.removeFromTop(above ? grid - 4 : grid);
     };
     const auto putBox = [&](juce::Rectangle<int>& from, juce::Label& label, juce::ComboBox& box)
     {
@@ -236,14 +241,14 @@ void PlayPanel::resized()
     };
     putBox(inside, presetLabel, preset);
     for (Row* row : {&gain, &intensity, &pitch, &speed})
-        put(inside, row->label, row->slider);
+        put(inside, *row);
     auto line = inside.removeFromTop(playRowHeight + 4);
     resetButton.setBounds(line.removeFromLeft(std::min(buttonWidth(resetButton, 9 * grid), line.getWidth())));
     inside.removeFromTop(grid);
     note.setBounds(inside);
     inside = insideOfCard(rowCard);
     putBox(inside, panLabel, pan);
-    put(inside, position.label, position.slider);
+    put(inside, position);
 }
 
 } // namespace pacini::editor
