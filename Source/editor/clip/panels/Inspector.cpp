@@ -28,6 +28,14 @@ juce::String stretchText(TimeRange range)
 
 constexpr int inspectorRowHeight = 3 * grid;
 constexpr int inspectorPreferredHeight = 75 * grid;
+constexpr int fadeRow = inspectorRowHeight + 4 + grid;
+
+/// Whether words for the fades are too long for two buttons side by side in the usual width of the panel.
+bool fadesAreStacked()
+{
+    constexpr int half = 11 * grid;
+    return std::max(usualFont().getStringWidth(tr("Fade in")), usualFont().getStringWidth(tr("Fade out"))) > half;
+}
 
 /// The first thing selected.
 struct FirstThing
@@ -90,7 +98,7 @@ Inspector::Inspector(EditorView& shown)
     button(fadeInButton, fadeIn, "Fades in over the selection, the time range or the clip");
     button(fadeOutButton, fadeOut, "Fades out over the selection, the time range or the clip");
     button(reverseButton, reverse, "Reverses the whole clip");
-    setSize(200, inspectorPreferredHeight);
+    setSize(200, inspectorPreferredHeight + (fadesAreStacked() ? fadeRow : 0));
     addChildComponent(chip);
     subscriptions.on({&model.contentChanged, &clipSelection.changed, &clipSelection.rangeChanged},
                      [this] { showSelection(); });
@@ -343,14 +351,20 @@ void Inspector::resized()
     row(inside, timeLabel, timeField);
     row(inside, valueLabel, valueField);
     row(inside, sharpLabel, sharpField);
-    inside = card(levelCard, 20 * grid);
+    const bool stacked = fadesAreStacked();
+    inside = card(levelCard, 20 * grid + (stacked ? fadeRow : 0));
     gainLabel.setBounds(inside.removeFromTop(2 * grid));
     gain.setBounds(inside.removeFromTop(inspectorRowHeight + 4));
     inside.removeFromTop(grid);
     auto line = inside.removeFromTop(inspectorRowHeight + 4);
-    const int half = (line.getWidth() - grid) / 2;
-    fadeInButton.setBounds(line.removeFromLeft(half));
-    line.removeFromLeft(grid);
+    fadeInButton.setBounds(stacked ? line : line.removeFromLeft((line.getWidth() - grid) / 2));
+    if (stacked)
+    {
+        inside.removeFromTop(grid);
+        line = inside.removeFromTop(inspectorRowHeight + 4);
+    }
+    else
+        line.removeFromLeft(grid);
     fadeOutButton.setBounds(line);
     inside.removeFromTop(grid);
     reverseButton.setBounds(inside.removeFromTop(inspectorRowHeight + 4));

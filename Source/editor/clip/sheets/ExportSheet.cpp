@@ -452,10 +452,12 @@ void ExportSheet::write(const Clips& clips, const std::vector<ExportChoice>& wan
 
 void ExportSheet::layOut(juce::Rectangle<int> area)
 {
+    const int labels =
+        labelsWidth({&formatLabel, &rateLabel, &eventsLabel, &targetLabel, &lossLabel}, labelWidth, 18 * grid);
     const auto row = [&](juce::Label& label)
     {
         auto line = area.removeFromTop(rowHeight);
-        label.setBounds(line.removeFromLeft(labelWidth));
+        label.setBounds(line.removeFromLeft(labels));
         area.removeFromTop(grid);
         return line;
     };
@@ -474,7 +476,7 @@ void ExportSheet::layOut(juce::Rectangle<int> area)
     browseButton.setBounds(line.removeFromRight(buttonWidth(browseButton, 11 * grid)));
     line.removeFromRight(grid);
     target.setBounds(line);
-    lossLabel.setBounds(area.removeFromLeft(labelWidth).removeFromTop(rowHeight));
+    lossLabel.setBounds(area.removeFromLeft(labels).removeFromTop(rowHeight));
     table.setVisible(!table.isEmpty());
     if (table.isVisible())
         table.setBounds(area.removeFromBottom(area.getHeight() - 7 * grid).withTrimmedTop(grid));
