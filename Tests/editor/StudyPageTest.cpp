@@ -4,10 +4,15 @@
 
 #include "editor/Bench.h"
 #include "editor/Pump.h"
+#include "editor/Translation.h"
+#include "study/StudyTemplates.h"
 #include "support/TempFolder.h"
 
+#include <cstdlib>
 #include <memory>
+#include <string>
 #include <utility>
+#include <vector>
 
 using namespace pacini;
 using namespace pacini::test;
@@ -237,4 +242,73 @@ TEST_CASE("The set-up tells how many of the planned participants there were, and
         if (const auto* shown = dynamic_cast<editor::Paragraph*>(child))
             setUp << shown->text();
     CHECK(setUp.contains("Participants so far: 1 of 12."));
+}
+
+// For somebody who looks at all of them: PACINI_LOOK=folder build/release/bin/pacini_editor_tests "[look-study]"
+TEST_CASE("Pictures of a study's pages in two sizes and languages", "[.look-study]")
+{
+    const char* const wanted = std::getenv("PACINI_LOOK");
+    REQUIRE(wanted != nullptr);
+    const juce::File to(wanted);
+    REQUIRE(to.createDirectory());
+    const juce::ScopedJuceInitialiser_GUI gui;
+    using State = editor::StudyPage::State;
+    for (const char* language : {"en", "de"})
+        for (const auto& [width, height] : {std::pair(1280, 800), std::pair(1920, 1080)})
+            for (const auto& one : study::studyTemplates())
+            {
+                editor::useLanguage(language);
+                const TempFolder folder;
+                InstantDevice device;
+                editor::StudyServices services;
+                services.player = &device;
+                services.outputNames = []
+                {
+                    return juce::StringArray{"1", "2", "3", "4"};
+                };
+                services.wire = [](int, int, int) {
+                };
+                std::vector<std::string> sounds;
+                for (const char* name : {"knock_wood_bridge", "impact_boom", "click_clock", "texture_river"})
+                    sounds.push_back(demoSound(name).string());
+                auto study = study::makeStudy(one.name, sounds);
+                REQUIRE(study);
+                editor::StudyPage page({*study, folder.path()}, services);
+                page.setSize(width, height);
+                const auto keep = [&](const juce::String& name)
+                {
+                    pumpFor(0.1);
+                    const auto file = to.getChildFile("study-" + juce::String(one.name.data()) + "-" + name + "-" +
+                                                      language + "-" + juce::String(width) + ".png");
+                    file.deleteFile();
+                    juce::FileOutputStream out(file);
+                    REQUIRE(juce::PNGImageFormat().writeImageToStream(
+                        page.createComponentSnapshot(page.getLocalBounds(), true, 1.0f), out));
+                };
+                const bool all = one.name == "mushra";
+                if (all)
+                    keep("set-up");
+                for (int step = 0; step < 6 && page.state() != State::trial; ++step)
+                {
+                    const State before = page.state();
+                    if (before == State::consent)
+                        for (auto* child : page.getChildren())
+                        {
+                            auto* button = dynamic_cast<editor::LargeButton*>(child);
+                            if (button != nullptr && button->getButtonText() == editor::tr("I agree"))
+                                button->triggerClick();
+                        }
+                    if (before == State::comfort)
+                        page.control(editor::Control::play);
+                    pumpFor(0.1);
+                    page.control(editor::Control::next);
+                    (void)pumpUntil([&] { return page.state() != before; });
+                    if (all && page.state() != State::trial)
+                        keep("step-" + juce::String(step));
+                }
+                keep("trial");
+                page.control(editor::Control::play);
+                keep("played");
+            }
+    editor::useLanguage("en");
 }
