@@ -439,12 +439,15 @@ public:
                 row->field = std::make_unique<juce::TextEditor>(question);
                 row->field->setTitle(question);
                 row->field->setFont(participantFont());
+                row->field->setIndents(grid, 0);
+                row->field->setJustification(juce::Justification::centredLeft);
                 row->field->setSelectAllWhenFocused(true);
                 row->field->setInputRestrictions(item.kind == study::QuestionKind::number ? 20 : 1000);
                 row->field->setEscapeAndReturnKeysConsumed(false);
                 if (item.kind == study::QuestionKind::number)
-                    row->field->setTextToShowWhenEmpty(
-                        juce::String(item.scale.low) + " - " + juce::String(item.scale.high), juce::Colours::grey);
+                    row->field->setTextToShowWhenEmpty(juce::String(item.scale.low) + juce::String::fromUTF8("–") +
+                                                           juce::String(item.scale.high),
+                                                       juce::Colours::grey);
                 row->field->onTextChange = [this]
                 {
                     changed();

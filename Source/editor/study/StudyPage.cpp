@@ -258,13 +258,13 @@ void StudyPage::addOutputBoxes()
     if (touchOut == soundOut || touchOut >= outputs.size())
         touchOut =
             outputs.size() >= 2 + study().row.actuators ? 2 : std::max(0, outputs.size() - study().row.actuators);
-    addBox(tr("Sound on"), outputs, soundOut,
+    addBox(tr("Sound output"), outputs, soundOut,
            [this](int index)
            {
                soundOut = index;
                wire();
            });
-    addBox(tr("Touch on"), outputs, touchOut,
+    addBox(tr("Haptic output"), outputs, touchOut,
            [this](int index)
            {
                touchOut = index;
@@ -297,7 +297,7 @@ void StudyPage::buildSetUp()
                  {juce::String(study().groups.size()), juce::String(study::sessionLogs(place.folder).size()),
                   juce::String(study::participantsOf(study()))}));
     addLanguageBox();
-    juce::StringArray actuators{tr("None: plain drive")};
+    juce::StringArray actuators{tr("No actuator")};
     int chosen = 0;
     for (const NamedProfile& one : services.profiles)
     {
