@@ -158,7 +158,7 @@ inline void placeSlider(const NamedSlider& one, int nameWidth, juce::Rectangle<i
 {
     auto* parent = one.slider.getParentComponent();
     const auto style = stacked ? juce::Slider::TextBoxAbove : juce::Slider::TextBoxRight;
-    const int numberHeight = stacked ? 2 * grid : line.getHeight();
+    const int numberHeight = stacked ? std::min(2 * grid, line.getHeight() - 12) : line.getHeight();
     if (one.slider.getTextBoxPosition() != style || one.slider.getTextBoxHeight() != numberHeight)
         one.slider.setTextBoxStyle(style, false, one.numberWidth, numberHeight);
     // The name lies in the slider then: a click on it is none on the track.

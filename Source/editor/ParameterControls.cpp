@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/ParameterControls.h"
 
+#include "editor/Controls.h"
 #include "editor/ParameterMenu.h"
 #include "editor/Theme.h"
 #include "editor/Translation.h"
@@ -14,6 +15,7 @@ namespace pacini::editor
 
 namespace
 {
+constexpr int barNumber = 7 * grid; // width of the number of a slider
 constexpr int mostKnobHeight = space::mostKnob + 4 + 2 * (2 * grid + 2);
 
 /// Draws the value from 0 where that is its rest in the middle of the way, as of a gain or a transposition.
@@ -68,7 +70,7 @@ ParameterSlider::ParameterSlider(juce::AudioProcessorParameter& shown, Shape wan
     {
         return static_cast<double>(parameter.getValueForText(text));
     };
-    slider.setTextBoxStyle(knob ? juce::Slider::TextBoxBelow : juce::Slider::TextBoxRight, false, 7 * grid,
+    slider.setTextBoxStyle(knob ? juce::Slider::TextBoxBelow : juce::Slider::TextBoxRight, false, barNumber,
                            2 * grid + 2);
     slider.setDoubleClickReturnValue(true, static_cast<double>(parameter.getDefaultValue()));
     setOriginOf(slider, parameter);
@@ -144,13 +146,22 @@ void ParameterSlider::resized()
     if (shape == Shape::knob)
         area = area.withSizeKeepingCentre(area.getWidth(), std::min(area.getHeight(), mostKnobHeight));
     if (shape == Shape::knob)
+    {
         title.setBounds(area.removeFromTop(2 * grid + 2));
+        slider.setBounds(area);
+    }
     else
-        title.setBounds(area.removeFromLeft(
-            title.getText().isEmpty() ? 0 : std::min(std::max(11 * grid - 2, nameWidth()), area.getWidth() / 2)));
+    {
+        const int names =
+            title.getText().isEmpty() ? 0 : std::min(std::max(11 * grid - 2, nameWidth()), area.getWidth() / 2);
+        const NamedSlider named{title, slider, barNumber};
+        const bool above = !hasTracks({named}, names, area.getWidth());
+        title.setInterceptsMouseClicks(above, false); // the slider is below it then
+        title.setBorderSize(above ? juce::BorderSize<int>() : juce::Label().getBorderSize());
+        placeSlider(named, names, area, above);
+    }
     // Names that have no room in a language are a size smaller before they are cut.
     title.setFont(nameWidth() - grid / 2 <= title.getWidth() ? smallFont() : captionFont());
-    slider.setBounds(area);
 }
 
 int ParameterSlider::nameWidth() const

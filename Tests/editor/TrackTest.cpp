@@ -1,14 +1,10 @@
 // The tracks of sliders are long enough to set a value with the mouse, in every language and size of window.
 
 #include "editor/Bench.h"
-#include "editor/Text.h"
-#include "editor/Translation.h"
+#include "editor/Tracks.h"
 #include "editor/clip/panels/SidePanel.h"
 
 #include <array>
-#include <fstream>
-#include <iterator>
-#include <string>
 #include <utility>
 
 using namespace pacini;
@@ -16,34 +12,6 @@ using namespace pacini::test;
 
 namespace
 {
-/// Sliders inside of `root` whose tracks are shorter than they may be, and names that are cut.
-void addShortTracks(juce::Component& root, const juce::String& where, juce::StringArray& found)
-{
-    if (auto* slider = dynamic_cast<juce::Slider*>(&root);
-        slider != nullptr && slider->isHorizontal() && slider->isVisible() && slider->getWidth() > 0)
-    {
-        const int track = slider->getLookAndFeel().getSliderLayout(*slider).sliderBounds.getWidth();
-        if (track < editor::space::leastTrack)
-            found.addIfNotAlreadyThere(where + ", " + slider->getTitle() + ": " + juce::String(track));
-        for (auto* child : slider->getChildren())
-            if (auto* label = dynamic_cast<juce::Label*>(child);
-                label != nullptr && label->getFont().getStringWidth(label->getText()) > label->getWidth())
-                found.addIfNotAlreadyThere(where + ", " + slider->getTitle() + ": " + label->getText() + " is cut");
-    }
-    for (auto* child : root.getChildren())
-        addShortTracks(*child, where, found);
-}
-
-/// A language by its table: a machine for tests may lack the font.
-void useTableOf(const juce::String& code)
-{
-    editor::useLanguage("en");
-    if (code == "en")
-        return;
-    std::ifstream file(sourceFolder() / "Resources/translations" / (code + ".txt").toStdString(), std::ios::binary);
-    editor::useTranslations(editor::toText(std::string(std::istreambuf_iterator<char>(file), {})));
-}
-
 constexpr std::array sizes{std::pair(880, 560), std::pair(1024, 700), std::pair(1280, 800), std::pair(1920, 1080),
                            std::pair(2560, 1440)};
 } // namespace

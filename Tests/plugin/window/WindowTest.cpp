@@ -2,6 +2,7 @@
 
 #include "editor/CaptureJob.h"
 #include "editor/Pump.h"
+#include "editor/Tracks.h"
 #include "editor/Unmarked.h"
 #include "io/ClipFile.h"
 #include "io/ClipSeal.h"
@@ -127,7 +128,14 @@ TEST_CASE("Names of controls are of one size of type, also where one is long in 
                          {
                              if (dynamic_cast<editor::ParameterSlider*>(&child) == nullptr)
                                  return;
-                             const auto* name = dynamic_cast<juce::Label*>(child.getChildComponent(0));
+                             const juce::Label* name = nullptr; // which screen readers have from the slider
+                             forEachChild(child,
+                                          [&](juce::Component& inside)
+                                          {
+                                              const auto* label = dynamic_cast<juce::Label*>(&inside);
+                                              if (label != nullptr && !label->isAccessible())
+                                                  name = label;
+                                          });
                              REQUIRE(name != nullptr);
                              CAPTURE(language, size.toString(), name->getText());
                              CHECK(name->getFont().getHeight() == editor::smallFont().getHeight());
@@ -164,7 +172,8 @@ TEST_CASE("Text that is no value leaves a control as it is, and its text comes b
                  [&](juce::Component& child)
                  {
                      auto* box = dynamic_cast<juce::Label*>(&child);
-                     if (box == nullptr || child.findParentComponentOfClass<juce::Slider>() == nullptr)
+                     if (box == nullptr || child.findParentComponentOfClass<juce::Slider>() == nullptr ||
+                         !box->isAccessible()) // the name above a track
                          return;
                      ++boxes;
                      const auto shown = box->getText();
@@ -326,6 +335,29 @@ TEST_CASE("No control lies on another one or outside of the window, at any size"
             }
         }
     }
+}
+
+TEST_CASE("Every slider of the window has a track of 80 points, in every language and size")
+{
+    const juce::ScopedJuceInitialiser_GUI gui;
+    juce::StringArray found;
+    auto codes = editor::languages();
+    codes.insert(0, "en");
+    for (const auto& code : codes)
+    {
+        useTableOf(code);
+        WindowRig rig;
+        plugin::PluginWindow window(rig.plugin);
+        for (const auto size : {juce::Point<int>(936, 608), juce::Point<int>(1024, 648), juce::Point<int>(1280, 800),
+                                juce::Point<int>(1920, 1080), juce::Point<int>(2560, 1440)})
+        {
+            window.setSize(size.x, size.y);
+            addShortTracks(window, code + " " + juce::String(size.x), found);
+        }
+    }
+    editor::useLanguage("en");
+    INFO(found.joinIntoString("\n"));
+    CHECK(found.isEmpty());
 }
 
 TEST_CASE("Windows open and close while sound plays on another thread")
