@@ -16,7 +16,7 @@ namespace
 {
 constexpr int plainDrive = 1; // menus know no item 0; profiles follow
 constexpr int fromFile = 100000;
-constexpr int strengthNumber = 6 * grid;
+constexpr int strengthNumber = 5 * grid;
 constexpr int sliderWidth = space::leastTrack + strengthNumber + 3 * grid; // with the thumb at both ends
 constexpr int iconWidth = 34, playWidth = 52;
 constexpr int leastClips = 104;
@@ -203,7 +203,7 @@ void Toolbar::resized()
     const int menusNeed =
         leastHeard + leastClips + smallFont().getStringWidth(profile.getItemText(0)) + 4 * grid; // "No actuator"
     const bool narrow =
-        area.getWidth() - 3 * (iconWidth + 4) - sliderWidth - 5 * grid < std::max(leastMenus, menusNeed);
+        area.getWidth() - 3 * (iconWidth + 4) - sliderWidth - 2 * grid < std::max(leastMenus, menusNeed);
     for (juce::Component* one : std::initializer_list<juce::Component*>{&zoomOutButton, &zoomInButton, &fitButton})
         one->setVisible(!narrow);
     if (!narrow)
