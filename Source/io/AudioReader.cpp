@@ -446,8 +446,10 @@ struct AudioReader::State
                  static_cast<double>(part().preSkip) / 48000.0);
         // Programs that level loudness write up to some 30 dB.
         constexpr double mostGain = 40.0;
-        if (const double gain = part().opusGain / 256.0; std::abs(gain) > mostGain)
-            warn("has a header that makes it {:.0f} dB {}", std::abs(gain), gain < 0.0 ? "softer" : "louder");
+        if (const double gain = part().opusGain / 256.0; gain > mostGain)
+            warn("has a header that makes it {:.0f} dB louder", gain);
+        else if (gain < -mostGain)
+            warn("has a header that makes it {:.0f} dB softer", -gain);
         if (part().shiftedFrames > 0)
             warn(
                 "has times by which its first {:.3f} s lie before its start, more than an edit can; all of it is read; "

@@ -9,9 +9,10 @@ namespace pacini::detail
 {
 
 /// The end of a message on a document whose format is named `given`: what such documents are for. Empty for formats
-/// that are not Pacini's.
-[[nodiscard]] inline const char* useOfFormat(std::string_view given)
+/// that are not Pacini's, and in the runtime, which neither commands nor an editor belong to.
+[[nodiscard]] inline const char* useOfFormat([[maybe_unused]] std::string_view given)
 {
+#if !defined(PACINI_READERS_ONLY)
     struct Use
     {
         const char* name;
@@ -30,6 +31,7 @@ namespace pacini::detail
     for (const auto& [name, use] : uses)
         if (given == name)
             return use;
+#endif
     return "";
 }
 

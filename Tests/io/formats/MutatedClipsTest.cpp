@@ -159,7 +159,7 @@ TEST_CASE("What an HMPG holds beside what is read, and what it lacks, is told", 
     silent[units.at(1)] = static_cast<char>(3u << 2u);
     const auto said = warningsOf(silent);
     REQUIRE(!said.empty());
-    CHECK(said.front().ends_with("the content of a unit of silence is left out"));
+    CHECK(said.front().ends_with("content in a silent unit is left out"));
     // Another number of ticks a second on the way.
     HmpgBitWriter timing;
     timing.put(static_cast<std::uint64_t>(HmpgPacket::firstTiming), 6);

@@ -126,7 +126,7 @@ private:
         else if (kind == static_cast<std::uint64_t>(HmpgUnit::silent))
         {
             if (length > 0)
-                leaveOut(at, "the content of a unit of silence");
+                leaveOut(at, "content in a silent unit");
         }
         else
             leaveOut(at, kind == static_cast<std::uint64_t>(HmpgUnit::spatial) ? "a unit of spatial haptics"
@@ -206,7 +206,7 @@ private:
                                         HmpgPacket::checksumOfAll16, HmpgPacket::checksumOfAll32};
         if (bits.wholeBytesLeft() > 0 && !isLeftOut &&
             std::find(std::begin(whole), std::end(whole), static_cast<HmpgPacket>(kind)) != std::end(whole))
-            leaveOut(at, "what follows the content of a packet");
+            leaveOut(at, "what follows in a packet");
         isLeftOut = false;
         return first + static_cast<std::size_t>(length);
     }
@@ -318,7 +318,7 @@ private:
             const HjifBand& first = file.perceptions[known.perception].channels[known.channel].bands[known.band];
             if (known.perception != owner || known.channel != channel || first.type != band.type ||
                 first.low != band.low || first.high != band.high)
-                leaveOut(place, "a band with the number of another");
+                leaveOut(place, "a second band of its number");
             return;
         }
         auto& siblings = file.perceptions[owner].channels[channel].bands;
@@ -338,7 +338,7 @@ private:
                 continue;
             const auto& found = file.perceptions[known.perception].channels[known.channel].bands[known.band].effects;
             if (found.size() < known.stated)
-                warnings.push_back(fmt::format("lacks {} of the {} effects of band {}; it may have been cut off",
+                warnings.push_back(fmt::format("lacks {} of {} effects of band {}; it may be cut off",
                                                known.stated - found.size(), known.stated, number));
         }
     }
