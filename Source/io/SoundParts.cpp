@@ -259,6 +259,16 @@ private:
         return false;
     }
 
+    /// libsndfile reads as many cues as are stated, though they lead it into the audio.
+    void limitCues(SoundPart& part, std::uint64_t audio, bool bigEndian)
+    {
+        constexpr std::uint64_t cueBytes = 24;
+        for (const FileChunk& chunk : chunksOf(file, part.begin, audio, 0))
+            if (file.has(chunk.offset, "cue ") && chunk.bytes >= 4)
+                if (const auto there = (chunk.bytes - 4) / cueBytes; file.number(chunk.content, 4, bigEndian) > there)
+                    part.patches.push_back({chunk.content, numberBytes(there, 4, bigEndian)});
+    }
+
     /// Lets a file begin later whose audio chunk libsndfile does not find: header and format are read in front of it.
     void addHeader(SoundPart& part, const AudioChunk& chunk)
     {
@@ -269,9 +279,13 @@ private:
             for (const FileChunk& piece : chunksOf(file, part.begin, end, 0))
                 if (const auto bits = file.has(piece.offset, "COMM") ? bitsOfAifcCodec(file, piece) : std::nullopt)
                     part.patches.push_back({piece.content + 6, numberBytes(*bits, 2, true)});
-        if (!chunk.isHidden || !layout)
+        if (!layout)
             return;
         const auto audio = chunk.sizeField - layout->idBytes;
+        if (layout->isWave())
+            limitCues(part, audio, layout->bigEndian);
+        if (!chunk.isHidden)
+            return;
         constexpr std::string_view needed[] = {"fmt ", "fact", "FVER", "COMM", "desc", "chan"};
         constexpr std::uint64_t largest = 4096;
         const auto patched = [&](std::uint64_t offset, std::uint64_t count)

@@ -168,6 +168,10 @@ class SoundTable(CommandTest):
         says = self.row("cues of a WAV")
         self.reads(says, sound + cue(12000))
         self.assertEqual(self.markers(), [0.25])
+        overstated, audio = bytearray(cue(12000)), sound.index(b"data")
+        overstated[8] = 9
+        self.reads_with_a_word(says, sound[:audio] + bytes(overstated) + sound[audio:], "states 9 markers, of which 1")
+        self.assertEqual(self.markers(), [0.25])
         region = chunk(b"LIST", b"adtl" + chunk(b"ltxt", struct.pack("<II4sHHHH", 1, 500, b"rgn ", 0, 0, 0, 0)))
         self.reads_with_a_word(says, sound + cue(12000) + region, "regions")
         says = self.row("chapters: comments")
