@@ -298,8 +298,7 @@ Result<FilmSound> FilmSound::open(const fs::path& path, std::FILE* file, const O
     const Json& track = chosen != tracks.end() ? **chosen : *tracks.front();
     if (tracks.size() > 1)
         sound.warnings.push_back(fmt::format(
-            "has {} tracks of sound; {} is read, track {}; save another as a file of its own", tracks.size(),
-            chosen != tracks.end() ? "the default one" : "the first one",
+            "has {} tracks of sound; track {} is read; save another as a file of its own", tracks.size(),
             trackText(static_cast<std::size_t>((chosen != tracks.end() ? chosen : tracks.begin()) - tracks.begin()) + 1,
                       track)));
 
@@ -486,26 +485,29 @@ Result<void> FilmSound::explainEnd()
     const double here = static_cast<double>(delivered) / rate;
     const double promised = std::max(static_cast<double>(stated.value_or(delivered)) / rate, here < held ? held : 0.0);
     const std::string why = complaintOf(ending.complaint, "file:");
-    const std::string said = why.empty() ? "" : fmt::format(" (ffmpeg: {})", why);
+    const auto withReason = [&why](std::string_view what)
+    {
+        return why.empty() ? std::string(what) : fmt::format("{} (ffmpeg reports: {})", what, why);
+    };
     if (delivered == 0)
-        return invalid(fmt::format("has no sound that ffmpeg can decode{}; get a complete copy, or convert it to WAV "
-                                   "elsewhere",
-                                   said));
+        return invalid(
+            withReason("has no sound that ffmpeg can decode; get a complete copy, or convert it to WAV elsewhere"));
     const bool lacks = here < held || (duration != Duration::estimated && here + shortest < promised);
     if (lacks || !ending.succeeded)
     {
         if (!takesTruncated)
             return Error{ErrorCode::truncated, "",
-                         lacks ? fmt::format("is truncated: {:.3f} s of {:.3f} s of its sound can be decoded{}; get a "
-                                             "complete copy",
-                                             here, promised, said)
-                               : fmt::format("is damaged after {:.3f} s{}; get a complete copy", here, said)};
-        warnings.push_back(lacks ? fmt::format("is cut off: {:.3f} s of {:.3f} s are there{}", here, promised, said)
-                                 : fmt::format("is damaged after {:.3f} s{}", here, said));
+                         withReason(lacks
+                                        ? fmt::format("is truncated: {:.3f} s of {:.3f} s of its sound can be decoded; "
+                                                      "get a complete copy",
+                                                      here, promised)
+                                        : fmt::format("is damaged after {:.3f} s; get a complete copy", here))};
+        warnings.push_back(withReason(lacks ? fmt::format("is cut off: {:.3f} s of {:.3f} s are there", here, promised)
+                                            : fmt::format("is damaged after {:.3f} s", here)));
     }
     else if (!why.empty())
         warnings.push_back(
-            fmt::format("is damaged, or ffmpeg does not know all of it; {:.3f} s were decoded{}", here, said));
+            withReason(fmt::format("is damaged, or ffmpeg does not know all of it; {:.3f} s were decoded", here)));
     else if (duration == Duration::estimated && !hasPicture && here < 0.5 * promised)
         warnings.push_back(
             fmt::format("lasts about {:.3f} s by its header, of which {:.3f} s can be decoded", promised, here));

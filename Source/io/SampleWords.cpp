@@ -320,10 +320,14 @@ SampleReading readingOf(const SampleWords& words, Justified found, const WordSca
                             words.bits)};
         constexpr double loudest = 8.0;
         const int scale = scan.peak <= loudest ? 0 : words.bits == 24 || scan.peak > 131072.0 ? 23 : 15;
-        return {words.asFloat, std::ldexp(1.0, -scale),
-                fmt::format(
-                    "states integers of {} bits, but has floating-point numbers{}; it is read as these; save it anew",
-                    words.bits, scale == 0 ? "" : fmt::format(" whose full scale is {:.0f}", std::ldexp(1.0, scale)))};
+        auto warning = scale == 0
+                           ? fmt::format("states integers of {} bits, but has floating-point numbers; it is read "
+                                         "as these; save it anew",
+                                         words.bits)
+                           : fmt::format("states integers of {} bits, but has floating-point numbers whose full "
+                                         "scale is {:.0f}; it is read as these; save it anew",
+                                         words.bits, std::ldexp(1.0, scale));
+        return {words.asFloat, std::ldexp(1.0, -scale), std::move(warning)};
     }
     case Justified::whole:
     {

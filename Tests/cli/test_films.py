@@ -123,7 +123,7 @@ class Films(FilmTest):
         self.ffmpeg("-i", "sound.wav", "-i", "other.wav", "-map", "0", "-map", "1", "-c:a", "aac",
                     "-disposition:a:0", "0", "-disposition:a:1", "default", "-metadata:s:a:1", "language=eng", "two.m4a")
         self.assertTimes(self.events("two.m4a"), [1.0])
-        self.assertIn("warning: has 2 tracks of sound; the default one is read, track 2 (eng, mono)", self.said)
+        self.assertIn("warning: has 2 tracks of sound; track 2 (eng, mono) is read", self.said)
 
     def test_chapters_are_markers(self):
         self.put("chapters.txt", ";FFMETADATA1\n[CHAPTER]\nTIMEBASE=1/1000\nSTART=0\nEND=1500\ntitle=door\n"

@@ -35,8 +35,9 @@ ERRORS = Path("Core/pacini/foundation/Result.h")  # of the core, which windows s
 STUDY_TEMPLATES = Path("Source/study/StudyTemplates.cpp")  # what each asks
 FILE_NAMES = Path("Source/io/FileNames.h")  # why a preset cannot be called so
 # Why a file cannot be read or written, and what its sound lacks.
-FILE_ERRORS = [Path("Source/io") / name for name in ("FileHandle.cpp", "AtomicFile.cpp", "AudioReader.cpp",
-                                                     "ClipFile.cpp")]
+FILE_ERRORS = [Path("Source/io") / name for name in (
+    "FileHandle.cpp", "AtomicFile.cpp", "AudioReader.cpp", "ClipFile.cpp", "CommentChapters.cpp", "SampleWords.cpp",
+    "SoundCodec.cpp", "SoundCues.cpp", "SoundMarkers.cpp", "SoundParts.cpp", "FilmSound.cpp", "InputFile.cpp")]
 
 # What is wrong with settings files, which are the presets of windows.
 SETTINGS_ERRORS = [Path("Source/io/FieldsReader.h"), Path("Source/io/Settings.cpp"), Path("Source/io/GivenParameters.cpp"),
@@ -87,7 +88,7 @@ LITERALS = {
     "what a measured delay lacks, which the page has own texts for": [
         "outputs", "inputs", "device", "touch", "are the same", "went away or changed"],
     "names that a new thing gets in the project, which is the same file in every language": [
-        "capture ", "Marker ", "Group ", "Group", "-", "the actuator that is measured", "the measurement"],
+        "capture ", "loop {}", "chapter {}", "Marker ", "Group ", "Group", "-", "the actuator that is measured", "the measurement"],
     "the command line and its log, which are English": [
         "Pacini: ", "PaciniEditor: ", "Pacini: no sound device: ", "STUDY", "Run a study: its folder or file",
         "Fill the screen with the study", "--fresh", "FILE", "TYPE", "CODE",
@@ -108,6 +109,7 @@ LITERALS = {
         "is not one of the project's sounds"],
     "what libsndfile says, which other words take the place of": ["internal error", "file does not exist",
         "unspecified internal error", "No 'data' chunk marker"],
+    "what ffmpeg says, which is counted": [" audio samples of silence", " audio samples"],
     "names in files of formats": ["Simple Parametric", "noise {} {}"],
     "codes of languages": ["en", "ja"],
 }
