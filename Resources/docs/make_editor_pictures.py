@@ -15,7 +15,7 @@ HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 sys.path.insert(0, str(ROOT / "Tests" / "hosts"))
 
-from check_editor import Screen  # noqa: E402
+from check_editor import EditorScreen  # noqa: E402
 from host_test import needs, picture, until  # noqa: E402
 
 DEMO = ROOT / "Resources" / "demo" / "drums_tabla_pattern.flac"
@@ -47,7 +47,7 @@ def take(screen, name):
 
 def run(program, dark, names, files):
     """Starts the program with `files` and takes the pictures `names`."""
-    with tempfile.TemporaryDirectory() as home, Screen(home) as screen:
+    with tempfile.TemporaryDirectory() as home, EditorScreen(home) as screen:
         settings(Path(home), dark)
         screen.environment.pop("XDG_CONFIG_HOME", None)
         screen.start_sound_server(screen.environment)

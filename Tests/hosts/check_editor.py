@@ -25,6 +25,9 @@ PLOT_LEFT, ENVELOPE_TOP, ENVELOPE_HEIGHT = 144, 26 + 42 + 26 + 72 + 72 + 48, 71
 class EditorScreen(Screen):
     """A screen with the editor's window."""
 
+    def find_window(self):
+        return super().find_window("Pacini Editor", 1280)
+
     def export(self, path, rendered=False):
         """The shown clip as a file: the path."""
         self.keys("ctrl+e")
@@ -38,25 +41,13 @@ class EditorScreen(Screen):
         time.sleep(0.5)
         return path
 
-    def move(self, x, y):
-        self.tool("mousemove", self.left + x, self.top + y)
-        time.sleep(0.15)
-
-    def drag(self, x, y, to_x, to_y):
-        self.move(x, y)
-        self.tool("mousedown", 1)
-        for i in range(1, 6):
-            self.move(x + (to_x - x) * i // 5, y + (to_y - y) * i // 5)
-        self.tool("mouseup", 1)
-        time.sleep(0.3)
-
 
 def main():
     program, demo = sys.argv[1], sys.argv[2]
     with tempfile.TemporaryDirectory() as folder, EditorScreen(folder) as screen:
         folder = Path(folder)
         app = screen.start(program, "--fresh", demo, env=screen.environment)
-        check("the window opens", until(lambda: screen.find_window("Pacini Editor", 1280)))
+        check("the window opens", until(screen.find_window))
         time.sleep(3)  # the analysis of a short sound
         screen.focus()
 

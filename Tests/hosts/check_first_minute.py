@@ -13,7 +13,7 @@ import tempfile
 import time
 from pathlib import Path
 
-from check_editor import Screen
+from check_editor import EditorScreen
 from host_test import check, failures, listed, needs, skip, until
 
 try:
@@ -28,7 +28,7 @@ MOST_TO_FEEL, MOST_TO_EXPORT = 4, 3
 
 def main():
     program, sound = sys.argv[1], Path(sys.argv[2]).resolve()
-    with tempfile.TemporaryDirectory() as folder, Screen(folder) as screen:
+    with tempfile.TemporaryDirectory() as folder, EditorScreen(folder) as screen:
         folder = Path(folder)
         check("the sound server runs", screen.start_sound_server(screen.environment))
         began = time.monotonic()

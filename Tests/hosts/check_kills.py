@@ -14,7 +14,7 @@ import tempfile
 import time
 from pathlib import Path
 
-from check_editor import PLOT_LEFT, Screen
+from check_editor import PLOT_LEFT, EditorScreen
 from host_test import check, failures, until
 
 KEPT_AFTER = 1.0  # s: what the manual promises
@@ -38,7 +38,7 @@ def main():
     count = int(sys.argv[3]) if len(sys.argv) > 3 else 10
     seed = int(sys.argv[4]) if len(sys.argv) > 4 else 1
     chance = random.Random(seed)
-    with tempfile.TemporaryDirectory() as folder, Screen(folder) as screen:
+    with tempfile.TemporaryDirectory() as folder, EditorScreen(folder) as screen:
         folder = Path(folder)
         kept, oldest, places = 0, 0.0, []
         for turn in range(count):

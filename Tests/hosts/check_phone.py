@@ -12,7 +12,7 @@ import tempfile
 import time
 from pathlib import Path
 
-from check_editor import Screen
+from check_editor import EditorScreen
 from host_test import RATE, check, failures, needs, picture, skip, until
 
 needs("Xvfb", "xdotool", "import", "jackd", "zbarimg", "node", "chromium")
@@ -39,7 +39,7 @@ class Phone:
 
 def main():
     program, sound = sys.argv[1:3]
-    with tempfile.TemporaryDirectory() as name, Screen(name) as screen:
+    with tempfile.TemporaryDirectory() as name, EditorScreen(name) as screen:
         folder = Path(name)
         check("the sound server runs", screen.start_sound_server(screen.environment))
         app = screen.start(program, "--fresh", "--device-type", "JACK", sound, env=screen.environment)

@@ -11,7 +11,7 @@ import tempfile
 import time
 from pathlib import Path
 
-from check_editor import ENVELOPE_TOP, PLOT_LEFT, Screen
+from check_editor import ENVELOPE_TOP, PLOT_LEFT, EditorScreen
 from host_test import check, failures, picture, until
 
 SAVED_WITHIN = 5  # s
@@ -19,7 +19,7 @@ SAVED_WITHIN = 5  # s
 
 def main():
     program, demo = sys.argv[1], sys.argv[2]
-    with tempfile.TemporaryDirectory() as folder, Screen(folder) as screen:
+    with tempfile.TemporaryDirectory() as folder, EditorScreen(folder) as screen:
         folder = Path(folder)
 
         def look(name):

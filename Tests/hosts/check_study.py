@@ -15,8 +15,8 @@ import tempfile
 import time
 from pathlib import Path
 
-from check_editor import Screen
 from host_test import RATE, check, failures, needs, skip, until
+from screen import Screen
 
 try:
     import numpy as np
@@ -51,13 +51,7 @@ def make_study(pacini, folder):
 
 class Window(Screen):
     def find_window(self):
-        found = self.tool("search", "--onlyvisible", "--name", "^coherence$").stdout.split()
-        if not found:
-            return False
-        self.window = found[-1]
-        place = dict(line.split("=") for line in self.tool("getwindowgeometry", "--shell", self.window).stdout.split())
-        self.left, self.top = int(place["X"]), int(place["Y"])
-        return True
+        return super().find_window("^coherence$")
 
 
 def records(log):

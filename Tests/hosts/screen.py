@@ -34,6 +34,18 @@ class Screen(Processes):
         self.tool("windowfocus", self.window)
         time.sleep(0.3)
 
+    def move(self, x, y):
+        self.tool("mousemove", self.left + x, self.top + y)
+        time.sleep(0.15)
+
+    def drag(self, x, y, to_x, to_y):
+        self.move(x, y)
+        self.tool("mousedown", 1)
+        for i in range(1, 6):
+            self.move(x + (to_x - x) * i // 5, y + (to_y - y) * i // 5)
+        self.tool("mouseup", 1)
+        time.sleep(0.3)
+
     def keys(self, *names):
         for name in names:
             self.tool("key", "--clearmodifiers", name)
@@ -70,4 +82,3 @@ class Screen(Processes):
                 unseen.append(stop)
             before, now = now, before
         return unseen
-
