@@ -129,7 +129,7 @@ juce::String systemLocale()
 {
 #if JUCE_LINUX || JUCE_BSD
     for (const char* name : {"LC_ALL", "LC_MESSAGES", "LANG"})
-        if (const auto value = juce::SystemStats::getEnvironmentVariable(name, {}); value.isNotEmpty())
+        if (auto value = juce::SystemStats::getEnvironmentVariable(name, {}); value.isNotEmpty())
             return value;
     return {};
 #else

@@ -140,7 +140,7 @@ public:
 
     void mouseDown(const juce::MouseEvent& event) override
     {
-        juce::Slider::mouseDown(event);
+        Slider::mouseDown(event);
         if (onValueChange)
             onValueChange();
     }
@@ -238,7 +238,7 @@ public:
     {
         for (int i = 0; i < captions.size(); ++i)
         {
-            const juce::String text = captions[i];
+            const juce::String& text = captions[i];
             auto button = std::make_unique<LargeButton>(text);
             button->onClick = [this, i]
             {
