@@ -162,16 +162,9 @@ void RoutingBar::fillMenus()
     showMissing(rig.devices().getCurrentAudioDevice() == nullptr);
 }
 
-/// Menus of channels say nothing without a device, and "None" would be somebody's choice.
+/// Menus of channels say nothing without a device.
 void RoutingBar::showMissing(bool isMissing)
 {
-    for (juce::ComboBox* box : {&heard, &haptic})
-    {
-        box->setTextWhenNothingSelected(isMissing ? tr("No audio device") : juce::String());
-        if (isMissing)
-            box->setSelectedId(0, juce::dontSendNotification);
-        box->setEnabled(!isMissing);
-    }
     for (juce::Component* one : std::initializer_list<juce::Component*>{
              &input, &sidechain, &heard, &haptic, &inputLabel, &sidechainLabel, &heardLabel, &hapticLabel, &fileButton})
         one->setVisible(!isMissing);
