@@ -104,7 +104,7 @@ void Console::warning(std::string_view file, std::string_view what)
 {
     if (const std::lock_guard lock(mutex); report)
         report->addWarning(file, what);
-    message(fmt::format("{}: warning: {}", file, what));
+    message(file.empty() ? fmt::format("warning: {}", what) : fmt::format("{}: warning: {}", file, what));
 }
 
 void Console::warnings(std::string_view file, const std::vector<std::string>& all)

@@ -189,7 +189,9 @@ struct AudioWriter::State
         const auto size = static_cast<std::uint64_t>(std::max<std::int64_t>(file.size(), 0));
         const std::string added = std::string(size % 2, '\0') + chunks;
         const std::uint64_t stated = size + added.size() - 8;
-        const bool large = type == SF_FORMAT_RF64; // whose size is the first of its chunk ds64
+        std::array<char, 4> id{}; // an endless one may have become a WAV
+        const bool large = file.seek(0, SEEK_SET) && file.read(std::as_writable_bytes(std::span(id))) == id.size() &&
+                           id[1] == 'F'; // RF64, whose size is the first of its chunk ds64
         if (!large && stated > std::numeric_limits<std::uint32_t>::max())
             return Error{ErrorCode::tooLarge, "", "a WAV file ends at 4 GB, and its markers have no room there"};
         std::array<std::byte, 8> number{};
@@ -237,6 +239,8 @@ Result<AudioWriter> AudioWriter::create(const fs::path& path, const AudioWritePa
         return state->failed(soundError(nullptr));
     // The peak chunk of float files holds the time of day: without it the same samples give the same bytes.
     sf_command(state->sound.get(), SFC_SET_ADD_PEAK_CHUNK, nullptr, SF_FALSE);
+    if (params.expectedFrames == AudioWriteParams::endless)
+        sf_command(state->sound.get(), SFC_RF64_AUTO_DOWNGRADE, nullptr, SF_TRUE);
     if (params.origin)
         sf_set_string(state->sound.get(), SF_STR_COMMENT, originText(*params.origin).c_str());
     return AudioWriter(std::move(state));

@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -38,6 +39,9 @@ struct AudioWriteParams
 
     /// As far as known, else 0. A WAV that would pass 4 GB becomes an RF64 (EBU Tech 3306).
     std::uint64_t expectedFrames = 0;
+
+    /// Value of expectedFrames for a recording without a known end: a WAV if it ends below 4 GB, else an RF64.
+    static constexpr std::uint64_t endless = std::numeric_limits<std::uint64_t>::max();
 
     /// What the file is made from, for its header (see FileOrigin.h).
     std::optional<FileOrigin> origin = std::nullopt;

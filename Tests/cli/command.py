@@ -64,6 +64,8 @@ def read_float_wav(path):
         size = struct.unpack_from("<I", content, offset + 4)[0]
         if content[offset:offset + 4] == b"fmt ":
             kind, channels, rate, _, _, bits = struct.unpack_from("<HHIIHH", content, offset + 8)
+            if kind == 0xFFFE:  # the extended form, whose kind comes later
+                kind = struct.unpack_from("<H", content, offset + 32)[0]
             assert (kind, channels, bits) == (3, 1, 32), (kind, channels, bits)
         if content[offset:offset + 4] == b"data":
             return rate, struct.unpack_from(f"<{size // 4}f", content, offset + 8)

@@ -68,6 +68,31 @@ class Live(CommandTest):
         two = self.piped(float_wav([x for sample in self.samples for x in (sample, sample)], channels=2))
         self.assertEqual(one, two)
 
+    def warned(self, content, *arguments):
+        done = self.run_command("live", "-", *arguments, "-o", "-", input=content, stdin=None)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return len(drive_of(done.stdout)) // 4, done.stderr.decode()
+
+    def test_a_pipe_says_what_is_missing_or_no_number(self):
+        frames, told = self.warned(self.sound[:-4 * 24000])
+        self.assertEqual(frames, 24000)
+        self.assertEqual(told, "pacini: -: warning: ends after 0.50 s of the 1.00 s that its header states\n")
+        odd = [float("nan"), float("inf"), 1e30]
+        samples = [odd[i // 7 % 3] if i % 7 == 0 else x for i, x in enumerate(self.samples)]
+        raw = struct.pack(f"<{len(samples)}f", *samples)
+        frames, told = self.warned(raw + b"abc", "--raw", "f32", "--channels", "1")
+        self.assertEqual(frames, 48000)
+        self.assertEqual(told, "pacini: -: warning: 6858 samples were not a number, infinite or beyond 1e+12 and played as 0\n"
+                         "pacini: -: warning: ends within a frame, 3 bytes after the last whole one; check its format\n")
+        zeros = struct.pack(f"<{len(samples)}f", *(x if i % 7 else 0.0 for i, x in enumerate(self.samples)))
+        self.assertEqual(self.piped(zeros, "--raw", "f32", "--channels", "1"),
+                         drive_of(self.run_command("live", "-", "--raw", "f32", "--channels", "1", "-o", "-", input=raw,
+                                                   stdin=None).stdout))
+
+    def test_a_recording_that_may_be_long_is_a_wav_in_the_end(self):
+        self.succeeds("live", "a.wav", "-o", "a.haptic.wav")
+        self.assertEqual((self.folder / "a.haptic.wav").read_bytes()[:4], b"RIFF")
+
     def test_the_drive_comes_while_the_sound_does(self):
         process = subprocess.Popen([COMMAND, "live", "-", "-o", "-"], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
         process.stdin.write(endless(self.sound))

@@ -10,6 +10,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <limits>
 #include <string>
 #include <vector>
@@ -265,4 +267,31 @@ TEST_CASE("A WAV announced to pass 4 GB becomes an RF64, and an unannounced one 
     params.expectedFrames = 1000;
     CHECK(writeAudio(folder / "y.wav", samples, params).ok());
     CHECK(bytesOf(folder / "y.wav").starts_with("RIFF"));
+}
+
+TEST_CASE("A recording without a known end has room for more than 4 GB, and is a WAV when it needs less", "[io][audio]")
+{
+    const TempFolder folder;
+    const auto samples = ramp(1000);
+    AudioWriteParams params{.channels = 2};
+    params.expectedFrames = AudioWriteParams::endless;
+    params.markers = {{0.001, "hit"}};
+    for (const bool hasSamples : {true, false})
+    {
+        auto writer = AudioWriter::create(folder / "x.wav", params);
+        REQUIRE(writer.ok());
+        if (hasSamples)
+            REQUIRE(writer->write(samples).ok());
+        const auto report = writer->finish();
+        REQUIRE(report.ok());
+        const std::string bytes = bytesOf(folder / "x.wav");
+        CHECK(bytes.starts_with("RIFF"));
+        std::uint32_t stated = 0;
+        std::memcpy(&stated, bytes.data() + 4, 4);
+        CHECK(stated == bytes.size() - 8);
+        CHECK(report->bytes == bytes.size());
+        const auto back = readAudio(folder / "x.wav");
+        REQUIRE(back.ok());
+        CHECK(back->samples == (hasSamples ? samples : std::vector<float>{}));
+    }
 }

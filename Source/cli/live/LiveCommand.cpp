@@ -283,9 +283,10 @@ Json LiveCommand::followReport(Console& console, const Session& session) const
     console.note(fmt::format("accelerometer {}; gains {} to {} dB, held for {}", sensorText(follow.sensor()),
                              signedText(least, 1), signedText(most, 1), durationText(held)));
     if (follow.sensor() != SensorState::good && follow.sensor() != SensorState::waiting)
-        console.warning("", fmt::format("the accelerometer {}: gains stay as they were; check its cable, its channel "
-                                        "(--follow-input) and its delay (--follow-delay)",
-                                        sensorText(follow.sensor())));
+        console.warning(soundName(),
+                        fmt::format("the accelerometer {}: gains stay as they were; check its cable, its channel "
+                                    "(--follow-input) and its delay (--follow-delay)",
+                                    sensorText(follow.sensor())));
     return {{"sensor", sensorText(follow.sensor())}, {"heldSeconds", held}, {"bands", std::move(bands)}};
 }
 
@@ -457,7 +458,7 @@ void LiveCommand::watch(Console& console, Session& session, Interruption& interr
             const bool runs = session.port->isRunning();
             if (!runs)
                 session.failure = Error{ErrorCode::io, "", "does not answer any more"};
-            if (!runs || session.engine->frames() >= mostFrames(session))
+            if (!runs || session.engine->frames() >= mostFrames(session) || (session.file && session.file->hasFailed()))
                 endOf(session);
         }
         // A level falls slowly enough to be seen.
@@ -526,7 +527,7 @@ void LiveCommand::tell(Console& console, Session& session, std::uint64_t written
     {
         const auto times = session.probe->measured();
         if (times.empty())
-            console.warning("", "no impulse reached the controller");
+            console.warning(soundName(), "no impulse reached the controller");
         else
         {
             const double median = 1e3 * times[times.size() / 2];
@@ -563,9 +564,13 @@ Exit LiveCommand::finish(Console& console, Session& session) const
             return console.fail(output, done.error());
         written = *done;
     }
+    if (session.input)
+        console.warnings(soundName(), session.input->losses());
+    tell(console, session, written);
+    if (session.file && !session.file->early())
+        return console.fail(output, session.file->early().error());
     if (!session.failure)
         return console.fail(soundName(), session.failure.error());
-    tell(console, session, written);
     return Exit::ok;
 }
 

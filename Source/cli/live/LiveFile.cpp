@@ -65,9 +65,11 @@ Result<std::unique_ptr<LiveFile>> LiveFile::create(const std::filesystem::path& 
         AudioWriteParams params;
         params.sampleRate = rate;
         params.existing = existing;
+        params.expectedFrames = AudioWriteParams::endless;
         auto created = AudioWriter::create(path, params);
         if (!created)
             return created.error();
+        file->folder = std::filesystem::absolute(path).parent_path();
         file->writer.emplace(std::move(*created));
     }
     file->thread = std::thread([self = file.get()] { self->work(); });
@@ -97,11 +99,26 @@ void LiveFile::work()
         }
         if (!result)
             continue; // whoever pushes must not wait for ever
-        result = write(std::span(block).first(got));
-        frames += got;
-        if (!result)
+        result = hasRoom(got) ? write(std::span(block).first(got))
+                              : Error{ErrorCode::diskFull, "", "ends here, since the disk is full but for 16 MB"};
+        if (result)
+            frames += got;
+        else
             failed.store(true, std::memory_order_release);
     }
+}
+
+bool LiveFile::hasRoom(std::size_t samples)
+{
+    constexpr std::size_t between = std::size_t{1} << 18; // samples, 1 MB
+    constexpr std::uintmax_t least = 16'000'000;
+    sinceLook += samples;
+    if (!writer || sinceLook < between)
+        return true;
+    sinceLook = 0;
+    std::error_code unknown;
+    const auto space = std::filesystem::space(folder, unknown);
+    return unknown || space.available >= least;
 }
 
 Result<void> LiveFile::write(std::span<const float> samples)
@@ -119,11 +136,12 @@ Result<std::uint64_t> LiveFile::finish()
 {
     if (thread.joinable())
         thread.join();
-    if (!result)
-        return result.error();
+    // A recording that ended early is kept.
     if (writer)
         if (const auto done = writer->finish(); !done)
             return done.error();
+    if (!writer && !result)
+        return result.error();
     return frames;
 }
 

@@ -32,16 +32,25 @@ public:
     /// Whether nothing more can be written. [any]
     [[nodiscard]] bool hasFailed() const noexcept { return failed.load(std::memory_order_acquire); }
 
-    /// Waits until all is written: the frames. Call when the drive has ended. Errors: io, as in AudioWriter. [message]
+    /// Waits until all is written and returns the frames. Call when the drive has ended. A recording that had to end
+    /// before the disk is full is kept, see early(). Errors: io, as in AudioWriter. [message]
     [[nodiscard]] Result<std::uint64_t> finish();
+
+    /// After finish(): why a recording that is kept ended early, if it did. [message]
+    [[nodiscard]] const Result<void>& early() const noexcept { return result; }
 
 private:
     explicit LiveFile(LiveDrive& drive) : source(drive) {}
     void work();
     [[nodiscard]] Result<void> write(std::span<const float> samples);
 
+    /// Whether the disk has room for these; looks once a megabyte.
+    [[nodiscard]] bool hasRoom(std::size_t samples);
+
     LiveDrive& source;
     std::optional<AudioWriter> writer; ///< none: standard output
+    std::filesystem::path folder;
+    std::size_t sinceLook = 0;
     std::uint64_t frames = 0;
     Result<void> result;
     std::atomic<bool> failed{false};

@@ -1,5 +1,7 @@
 #include "cli/live/LiveInput.h"
 
+#include "cli/Console.h"
+#include "cli/Counted.h"
 #include "io/AudioReader.h"
 #include "io/FileHandle.h"
 
@@ -8,6 +10,7 @@
 #include <algorithm>
 #include <bit>
 #include <cerrno>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
@@ -62,6 +65,11 @@ public:
         struct stat status = {};
         return ::fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode);
 #endif
+    }
+
+    [[nodiscard]] bool isStopped() const
+    {
+        return stop.load();
     }
 
     /// Waits for bytes; how many there were, 0 at the end or when it is stopped.
@@ -155,7 +163,8 @@ public:
                 if (!known)
                     return invalid("fmt", "is missing before the samples");
                 // Programs that cannot go back write 0, or the largest number that they think of.
-                left = size == 0 || size >= 0x7F000000u ? std::numeric_limits<std::uint64_t>::max() : size;
+                left = size == 0 || size >= 0x7F000000u ? unknown : size;
+                stated = left;
                 return {};
             }
             constexpr std::uint32_t longest = 1 << 24;
@@ -175,7 +184,7 @@ public:
     void setFormat(const RawFormat& raw)
     {
         format = raw;
-        left = std::numeric_limits<std::uint64_t>::max();
+        left = stated = unknown;
     }
 
     [[nodiscard]] Result<std::size_t> read(std::span<float> interleaved) override
@@ -191,20 +200,50 @@ public:
             if (!got)
                 return got.error();
             if (*got == 0)
+            {
+                hasEnded = !pipe->isStopped();
                 return std::size_t{0}; // a part of a frame at the end is none
+            }
             held += *got;
-            left -= left == std::numeric_limits<std::uint64_t>::max() ? 0 : *got;
+            left -= left == unknown ? 0 : *got;
         }
         const std::size_t frames = held / frame;
         for (std::size_t i = 0; i < frames * format.channels; ++i)
-            interleaved[i] = sampleOf(format.samples, std::span(bytes).subspan(i * width, width));
+        {
+            const float sample = sampleOf(format.samples, std::span(bytes).subspan(i * width, width));
+            const bool isUsable = std::abs(sample) <= limits::sample; // NaN is not
+            interleaved[i] = isUsable ? sample : 0.0f;
+            unusable += isUsable ? 0u : 1u;
+        }
         std::copy(bytes.begin() + static_cast<std::ptrdiff_t>(frames * frame),
                   bytes.begin() + static_cast<std::ptrdiff_t>(held), bytes.begin());
         held -= frames * frame;
         return frames;
     }
 
+    [[nodiscard]] std::vector<std::string> losses() const override
+    {
+        std::vector<std::string> texts;
+        const auto frame = static_cast<double>(bytesOf(format.samples) * format.channels);
+        const auto seconds = [&](std::uint64_t count)
+        {
+            return durationText(static_cast<double>(count) / (frame * format.sampleRate));
+        };
+        if (unusable > 0)
+            texts.push_back(fmt::format("{} not a number, infinite or beyond {:g} and played as 0",
+                                        counted(unusable, "sample was", "samples were"), limits::sample));
+        if (hasEnded && stated != unknown && left > 0)
+            texts.push_back(
+                fmt::format("ends after {} of the {} that its header states", seconds(stated - left), seconds(stated)));
+        if (hasEnded && held > 0)
+            texts.push_back(fmt::format("ends within a frame, {} after the last whole one; check its format",
+                                        counted(held, "byte", "bytes")));
+        return texts;
+    }
+
 private:
+    static constexpr std::uint64_t unknown = std::numeric_limits<std::uint64_t>::max();
+
     [[nodiscard]] static bool is(std::span<const std::byte> from, std::size_t at, std::string_view name)
     {
         return std::memcmp(from.data() + at, name.data(), name.size()) == 0;
@@ -257,7 +296,10 @@ private:
 
     std::unique_ptr<Pipe> pipe;
     RawFormat format;
-    std::uint64_t left = 0; ///< bytes; the largest number: unknown
+    std::uint64_t left = 0;   ///< bytes, or unknown
+    std::uint64_t stated = 0; ///< likewise, by the header
+    std::size_t unusable = 0; ///< samples
+    bool hasEnded = false;    ///< of its own accord
     std::vector<std::byte> bytes;
     std::size_t held = 0; ///< bytes that are not yet a frame
 };

@@ -10,6 +10,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace pacini::cli
 {
@@ -51,6 +52,9 @@ public:
     /// Waits until there are frames, at most as many as fit; 0 at the end, or once `stop` is true. Errors: io,
     /// those of AudioReader. [worker]
     [[nodiscard]] virtual Result<std::size_t> read(std::span<float> interleaved) = 0;
+
+    /// What was missing or unusable in all that was read, in sentences; empty when it came whole. [worker]
+    [[nodiscard]] virtual std::vector<std::string> losses() const { return {}; }
 };
 
 } // namespace pacini::cli

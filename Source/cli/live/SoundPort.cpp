@@ -1,5 +1,6 @@
 #include "cli/live/SoundPort.h"
 
+#include "cli/live/DevicePace.h"
 #include "cli/live/PulseServer.h"
 #include "io/SoundHandle.h"
 
@@ -248,7 +249,7 @@ public:
 
     [[nodiscard]] bool isRunning() override
     {
-        return library().isRunning(audio) != 0;
+        return !gone.load(std::memory_order_relaxed) && library().isRunning(audio) != 0;
     }
     [[nodiscard]] std::uint64_t blocks() const override
     {
@@ -285,6 +286,14 @@ private:
         if (wasLate)
             late.fetch_add(1, std::memory_order_relaxed);
         const std::size_t channels = stream.num_channels;
+        // JACK's server alone calls back, and is quicker than the clock when it renders.
+        if (system != "jack" && !pace.keeps(static_cast<double>(count) / rate, DevicePace::Clock::now()))
+        {
+            gone.store(true, std::memory_order_relaxed);
+            if (out != nullptr)
+                std::fill_n(out, count * channels, 0.0f);
+            return;
+        }
         if (in != nullptr && takes)
             takes({in, count * channels}, channels);
         if (out == nullptr)
@@ -315,6 +324,8 @@ private:
     SoundMaker makes;
     std::atomic<std::uint64_t> asked{0};
     std::atomic<std::uint64_t> late{0};
+    DevicePace pace;
+    std::atomic<bool> gone{false};
 };
 
 Result<std::unique_ptr<SoundPort>> openPort(const std::string& named, bool isInput)
