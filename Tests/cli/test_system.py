@@ -71,11 +71,11 @@ class Disks(CommandTest):
         self.fails(1, ["convert", "clip.json", "/dev/full", "--format", "json"], "/dev/full: the disk is full")
 
     @contextlib.contextmanager
-    def small_disk(self):
-        """The folder "small", which is a disk of 64 kB."""
+    def small_disk(self, size="64k"):
+        """The folder "small", which is a disk of that size."""
         disk = self.folder / "small"
         disk.mkdir()
-        if subprocess.run(["mount", "-t", "tmpfs", "-o", "size=64k", "pacini-test", str(disk)],
+        if subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={size}", "pacini-test", str(disk)],
                           stderr=subprocess.DEVNULL).returncode != 0:
             self.skipTest("mounting is not allowed here")
         try:
@@ -90,6 +90,17 @@ class Disks(CommandTest):
             self.fails(1, ["render", "clip.json", "-o", "small/out.wav"],
                        "pacini: clip.json: small/out.wav: the disk is full; free some space")
             self.assertEqual(os.listdir(disk), [])
+
+    @unittest.skipUnless(os.geteuid() == 0, "needs root to mount a small disk")
+    def test_a_live_recording_ends_before_the_disk_is_full_and_is_kept(self):
+        with self.small_disk("20M") as disk:
+            done = self.run_command("live", "-", "--raw", "f32", "--channels", "1", "-o", "small/x.wav", stdin=None,
+                                    input=bytes(30_000_000))
+            self.assertEqual((done.returncode, done.stderr.decode()),
+                             (1, "pacini: small/x.wav: ends here, since the disk is full but for 16 MB\n"))
+            self.assertEqual(os.listdir(disk), ["x.wav"])
+            self.assertIn(b"wrote small/x.wav: 2", done.stdout)
+            self.assertGreater((disk / "x.wav").stat().st_size, 3_000_000)
 
     @unittest.skipUnless(os.geteuid() == 0, "needs root to mount a small disk")
     def test_a_full_disk_stops_a_batch_at_once_with_one_line(self):
