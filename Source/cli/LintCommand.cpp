@@ -112,11 +112,11 @@ CLI::App* LintCommand::declare(CLI::App& app)
     options.declare(*command);
     addOption(*command, "--clips", clipFolder, "Folder with the clip files of scenes [the folder of the scene]", "DIR");
     addOption(*command, "--max-error", maxError,
-              "Fail when an amplitude error is larger (1 = full drive): bands, points, events, noise",
+              "Largest allowed amplitude error of bands, points, events and noise (1 = full drive)",
               numberFrom(0.0, 1000.0));
-    addOption(*command, "--max-octaves", maxOctaves, "Fail when a frequency error is larger, octaves",
+    addOption(*command, "--max-octaves", maxOctaves, "Largest allowed frequency error, octaves",
               numberFrom(0.0, 100.0));
-    addOption(*command, "--max-time", maxTime, "Fail when a time error is larger, s",
+    addOption(*command, "--max-time", maxTime, "Largest allowed time error, s",
               numberFrom(0.0, limits::duration, "24 h"));
     addOption(*command, "--fail-on", forbidden,
               "Fail on any loss of these kinds; scene fails on any finding in a scene", oneOf(kindNames()))

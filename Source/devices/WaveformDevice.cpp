@@ -207,9 +207,8 @@ Result<WaveformTrigger> chosenWaveforms(const WaveformDevice& device, const Feat
     if (low.ordinal == 0)
         low = high;
     if (event.ordinal == 0 && high.ordinal == 0)
-        return known.empty() && answers.failure
-                   ? *answers.failure
-                   : Error{ErrorCode::io, "", "has no waveform that a clip can be played by"};
+        return known.empty() && answers.failure ? *answers.failure
+                                                : Error{ErrorCode::io, "", "offers no waveform that Pacini can use"};
     WaveformTrigger trigger = device.trigger;
     trigger.event = event.ordinal;
     trigger.buzz = high.ordinal;

@@ -81,7 +81,7 @@ private:
     using Signals = std::array<std::array<float, blockFrames>, PreviewRow::most>;
     using Spans = std::array<std::span<float>, PreviewRow::most>;
 
-    /// What [message] has asked for.
+    /// Latest request of the message thread.
     struct Wanted
     {
         Playback playback;
@@ -106,7 +106,7 @@ private:
     using StageNode = HandOver<Stage>::Node;
     using PlayNode = HandOver<PreviewPlay>::Node;
 
-    /// What the worker has made last.
+    /// Latest result of the worker.
     struct Made
     {
         std::uint64_t version = 0, start = 0, stage = 0;

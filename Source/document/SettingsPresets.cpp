@@ -161,7 +161,7 @@ Result<CharacterSettings> readCharacterSettings(const std::filesystem::path& pat
         return *settings->playback.character;
     if (settings->playback.live)
         return characterOf(*settings->playback.live);
-    return Error{ErrorCode::invalidData, "character", "is missing: these are no settings of the character"};
+    return Error{ErrorCode::invalidData, "character", "is missing; these settings have no part \"character\""};
 }
 
 std::string liveSettings(const TranslatorParams& params)

@@ -31,8 +31,8 @@ struct AudioReadOptions
     bool withoutCentre = false;    ///< deliver silence in the place of the centre channel, likewise
 };
 
-/// Of the channel of low-frequency effects against the others: 10 dB, as cinemas and receivers play it (ITU-R BS.775,
-/// annex 7). What is to be felt of a film is in it.
+/// Gain of the channel of low-frequency effects against the others: 10 dB, as cinemas and receivers play it (ITU-R
+/// BS.775, annex 7). What is to be felt of a film is in it.
 inline constexpr double lowFrequencyEffectsGain = 3.1622776601683795;
 
 /// The range of files that are read and written.

@@ -94,7 +94,7 @@ inline constexpr std::array encoderParameters{
          .group = "Analysis",
          .alwaysRecorded = true}), // clips without it are from before there was such a thing
     described<&EncoderParams::heard>({.name = "heard",
-                                      .text = "Role of that sound: beside the low part, which stays as it is, or "
+                                      .text = "How that sound is added: beside the low part, which stays as it is, or "
                                               "instead of it where most of the sound lies above touch",
                                       .choices = heardRoleNames,
                                       .group = "Analysis",
@@ -123,7 +123,7 @@ inline constexpr std::array encoderParameters{
          .group = "Events"}),
     described<&EncoderParams::onsets, &OnsetParams::maskSlope>(
         {.name = "maskSlope",
-         .text = "Rise of the detection threshold for each dB beyond that margin, as a fraction of the threshold",
+         .text = "Rise of the detection threshold for each dB beyond the mask margin, as a fraction of the threshold",
          .unit = "per dB",
          .range = {0, 1},
          .group = "Events"}),

@@ -60,8 +60,8 @@ inline constexpr std::array translatorParameters{
          .unit = "dB",
          .range = {lowestBrightness, 12}}),
     described<&TranslatorParams::audible>({.name = "audible",
-                                           .text = "Amount of sound above the range of touch that is felt beside the "
-                                                   "low part (hi-hats, rain, ticks); 0: none",
+                                           .text = "Amount of sound above the range of touch that is felt in addition "
+                                                   "to the low part (hi-hats, rain, ticks); 0: none",
                                            .range = {0, 1}}),
     described<&TranslatorParams::speech>({.name = "speech",
                                           .text = "Amount of speech that is felt; below 1, what sounds like speech is "
@@ -93,13 +93,15 @@ inline constexpr std::array translatorParameters{
                                                .range = {1, 2000}}),
     described<&TranslatorParams::rumble, &RoleParams::level>(
         {.name = "rumble", .text = "Level of bands below 100 Hz", .unit = "dB", .range = {-60, 24}}),
-    described<&TranslatorParams::rumble, &RoleParams::muted>({.name = "rumbleMuted", .text = "Mute these"}),
+    described<&TranslatorParams::rumble, &RoleParams::muted>(
+        {.name = "rumbleMuted", .text = "Mute the bands below 100 Hz"}),
     described<&TranslatorParams::texture, &RoleParams::level>(
         {.name = "texture", .text = "Level of the other bands", .unit = "dB", .range = {-60, 24}}),
-    described<&TranslatorParams::texture, &RoleParams::muted>({.name = "textureMuted", .text = "Mute these"}),
+    described<&TranslatorParams::texture, &RoleParams::muted>({.name = "textureMuted", .text = "Mute the other bands"}),
     described<&TranslatorParams::transients, &RoleParams::level>(
         {.name = "transients", .text = "Level of the pulses of events", .unit = "dB", .range = {-60, 24}}),
-    described<&TranslatorParams::transients, &RoleParams::muted>({.name = "transientsMuted", .text = "Mute these"}),
+    described<&TranslatorParams::transients, &RoleParams::muted>(
+        {.name = "transientsMuted", .text = "Mute the pulses of events"}),
     described<&TranslatorParams::bypass>(
         {.name = "bypass", .text = "Pass the input through, delayed by the latency of the translator"}),
 };

@@ -213,7 +213,7 @@ public:
         std::unique_ptr<PlayContent> content;
     };
 
-    /// What takes the place of a clip in all that plays of it, for replaceAll(). Until then nothing changes. Errors: as
+    /// Prepares the replacement of a clip in all its plays, for replaceAll(). Changes nothing itself. Errors: as
     /// replace(), for any of them.
     [[nodiscard]] Result<std::vector<Replacement>> makeReplacements(const LoadedClip* old,
                                                                     const std::shared_ptr<const LoadedClip>& clip)
@@ -261,7 +261,8 @@ public:
         if (!(wanted.nanosecondsPerFrame >= 0.0 && wanted.nanosecondsPerFrame <= 1e9))
             return Error{ErrorCode::invalidArgument, "budget", "must be 0 to 1e9 ns for a frame"};
         if (kinds.front().asRendered && (wanted.nanosecondsPerFrame > 0.0 || wanted.voices > 0))
-            return Error{ErrorCode::invalidArgument, "budget", "must be unset for plays as rendered"};
+            return Error{ErrorCode::invalidArgument, "budget",
+                         "must not be set when the engine plays clips as rendered"};
         LiveCommand command;
         command.kind = LiveCommand::Kind::setBudget;
         command.value = wanted.nanosecondsPerFrame;

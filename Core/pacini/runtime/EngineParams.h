@@ -83,7 +83,7 @@ struct EngineParams
     if (!within(params.budget.nanosecondsPerFrame, 0.0, 1e9))
         return wrong("budget.nanosecondsPerFrame", "must be 0 to 1e9");
     if (params.asRendered && (params.budget.nanosecondsPerFrame > 0.0 || params.budget.voices > 0))
-        return wrong("budget", "must be unset for plays as rendered");
+        return wrong("budget", "must not be set when the engine plays clips as rendered");
     for (std::size_t i = 0; i < params.actuators.size(); ++i)
     {
         const EngineActuator& actuator = params.actuators[i];

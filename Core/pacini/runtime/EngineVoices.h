@@ -30,7 +30,7 @@ struct EngineMeters
     double gainReduction = 0.0;  ///< dB that the protection of any actuator took in the last block
 };
 
-/// What the audio thread gives back to be freed.
+/// Objects that the audio thread hands back for deletion.
 struct RetiredPlay
 {
     LivePlay* play = nullptr;

@@ -196,7 +196,7 @@ public:
                                       [](const Voice& v) { return v.voice.fader(Fader::leave).resting(); });
     }
 
-    /// It waited for `frames`. [audio]
+    /// Delays everything in it by `frames`, for which it waited. [audio]
     void shift(std::int64_t frames) noexcept
     {
         forVoices([&](PlayVoice& voice) { voice.shift(frames); });
@@ -302,7 +302,7 @@ private:
 
     [[nodiscard]] const Decoder& firstDecoder() const noexcept { return *passes[current].front().voice.decoding(); }
 
-    /// Whether another pass has taken its place.
+    /// Returns whether another pass has replaced this one.
     [[nodiscard]] bool fadedAway(std::size_t pass) const noexcept
     {
         return passes[pass].front().voice.fader(Fader::fade).restsAt(0.0);

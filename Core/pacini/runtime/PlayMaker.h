@@ -175,7 +175,8 @@ private:
         if (std::all_of(kinds.begin(), kinds.end(), [](const ActuatorKind& kind) { return kind.plan.motor; }))
             return Error{ErrorCode::invalidArgument, "texture", "cannot be followed by a motor; take another actuator"};
         if (std::any_of(kinds.begin(), kinds.end(), [](const ActuatorKind& kind) { return kind.filtersVoices; }))
-            return Error{ErrorCode::invalidArgument, "texture", "cannot play where clips play as rendered"};
+            return Error{ErrorCode::invalidArgument, "texture",
+                         "cannot play in an engine that plays clips as rendered"};
         const auto found =
             std::find_if(tables.begin(), tables.end(), [&](const auto& entry) { return entry.first == texture; });
         if (found != tables.end())

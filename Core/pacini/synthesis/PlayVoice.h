@@ -215,7 +215,7 @@ public:
     /// The same, but continues with its decoder, which has played `played` frames already. [audio]
     void goOnAt(std::int64_t frame, std::int64_t played) noexcept { moveTo(frame - played); }
 
-    /// It was not played for `frames`. [audio]
+    /// Delays everything in it by `frames`, for which it was not played. [audio]
     void shift(std::int64_t frames) noexcept
     {
         start += frames;

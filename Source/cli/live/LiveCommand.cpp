@@ -164,7 +164,7 @@ private:
 CLI::App* LiveCommand::declare(CLI::App& app)
 {
     command = app.add_subcommand("live", "Play a sound as touch while it sounds");
-    addOption(*command, "input", input, "- for WAV on standard input, another pipe, or a sound file", "SOUND");
+    addOption(*command, "input", input, "Sound file, pipe, or - for WAV on standard input", "SOUND");
     addOption(*command, "--sound-input", soundInput, "Sound device to take the sound from, instead of SOUND",
               "SYSTEM[:NAME]");
     auto* rawOption = addOption(*command, "--raw", raw, "The pipe has raw little-endian samples: s16, s24, s32 or f32",
@@ -198,14 +198,14 @@ CLI::App* LiveCommand::declare(CLI::App& app)
     command->add_flag("--measure-latency", measuring,
                       "Play impulses in place of the sound and print how long each takes to the controller's report");
     auto* follow = addOption(*command, "--follow-input", followInput,
-                             "Channel of the sound that is an accelerometer on the actuator: the drive is kept at the "
-                             "level that it had at first, however the actuator is worn; it is not mixed into the sound",
+                             "Channel of the sound with an accelerometer on the actuator, which is not mixed into the "
+                             "sound: the level that is "
+                             "felt stays that of the beginning, however the actuator is worn",
                              wholeNumberFrom<std::size_t>(std::size_t(1), std::size_t(64)), "CHANNEL");
     addPreset(*command, "--follow-delay", followDelay, "Delay from the drive to the accelerometer's channel, ms",
               numberFrom(0.0, 1000.0), "MS")
         ->needs(follow);
-    addPreset(*command, "--follow-time", followTime, "Time in which 63 % of a change are followed, s",
-              numberFrom(2.0, 600.0), "S")
+    addPreset(*command, "--follow-time", followTime, "Time constant of the correction, s", numberFrom(2.0, 600.0), "S")
         ->needs(follow);
     addPreset(*command, "--follow-limit", followLimit, "Largest gain of a band, up or down, dB", numberFrom(0.0, 24.0),
               "DB")

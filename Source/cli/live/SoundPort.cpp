@@ -389,7 +389,7 @@ Result<std::unique_ptr<SoundPort>> SoundPort::openDualSense(int card)
                 if (port->choose(name, false, coils))
                     return std::unique_ptr<SoundPort>(std::move(port));
             }
-    return Error{ErrorCode::io, "", "none of four channels can be opened"};
+    return Error{ErrorCode::io, "", "cannot be opened with four channels"};
 }
 
 std::vector<std::string> SoundPort::systems()

@@ -83,7 +83,7 @@ CLI::App* CompensateSubcommand::declare(CLI::App& app)
     addPreset(*command, "--tightness", tightness, "How many times as tight the strap becomes", numberFrom(0.1, 10.0),
               "N");
     addPreset(*command, "--bands", bands, "Bands that are followed", wholeNumberFrom(1, 24), "N");
-    addPreset(*command, "--time", time, "Time in which 63 % of a change are followed, s", numberFrom(2.0, 600.0), "S");
+    addPreset(*command, "--time", time, "Time constant of the correction, s", numberFrom(2.0, 600.0), "S");
     addPreset(*command, "--limit", limit, "Largest gain of a band, up or down, dB", numberFrom(0.0, 24.0), "DB");
     addOption(*command, "--target", target,
               "Level of the feedback at a drive of 1 to reach, dB re 1 m/s\u00b2 [what it is at the start]",

@@ -78,7 +78,7 @@ public:
     static void begin() noexcept;
     static void end() noexcept;
 
-    /// Until there is none. Without the lock.
+    /// Blocks until no such call runs. Releases the GIL.
     static void wait();
 };
 

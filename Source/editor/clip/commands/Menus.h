@@ -47,7 +47,7 @@ public:
     void restoreKeys(const juce::XmlElement& changed);
     /// What a key does; null: nothing.
     [[nodiscard]] std::optional<Command> commandOf(const juce::KeyPress& key) const;
-    /// What can be done may have changed.
+    /// Updates which commands are enabled.
     void refresh() { manager.commandStatusChanged(); }
 
 private:

@@ -35,7 +35,7 @@ public:
 
     explicit EditorModel(const Folders& folders);
 
-    /// Where the user works, of those who know more than the clip that is shown; null: nobody does.
+    /// Supplies the place where the user works, for saving; null: only the shown clip is known.
     std::function<WorkPlace()> findPlace;
     /// Goes there, in the clip that is shown by now; null: nobody can.
     std::function<void(const WorkPlace&)> goToPlace;
@@ -57,7 +57,7 @@ public:
 
     std::function<void(const juce::String& title, const juce::String& text)> onError;
     void report(const std::string& title, const Error& error) const;
-    /// What was done beside what was asked for: to be seen, but not to be answered.
+    /// Reports side effects of a command, which need no answer.
     std::function<void(const juce::String& text)> onNotice;
     /// What was written where the user wanted it.
     std::function<void(const std::vector<std::filesystem::path>& files)> onWritten;

@@ -44,7 +44,7 @@ public:
 
     /// What is being read or analysed; nothing when all is done.
     [[nodiscard]] std::optional<WorkState> workNow() const;
-    /// What is not done yet is left out.
+    /// Cancels the remaining work.
     void stopWork();
 
     /// Of the clip that is shown; also a sound that is being analysed.
