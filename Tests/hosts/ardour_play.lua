@@ -1,6 +1,7 @@
 -- Inserts the plugin on the track Music, feeds its sidechain from SC, records its haptic output on a track of its own and
--- its first main output on another. Environment: SESSION_DIR; PLUGIN_ID and PLUGIN_KIND (LV2 or VST3); SOURCE, the place of
--- the parameter Source on its way, empty to leave it.
+-- its first main output on another; then tells the controls' values, loads the preset Music, and tells them again.
+-- Environment: SESSION_DIR; PLUGIN_ID and PLUGIN_KIND (LV2 or VST3); SOURCE, the place of the parameter Source on its way,
+-- empty to leave it.
 io.stdout:setvbuf("no")
 local backend = AudioEngine:set_backend("None (Dummy)", "", "")
 backend:set_device_name("Silence")
@@ -65,6 +66,19 @@ print("played to", Session:transport_sample())
 Session:request_stop(false, false, ARDOUR.TransportRequestSource.TRS_UI)
 sleep(2)
 Session:disable_record(false, false)
+
+local function tell(when)
+  for parameter in plugin:to_automatable():all_automatable_params():iter() do
+    local control = plugin:to_automatable():automation_control(parameter, true)
+    if not control:isnil() then
+      print(when .. "\t" .. control:desc().label .. "\t" .. control:get_value() .. "\t" .. control:desc().normal)
+    end
+  end
+end
+tell("loaded")
+assert(insert:plugin(0):load_preset(insert:plugin(0):preset_by_label("Music")), "the host does not load the preset")
+sleep(1)
+tell("preset")
 Session:save_state("")
 sleep(1)
 close_session()

@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """LV2 and VST3 in Ardour: sidechain from one track, haptic output recorded on another; automation written, read back
-and played; export against real time; sessions of other rates.
+and played; export against real time; sessions of other rates; values that a preset brings; a session of 50.
 
 check_ardour.py FOLDER_OF_PLUGINS LV2RENDER     exit 0, 1 on a failed check, 77 when Ardour is not there
 """
+import concurrent.futures
 import contextlib
 import io
 import os
@@ -182,6 +183,10 @@ LOW = 24 - 84 * 0.5
 LOW_PLACE = round(((LOW + 60) / 84) ** (np.log(0.5) / np.log(54 / 84)), 6)
 FORMATS = (("LV2", "urn:pacini:translator", -6.0, LOW), ("VST3", "Pacini", 0.5, LOW_PLACE))
 RATES = (RATE, 44100, 96000)
+MANY = 50
+# What the preset Music changes, as places on the controls' ways.
+MUSIC = {"Intensity": 0.637, "Rumble": 0.621, "Texture": 0.544, "Transients": 0.544, "Transient sensitivity": 0.4,
+         "Audible": 0.5}
 
 
 def alike(apart):
@@ -202,38 +207,85 @@ def check_automation_and_rates(folder, environment, renderer):
     shutil.copytree(folder / "session", base)
     fill(base / "interchange" / "session" / "audiofiles",
          {"*Music*L.wav": sound[0], "*Music*R.wav": sound[1], "*SC*.wav": sound[2]})
-    felt = {}
-    for kind, name, high, low in FORMATS:
-        for rate in RATES:
-            points = [(0, high), (RATE, high)] + ([(2 * RATE, low), (3 * RATE, low)] if rate == RATE else [])
-            made = folder / f"automated{kind}" / "session"
-            session = folder / f"{kind}{rate}" / "session"
-            here = dict(environment, SESSION_DIR=str(made), PLUGIN_ID=name, PLUGIN_KIND=kind, LABEL="Intensity",
-                        EVENTS=" ".join(f"{at} {value}" for at, value in points))
-            for _ in run("ardour_automate.lua", here):
-                shutil.rmtree(made, ignore_errors=True)
-                shutil.copytree(base, made)
-            if failures:
-                return
-            project = made / "pacini.ardour"
-            project.write_text(project.read_text().replace(f'sample-rate="{RATE}"', f'sample-rate="{rate}"', 1))
-            here.update(SESSION_DIR=str(session), RATE=str(rate), FRAMES=str(int(3.2 * rate)))
-            for _ in run("ardour_export.lua", here):
-                shutil.rmtree(session, ignore_errors=True)
-                shutil.copytree(made, session)
-            if failures:
-                return
-            felt[kind, rate] = check_session(f"{kind}, {rate} Hz", session, rate, points)
-            if rate == RATE:
-                check_levels(f"{kind}, {rate} Hz", felt[kind, rate])
-            elif Path(renderer).exists():
-                apart = min((one_rendered(renderer, folder, environment, sound, rate, felt[kind, rate], start)
-                             for start in range(rate // 6000)), key=lambda each: each.share)
-                check(f"{kind}, {rate} Hz: it plays as in another host of this rate", alike(apart), apart)
+    with concurrent.futures.ThreadPoolExecutor() as hosts:
+        jobs = [hosts.submit(check_format, folder, base, of_its_own(environment, folder, kind), renderer, sound, kind,
+                             name, high, low) for kind, name, high, low in FORMATS]
+        jobs.append(hosts.submit(check_many, folder, of_its_own(environment, folder, "many")))
+        lv2, vst3, _ = (job.result() for job in jobs)
+    if failures:
+        return
     for rate in RATES:
         # Until the line starts, whose way is that of each format's control.
-        apart = Apart(felt["LV2", rate], felt["VST3", rate], 0, rate // 2, rate, rate)
+        apart = Apart(lv2[rate], vst3[rate], 0, rate // 2, rate, rate)
         check(f"{rate} Hz: LV2 and VST3 are felt alike", alike(apart), apart)
+
+
+def of_its_own(environment, folder, name):
+    """For a host that runs beside others: its own settings, with what was scanned."""
+    config = folder / f"config{name}"
+    shutil.copytree(folder / "config", config)
+    return dict(environment, XDG_CONFIG_HOME=str(config))
+
+
+def check_format(folder, base, environment, renderer, sound, kind, name, high, low):
+    """Returns the haptic signal that was exported, by rate."""
+    felt = {}
+    for rate in RATES:
+        points = [(0, high), (RATE, high)] + ([(2 * RATE, low), (3 * RATE, low)] if rate == RATE else [])
+        made = folder / f"automated{kind}" / "session"
+        session = folder / f"{kind}{rate}" / "session"
+        here = dict(environment, SESSION_DIR=str(made), PLUGIN_ID=name, PLUGIN_KIND=kind, LABEL="Intensity",
+                    EVENTS=" ".join(f"{at} {value}" for at, value in points))
+        for _ in run("ardour_automate.lua", here):
+            shutil.rmtree(made, ignore_errors=True)
+            shutil.copytree(base, made)
+        if failures:
+            return felt
+        project = made / "pacini.ardour"
+        project.write_text(project.read_text().replace(f'sample-rate="{RATE}"', f'sample-rate="{rate}"', 1))
+        here.update(SESSION_DIR=str(session), RATE=str(rate), FRAMES=str(int(3.2 * rate)))
+        for _ in run("ardour_export.lua", here):
+            shutil.rmtree(session, ignore_errors=True)
+            shutil.copytree(made, session)
+        if failures:
+            return felt
+        felt[rate] = check_session(f"{kind}, {rate} Hz", session, rate, points)
+        if rate == RATE:
+            check_levels(f"{kind}, {rate} Hz", felt[rate])
+        elif Path(renderer).exists():
+            scratch = folder / f"rendered{kind}"
+            scratch.mkdir(exist_ok=True)
+            apart = min((one_rendered(renderer, scratch, environment, sound, rate, felt[rate], start)
+                         for start in range(rate // 6000)), key=lambda each: each.share)
+            check(f"{kind}, {rate} Hz: it plays as in another host of this rate", alike(apart), apart)
+    return felt
+
+
+def check_many(folder, environment):
+    """A session of MANY instances, in turns LV2 and VST3, each with a value of its own."""
+    session = folder / "many" / "session"
+    here = dict(environment, SESSION_DIR=str(session), KINDS=" ".join(f"{kind}={name}" for kind, name, *_ in FORMATS))
+    for _ in run("ardour_many.lua", dict(here, MAKE=str(MANY))):
+        shutil.rmtree(session, ignore_errors=True)
+    if not failures:
+        for _ in run("ardour_many.lua", here):
+            pass
+    if failures:
+        return
+    said = [line.split() for line in (session / "said").read_text().splitlines()]
+    tracks = [(float(line[1]), float(line[2])) for line in said if line[:1] == ["track"]]
+    played, load = (next(float(line[1]) for line in said if line[:1] == [what]) for what in ("played", "load"))
+    check(f"a session of {MANY} opens with all of them, and plays", len(tracks) == MANY and played > RATE,
+          f"{len(tracks)}, {played / RATE:.1f} s, load of the host {load:.0f} %")
+    vst3, lv2 = tracks[::2], tracks[1::2]
+    values = [value for value, _ in vst3]
+    check(f"each VST3 of {MANY} has its own value", np.allclose(values, 0.3 + np.arange(1, MANY, 2) / 100, atol=1e-4),
+          values[:3])
+    # Tracks in turns have the noise of two pairs of inputs.
+    steps = [one[1] - other[1] for one, other in zip(lv2, lv2[2:])]
+    check(f"each LV2 of {MANY} is felt at its own value", np.allclose(steps, 2, atol=0.3), [round(s, 2) for s in steps[:3]])
+    check(f"and each VST3 of {MANY}", all(one[1] < other[1] - 0.5 for one, other in zip(vst3, vst3[2:])),
+          [round(level, 1) for _, level in vst3[:6]])
 
 
 def check_session(claim, session, rate, points):
@@ -283,6 +335,43 @@ def one_rendered(renderer, folder, environment, sound, rate, felt, lead):
     return Apart(felt, played, shift, rate // 2, 5 * rate // 2, rate)
 
 
+def check_sidechain(folder, environment, kind, name, source):
+    session = folder / kind / "session"  # of the same name, which its folders bear
+    here = dict(environment, SESSION_DIR=str(session), PLUGIN_ID=name, PLUGIN_KIND=kind, SOURCE=source)
+    for _ in run("ardour_play.lua", here):
+        shutil.rmtree(session, ignore_errors=True)
+        shutil.copytree(folder / "session", session)
+    if failures:
+        return
+    felt, heard = take(session, "HapticRec"), take(session, "MainRec")
+    tones = {f: round(float(tone(felt, f)), 3) for f in (80, 240, 150)}
+    if source:
+        check(f"{kind}: the sidechain's tone is felt, and only that", tones[150] > 0.1
+              and max(tones[80], tones[240]) < 0.01, str(tones))
+    else:
+        check(f"{kind}: both channels of the sound are felt, the sidechain is not",
+              min(tones[80], tones[240]) > 0.05 and tones[150] < 0.01, str(tones))
+    check(f"{kind}: the sound passes", abs(tone(heard, 80) - 0.25) < 0.01 and tone(heard, 150) < 0.001,
+          f"{tone(heard, 80):.3f}")
+    if kind == "VST3":  # this host asks no property of an LV2 for its value
+        check_values((session / "said").read_text())
+
+
+def check_values(said):
+    """What the host shows of the controls before and after it has loaded the preset Music."""
+    values = {}
+    for line in said.splitlines():
+        when, label, value, standard = (line.split("\t") + ["", "", ""])[:4]
+        if when in ("loaded", "preset"):
+            values.setdefault(when, {})[label] = (float(value), float(standard))
+    loaded, preset = values.get("loaded", {}), values.get("preset", {})
+    moved = {label for label, (value, standard) in loaded.items() if abs(value - standard) > 1e-5}
+    check("VST3: the host shows every value that the plugin starts with", len(loaded) == 62 and moved == {"Source"},
+          f"{len(loaded)}, others than the default: {moved}")
+    changed = {label: round(preset[label][0], 3) for label in preset if abs(preset[label][0] - loaded[label][0]) > 1e-5}
+    check("VST3: the host shows what its preset changes, and nothing else", changed == MUSIC, changed)
+
+
 def main():
     plugins, renderer = Path(sys.argv[1]).resolve(), str(Path(sys.argv[2]).resolve())
     with tempfile.TemporaryDirectory() as folder:
@@ -307,24 +396,11 @@ def main():
         if failures:
             return 1
 
-        # The LV2's settings are no control ports, which is all that the script can set.
-        for kind, name, source in (("LV2", "urn:pacini:translator", ""), ("VST3", "Pacini", "0.5")):
-            session = folder / kind / "session"  # of the same name, which its folders bear
-            here = dict(environment, SESSION_DIR=str(session), PLUGIN_ID=name, PLUGIN_KIND=kind, SOURCE=source)
-            for _ in run("ardour_play.lua", here):
-                shutil.rmtree(session, ignore_errors=True)
-                shutil.copytree(folder / "session", session)
-
-            felt, heard = take(session, "HapticRec"), take(session, "MainRec")
-            tones = {f: round(float(tone(felt, f)), 3) for f in (80, 240, 150)}
-            if source:
-                check(f"{kind}: the sidechain's tone is felt, and only that", tones[150] > 0.1
-                      and max(tones[80], tones[240]) < 0.01, str(tones))
-            else:
-                check(f"{kind}: both channels of the sound are felt, the sidechain is not",
-                      min(tones[80], tones[240]) > 0.05 and tones[150] < 0.01, str(tones))
-            check(f"{kind}: the sound passes", abs(tone(heard, 80) - 0.25) < 0.01 and tone(heard, 150) < 0.001,
-                  f"{tone(heard, 80):.3f}")
+        with concurrent.futures.ThreadPoolExecutor() as hosts:
+            # The LV2's settings are no control ports, which is all that the script can set.
+            for job in [hosts.submit(check_sidechain, folder, of_its_own(environment, folder, f"play{kind}"), kind, name,
+                                     "" if kind == "LV2" else "0.5") for kind, name, *_ in FORMATS]:
+                job.result()
         if not failures:
             check_automation_and_rates(folder, environment, renderer)
     return 1 if failures else 0
