@@ -22,7 +22,7 @@ build_packages=(g++ cmake ninja-build ccache pkg-config nlohmann-json3-dev libfm
     libeigen3-dev libcairo2-dev libebur128-dev libhidapi-dev libqrcodegencpp-dev librtaudio-dev libexpat1-dev libzip-dev)
 # The plugin, the hosts that it is tried in, and a game controller that does not exist.
 plugin_packages=(juce-modules-source libjack-jackd2-dev fonts-roboto-unhinted fonts-dejavu-core)
-host_packages=(python3-venv python3-dev liblilv-dev lv2-dev xvfb xauth xdotool imagemagick x11-utils procps jackd2 jack-tools ardour
+host_packages=(python3-venv python3-dev liblilv-dev lv2-dev sordi xvfb xauth xdotool imagemagick x11-utils procps jackd2 jack-tools ardour
     jalv qtractor umockdev gir1.2-umockdev-1.0 python3-gi pulseaudio pulseaudio-utils)
 # The Debian package, and the bare root that it is tried in.
 package_packages=(dpkg-dev file)

@@ -4,12 +4,13 @@
 check_lv2.py LV2RENDER FOLDER_OF_LV2     exit 0, 1 on a failed check, 77 when lilv or numpy is not there
 """
 import os
+import re
 import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
-from host_test import RATE, check, failures, skip
+from host_test import RATE, check, failures, needs, skip
 
 try:
     import numpy as np
@@ -22,7 +23,18 @@ if not Path(sys.argv[1]).exists():
 URI = "urn:pacini:translator"
 
 
+def check_turtle(folder):
+    """Against LV2's own vocabularies. These know groups and hints of ports only; hosts read them of properties, too."""
+    said = subprocess.run(["lv2_validate", *map(str, sorted(Path(folder).rglob("*.ttl")))], capture_output=True, text=True,
+                          timeout=60)
+    found = re.findall(r"^error: (.*)\n((?:\s+\S+\n)*)", said.stderr + said.stdout, re.MULTILINE)
+    ours = [f"{what}: {' '.join(where.split())}" for what, where in found
+            if not (what.endswith("lv2core#Port>") and where.split()[1].endswith(("port-groups#group", "#portProperty")))]
+    check("the files are valid by LV2's vocabularies", "checked" in said.stderr + said.stdout and not ours, ours[:3])
+
+
 def main():
+    needs("lv2_validate", "sord_validate")
     tool, folder = (str(Path(argument).resolve()) for argument in sys.argv[1:3])
     # The specifications lie in the usual places.
     specifications = [str(path) for path in sorted(Path("/usr/lib").glob("*/lv2")) + [Path("/usr/lib/lv2")]]
@@ -138,6 +150,13 @@ def main():
         check("a saved state sounds the same", np.array_equal(restored[2, RATE:], wanted[2, RATE:])
               and not np.array_equal(restored[2], usual[2]))
 
+        np.ascontiguousarray(np.tile(sound, (1, 20)).T).tofile(scratch / "in")
+        playing, resting = min((tuple(map(float, render("--silence", "60", "--port", "freeWheeling=0", block=256)[1].split()))
+                                for _ in range(3)), key=lambda shares: shares[1] / shares[0])
+        check("silence costs next to nothing", resting < 0.2 * playing,
+              f"{100 * resting:.3f} % of a core, {100 * playing:.3f} % while it plays")
+
+    check_turtle(folder)
     turtle = "".join(path.read_text() for path in Path(folder).rglob("*.ttl"))
     check("the files name the plugin", URI in turtle)
     for name in ("intensity", "profile", "gateRelease", "bypass"):

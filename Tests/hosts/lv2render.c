@@ -2,13 +2,14 @@
    values as the plugin has audio ports of that direction, in their order.
 
    lv2render URI RATE BLOCK IN OUT [--set PROPERTY=VALUE]... [--port SYMBOL=VALUE]... [--get PROPERTY|all]... [--at FRAME]
-             [--load STATE] [--preset URI] [--save STATE] [--latency] [--sets] [--parameters]
+             [--load STATE] [--preset URI] [--save STATE] [--latency] [--sets] [--parameters] [--silence SECONDS]
 
    --at gives the frame at which the block begins that brings the --set, --port and --get that follow it (0 at first); --get
    asks for a value, which --sets then prints. States are
    Turtle files. --latency prints the value of the latency port after the last block, --sets each value that the plugin
    sends: "PROPERTY VALUE", --parameters what the plugin's files say of its parameters, between tabs: property, least value,
-   largest value, default, and "VALUE LABEL" of each scale point. */
+   largest value, default, and "VALUE LABEL" of each scale point, --silence what share of a core the plugin takes while it
+   plays IN, and in so many seconds of silence, 5 s after its end: "SHARE SHARE". */
 
 #include <lilv/lilv.h>
 #include <lv2/atom/atom.h>
@@ -25,6 +26,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 enum { mostUris = 4096, mostPorts = 128, atomBytes = 1 << 18 };
 
@@ -171,6 +173,14 @@ static void printParameters(LilvWorld* world, const LilvPlugin* plugin)
     lilv_node_free(writable);
 }
 
+/* Seconds of processor time that this thread has taken. */
+static double worked(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return (double) now.tv_sec + 1e-9 * (double) now.tv_nsec;
+}
+
 int main(int argc, char** argv)
 {
     if (argc < 6)
@@ -182,6 +192,7 @@ int main(int argc, char** argv)
     const char* savePath = NULL;
     const char* presetUri = NULL;
     int tellLatency = 0, tellSets = 0, tellParameters = 0;
+    double silence = 0.0; /* s */
     for (int a = 6; a < argc; ++a)
     {
         if (strcmp(argv[a], "--load") == 0 && a + 1 < argc)
@@ -190,6 +201,8 @@ int main(int argc, char** argv)
             savePath = argv[++a];
         else if (strcmp(argv[a], "--preset") == 0 && a + 1 < argc)
             presetUri = argv[++a];
+        else if (strcmp(argv[a], "--silence") == 0 && a + 1 < argc)
+            silence = atof(argv[++a]);
         else if (strcmp(argv[a], "--latency") == 0)
             tellLatency = 1;
         else if (strcmp(argv[a], "--sets") == 0)
@@ -316,6 +329,7 @@ int main(int argc, char** argv)
     size_t done = 0;
     size_t before = 0; /* frames that were done when the block before began */
     int first = 1;
+    double playing = 0.0; /* s of work */
     while (done < frames)
     {
         const size_t n = frames - done < (size_t) block ? frames - done : (size_t) block;
@@ -367,7 +381,9 @@ int main(int argc, char** argv)
             atomOuts[k]->atom.type = mapUri(NULL, LV2_ATOM__Chunk);
             atomOuts[k]->atom.size = atomBytes - sizeof(LV2_Atom);
         }
+        const double begin = worked();
         lilv_instance_run(instance, (uint32_t) n);
+        playing += worked() - begin;
         for (size_t k = 0; k < atomOutCount && tellSets; ++k)
             if (atomOuts[k]->atom.type == mapUri(NULL, LV2_ATOM__Sequence))
                 printSets(atomOuts[k]);
@@ -379,6 +395,32 @@ int main(int argc, char** argv)
         first = 0;
     }
     fclose(out);
+    if (silence > 0.0)
+    {
+        const double dies = 5.0; /* s */
+        double begin = 0.0, resting = 0.0;
+        for (size_t c = 0; c < ins; ++c)
+            memset(inPorts[c], 0, (size_t) block * sizeof(float));
+        for (double played = 0.0; played < dies + silence; played += (double) block / rate)
+        {
+            LV2_Atom_Forge_Frame none;
+            if (atomIn)
+            {
+                lv2_atom_forge_set_buffer(&forge, (uint8_t*) atomIn, atomBytes);
+                lv2_atom_forge_sequence_head(&forge, &none, 0);
+                lv2_atom_forge_pop(&forge, &none);
+            }
+            for (size_t k = 0; k < atomOutCount; ++k)
+            {
+                atomOuts[k]->atom.type = mapUri(NULL, LV2_ATOM__Chunk);
+                atomOuts[k]->atom.size = atomBytes - sizeof(LV2_Atom);
+            }
+            begin = worked();
+            lilv_instance_run(instance, (uint32_t) block);
+            resting += played < dies ? 0.0 : worked() - begin;
+        }
+        printf("%g %g\n", playing * rate / (double) frames, resting / silence);
+    }
     if (tellLatency && latencyPort < mostPorts)
         printf("%d\n", (int) controls[latencyPort]);
     if (savePath)

@@ -9,6 +9,7 @@
 #include <array>
 #include <cstddef>
 #include <locale>
+#include <span>
 #include <sstream>
 #include <utility>
 #include <vector>
@@ -83,8 +84,11 @@ constexpr std::string_view groupPrefix = "plug:group_";
 /// What presets of JUCE's wrapper set, and what it leaves undefined.
 constexpr std::string_view program = "plug:Program";
 
-/// What JUCE's wrapper writes, and what stands there instead. There is no page and no address to name.
-constexpr std::array<std::array<std::string_view, 2>, 10> corrections{{
+/// What JUCE's wrapper writes, and what stands there instead.
+using Correction = std::array<std::string_view, 2>;
+
+/// There is no page and no address to name.
+constexpr std::array<Correction, 10> corrections{{
     {"lv2:name \"Audio In 1\"", "lv2:name \"Sound In Left\""},
     {"lv2:name \"Audio In 2\"", "lv2:name \"Sound In Right\""},
     {"lv2:name \"Audio In 3\"", "lv2:name \"Sidechain\""},
@@ -97,9 +101,15 @@ constexpr std::array<std::array<std::string_view, 2>, 10> corrections{{
     {"\ta lv2:Plugin ;\n\tdoap:name", "\ta lv2:Plugin , doap:Project ;\n\tdoap:name"},
 }};
 
-void correct(std::string& text)
+/// The window can be resized; and an interface for options is data, no feature.
+constexpr std::array<Correction, 2> windowCorrections{{
+    {"\t\tui:noUserResize ,\n", ""},
+    {"\t\tui:resize ,\n\t\topts:interface ,\n", "\t\tui:resize ,\n"},
+}};
+
+void correct(std::string& text, std::span<const Correction> wrong)
 {
-    for (const auto& [written, wanted] : corrections)
+    for (const auto& [written, wanted] : wrong)
         for (std::size_t at = text.find(written); at != text.npos; at = text.find(written, at + wanted.size()))
             text.replace(at, written.size(), wanted);
 }
@@ -153,7 +163,7 @@ Result<std::string> describeLv2Parameters(std::string_view turtle)
     }
     // One gap whatever stood here, so that what is described again stays as it is.
     rest.erase(rest.find_last_not_of(blanks) + 1);
-    correct(rest);
+    correct(rest, corrections);
     std::ostringstream out;
     out.imbue(std::locale::classic());
     out.setf(std::ios::fixed);
@@ -170,6 +180,13 @@ Result<std::string> describeLv2Parameters(std::string_view turtle)
         out << groupPrefix << group.symbol << "\n\ta pg:Group ;\n\tlv2:name " << quoted(group.name)
             << " ;\n\tlv2:symbol " << quoted(group.symbol) << " .\n\n";
     return std::move(out).str();
+}
+
+std::string describeLv2Window(std::string_view turtle)
+{
+    std::string text(turtle);
+    correct(text, windowCorrections);
+    return text;
 }
 
 } // namespace pacini::plugin

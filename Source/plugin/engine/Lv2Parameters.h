@@ -15,4 +15,7 @@ namespace pacini::plugin
 /// choices of each to 0 to 1, whatever its range. Errors if a parameter is missing in it, or unknown.
 [[nodiscard]] Result<std::string> describeLv2Parameters(std::string_view turtle);
 
+/// Returns the window's description of JUCE's generator (ui.ttl) without the statements that LV2 does not know.
+[[nodiscard]] std::string describeLv2Window(std::string_view turtle);
+
 } // namespace pacini::plugin

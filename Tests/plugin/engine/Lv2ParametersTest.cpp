@@ -105,6 +105,17 @@ TEST_CASE("A description for LV2 that lacks a parameter or has one too many is r
     CHECK_FALSE(describeLv2Parameters(""));
 }
 
+TEST_CASE("For LV2, the window states what LV2 knows, and the rest stays")
+{
+    const std::string data = "\tlv2:extensionData\n\t\tui:idleInterface ,\n\t\topts:interface ,\n";
+    const std::string feature = "\t\tui:resize ;\n\n\tlv2:optionalFeature\n\t\tui:resize ,\n";
+    const std::string options = "\t\topts:options ;\n";
+    const std::string described =
+        describeLv2Window(data + "\t\tui:noUserResize ,\n" + feature + "\t\topts:interface ,\n" + options);
+    CHECK(described == data + feature + options);
+    CHECK(describeLv2Window(described) == described);
+}
+
 TEST_CASE("In LV2, the host's switch and the parameter bypass for themselves, and a preset always sets its values")
 {
     juce::AudioProcessor::setTypeOfNextNewPlugin(juce::AudioProcessor::wrapperType_LV2);
