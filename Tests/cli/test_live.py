@@ -167,6 +167,20 @@ class Live(CommandTest):
         self.fails(1, ["live", "a.wav", "-o", "b.wav", "--settings", "mine.json"], "mine.json: live.audible")
         self.fails(2, ["live", "a.wav", "-o", "b.wav", "--settings", "mine.json", "--preset", "music"], "--preset")
 
+    def test_settings_that_are_printed_are_read_again(self):
+        options = ("--preset", "music", "--rumble", "-6", "--texture-muted")
+        done = self.run_command("live", *options, "--print-settings")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        mine = self.folder / "mine.json"
+        mine.write_bytes(done.stdout)
+        self.assertEqual(self.piped(self.sound, "--settings", str(mine)), self.piped(self.sound, *options))
+        again = self.run_command("live", "--settings", str(mine), "--attack", "20", "--print-settings")
+        self.assertEqual(json.loads(again.stdout), json.loads(done.stdout) | {"live": json.loads(done.stdout)["live"]
+                                                                               | {"attack": 20}})
+        self.assertEqual(self.report("live", "--settings", str(mine), "--print-settings")["settings"],
+                         json.loads(done.stdout))
+        self.fails(1, ["live", "--settings", "none.json", "--print-settings"], "none.json")
+
     def test_a_duration_ends_it(self):
         report = self.report("live", "a.wav", "-o", "b.wav", "--duration", "0.25")
         self.assertEqual((report["seconds"], report["outputs"]), (0.25, [{"output": "b.wav", "frames": 12000}]))

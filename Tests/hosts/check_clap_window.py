@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""The window of the CLAP plugin in a window of a host of our own: sizes, gestures, many openings, with a timer of the
-host and without, and while sound plays.
+"""The window of the CLAP plugin in a window of a host of our own: sizes, gestures, presets of the command and for it,
+undo, the two sides, many openings, with a timer of the host and without, and while sound plays.
 
-check_clap_window.py PLUGIN.clap [PICTURE]     exit 0, 1 on a failed check, 77 when something is not there
+check_clap_window.py PLUGIN.clap PACINI [PICTURE]     exit 0, 1 on a failed check, 77 when something is not there
 """
 
 import ctypes
+import json
 import os
 import subprocess
 import sys
@@ -159,14 +160,124 @@ def turned(environment, plugin):
     return []
 
 
+class Hands:
+    """Mouse and keys on a window at the screen's corner."""
+
+    def __init__(self, plugin, environment, path):
+        self.plugin, self.environment, self.path = plugin, environment, path
+
+    def tool(self, *words):
+        subprocess.run(["xdotool", *map(str, words)], check=True, env=self.environment)
+        self.plugin.run(0.3)
+
+    def click(self, place):
+        self.tool("mousemove", *place)
+        self.tool("click", 1)
+
+    def keys(self, *names):
+        for name in names:
+            self.tool("key", "--delay", 30, name)
+
+    def look(self, left, top, width, height):
+        """What a part of the screen shows, as something to compare."""
+        self.tool("mousemove", 515, 63)  # no control is under it
+        self.plugin.run(0.5)
+        picture(self.environment["DISPLAY"], self.path)
+        return subprocess.run(
+            ["convert", str(self.path), "-crop", f"{width}x{height}+{left}+{top}", "-format", "%#", "info:"],
+            capture_output=True, text=True, check=True,
+        ).stdout
+
+
+# In a window of 1024 x 648, as it opens.
+PRESETS, SIDE_A, SIDE_B = (180, 24), (380, 24), (411, 24)
+NAME = (88, 12, 170, 24)  # of the preset
+
+
+def check_presets(library, screen, environment, path, pacini):
+    """As somebody who makes a preset by the command, chooses it in the plugin, changes it, and saves another."""
+    folder = Path(environment["HOME"]) / ".config" / "Pacini" / "Presets"
+    folder.mkdir(parents=True)
+
+    def command(*options):
+        done = subprocess.run([pacini, "live", *map(str, options), "--print-settings"], capture_output=True, text=True,
+                              check=True, timeout=60)
+        return done.stdout
+
+    (folder / "Mine.json").write_text(command("--intensity", -7, "--attack", 33))
+    plugin = Plugin(library)
+    window = opened(plugin, screen)
+    plugin.run(1.0)
+    hands = Hands(plugin, environment, path)
+
+    def values():
+        return plugin.value("Intensity"), plugin.value("Attack"), plugin.value("Release")
+
+    usual = values()
+    hands.click(PRESETS)
+    hands.keys("Escape", *["Down"] * 12)  # behind all that are shipped
+    sent = plugin.flush()
+    check("a preset that the command printed is chosen in the window", values()[:2] == (-7, 33), values())
+    check("the host hears of it as of gestures", len({i for kind, i, *_ in sent if kind == BEGIN}) > 2
+          and len([1 for kind, *_ in sent if kind == BEGIN]) == len([1 for kind, *_ in sent if kind == END]), len(sent))
+    hands.keys("ctrl+z")
+    undone = values()
+    sent = [plugin.flush()]
+    hands.keys("ctrl+shift+z")
+    sent.append(plugin.flush())
+    check("undo and redo are of a preset, too", undone[:2] != (-7, 33) and values()[:2] == (-7, 33), undone)
+    check("and the host hears of both", all(len([1 for kind, *_ in each if kind == END]) >= 2 for each in sent),
+          [len(each) for each in sent])
+
+    def named(release):
+        plugin.set("Release", release)
+        return hands.look(*NAME)
+
+    named(77)  # the pointer has left the menu
+    looks = [named(release) for release in (usual[2], 77, usual[2], 77)]
+    check("a preset has a mark while a value is another one", looks[0] == looks[2] != looks[1] == looks[3])
+    hands.click(PRESETS)
+    hands.keys("Down", "Return")  # from the one that is chosen to Save preset
+    hands.keys("ctrl+a")
+    hands.tool("type", "Hers")
+    hands.keys("Return")
+    saved = folder / "Hers.json"
+    check("it is saved under another name", until(saved.exists, 5))
+    if not saved.exists():
+        return
+    read = json.loads(command("--settings", saved))["live"]
+    check("the command reads it", (read["intensity"], read["attack"], read["release"]) == (-7, 33, 77))
+    check("as it was written", json.loads(saved.read_text())["live"] == read)
+
+    hands.click(SIDE_B)
+    begins = values()
+    plugin.set("Intensity", -3)
+    hands.click(SIDE_A)
+    a = values()
+    hands.click(SIDE_B)
+    check("the other side begins as this one, and each keeps its own", (begins, a, values())
+          == ((-7, 33, 77), (-7, 33, 77), (-3, 33, 77)), (begins, a, values()))
+    state = plugin.save()
+    closed(plugin, screen, window)
+    plugin.destroy()
+    other = Plugin(library)
+    check("the session has both", other.load(state) and other.value("Intensity") == -3)
+    window = opened(other, screen)
+    other.run(1.0)
+    Hands(other, environment, path).click(SIDE_A)
+    check("as the window shows", other.value("Intensity") == -7, other.value("Intensity"))
+    closed(other, screen, window)
+    other.destroy()
+
+
 def main():
-    needs("Xvfb", "xdotool", "import", "identify", "xwininfo")
-    library_path = str(Path(sys.argv[1]).resolve())
+    needs("Xvfb", "xdotool", "import", "identify", "convert", "xwininfo")
+    library_path, pacini = (str(Path(argument).resolve()) for argument in sys.argv[1:3])
     with Processes() as processes, tempfile.TemporaryDirectory() as folder:
         display = processes.start_screen()
-        environment = dict(os.environ, DISPLAY=display)
+        environment = dict(os.environ, DISPLAY=display, HOME=folder)
         os.environ.update(DISPLAY=display, HOME=folder, XDG_CONFIG_HOME=f"{folder}/.config")
-        path = Path(sys.argv[2] if len(sys.argv) > 2 else f"{folder}/window.png")
+        path = Path(sys.argv[3] if len(sys.argv) > 3 else f"{folder}/window.png")
         screen = Screen(display)
         library = Library(library_path)
         plugin = Plugin(library)
@@ -248,6 +359,7 @@ def main():
         check("and by a timer again", colours(display, path) > 100)
         closed(last, screen, window)
         last.destroy()
+        check_presets(library, screen, environment, path, pacini)
     return 1 if failures else 0
 
 

@@ -17,6 +17,7 @@
 #include "io/FileOrigin.h"
 #include "io/Fingerprint.h"
 #include "io/LiveSettings.h"
+#include "io/PlaybackSettings.h"
 #include "io/SettingsFile.h"
 
 #include <pacini/realtime/TranslatorPresets.h>
@@ -150,6 +151,7 @@ private:
     std::string profile;
     std::string preset;
     std::string settingsFile;
+    bool printSettings = false;
     DescribedOptions described;
     double duration = -1.0; ///< s; negative: until the sound ends
     bool measuring = false;
@@ -192,6 +194,9 @@ CLI::App* LiveCommand::declare(CLI::App& app)
         "on the command line override them",
         "FILE")
         ->excludes("--preset");
+    command->add_flag("--print-settings", printSettings,
+                      "Print all of these parameters in the form of that file, which the plugin takes as a preset, and "
+                      "exit");
     described.declare(*command, infosOf(translatorParameters));
     addOption(*command, "--duration", duration, "End after this time, s [when the sound ends]",
               numberFrom(0.0, limits::duration, "24 h"), "S");
@@ -233,6 +238,8 @@ std::optional<Error> LiveCommand::usageError() const
     {
         return Error{ErrorCode::invalidArgument, "live", std::move(message)};
     };
+    if (printSettings)
+        return std::nullopt; // nothing is played
     if (input.empty() && soundInput.empty())
         return wrong("the sound is missing; name a file, - for standard input, or a device with --sound-input");
     if (!input.empty() && !soundInput.empty())
@@ -601,6 +608,16 @@ Exit LiveCommand::run(Console& console)
 {
     if (const auto wrong = usageError())
         return console.fail("", *wrong, Exit::usage);
+    if (printSettings)
+    {
+        const auto params = chosenParams(console);
+        if (!params)
+            return Exit::failed;
+        const auto document = playbackSettingsJson({{}, {}, *params});
+        console.addToReport({{"settings", document}});
+        console.print(document.dump(4));
+        return Exit::ok;
+    }
     if (output == "-")
         console.keepStdoutFree();
     TranslatorSetup setup;
