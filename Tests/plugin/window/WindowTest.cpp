@@ -4,11 +4,15 @@
 #include "editor/Pump.h"
 #include "editor/Tracks.h"
 #include "editor/Unmarked.h"
+#include "editor/clip/sheets/OperationSheet.h"
 #include "io/ClipFile.h"
 #include "io/ClipSeal.h"
+#include "io/ShippedProfiles.h"
 #include "plugin/engine/Rig.h"
 #include "plugin/window/PluginWindow.h"
 #include "support/TempFolder.h"
+
+#include <pacini/synthesis/Transparency.h>
 
 #include <array>
 #include <atomic>
@@ -512,6 +516,39 @@ TEST_CASE("A captured clip is felt as its sound was: with the live share of what
     const auto sound = rig.plugin.capture(5.0);
     CHECK(edited->clip == editor::clipOfCapture(sound, 48000.0, "capture 1", params).value());
     CHECK_FALSE(edited->clip == editor::clipOfCapture(sound, 48000.0, "capture 1").value());
+}
+
+TEST_CASE(
+    "A captured clip can feel on the plugin's actuator as on the one that it was made for, as render --designed-for")
+{
+    const juce::ScopedJuceInitialiser_GUI gui;
+    WindowRig rig;
+    const auto& choices = plugin::rowOf(ParameterId::profile).choices;
+    std::size_t slot = 0;
+    while (profileNameOf(slot) != "l5-wristband")
+        REQUIRE(++slot < choices.size());
+    rig.plugin.parameter(ParameterId::profile).setPlainNotifyingHost(static_cast<double>(slot));
+    (void)rig.run(liveSounds(2, 4 * 48000, 3));
+    plugin::PluginWindow window(rig.plugin);
+    window.editCaptured({editor::clipOfCapture(rig.plugin.capture(2.0), 48000.0, "capture 1").value(), {}});
+    const auto clip = [&]
+    {
+        return *rig.plugin.clips().session().model.clip();
+    };
+    const Clip before = clip();
+    REQUIRE(window.clipEditor()->doCommand(editor::feelAlike));
+    auto* sheet = dynamic_cast<editor::OperationSheet*>(window.clipEditor()->sheet());
+    REQUIRE(sheet != nullptr);
+    sheet->apply();
+    AdaptationParams params;
+    params.strength = rig.plugin.values()[ParameterId::strength];
+    const auto there = builtInProfile(slot);
+    bool asThere = false;
+    for (const NamedProfile& named : rig.plugin.clips().session().actuators.profiles())
+        if (const auto made = transparentClip(before, *named.profile, *there, params); made && made->clip == clip())
+            asThere = named.name != "l5-wristband";
+    CHECK(asThere);
+    CHECK_FALSE(clip() == before);
 }
 
 TEST_CASE("A capture is saved over no other file without a question", "[overwrite]")
