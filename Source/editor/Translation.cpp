@@ -29,7 +29,7 @@ struct Template
     /// Whether a text that fits is this one: "{0} of {1}" would fit half of all sentences.
     [[nodiscard]] bool isSpecific() const
     {
-        constexpr int enough = 12;
+        constexpr int enough = 10;
         return letters >= enough || (letters > 0 && juce::CharacterFunctions::isLetter(fixed[0][0]));
     }
 };
@@ -98,7 +98,9 @@ std::optional<juce::StringArray> valuesOf(const Template& wanted, const juce::St
         const auto& next = wanted.fixed[i];
         const bool last = i + 1 == wanted.fixed.size();
         const int found = last ? text.length() - next.length() : text.indexOf(at, next);
-        if (found <= at || (last && !text.endsWith(next)) || (next.isEmpty() && !last))
+        // What may follow at the end, such as advice, may be missing.
+        const bool isOptional = last && next.isEmpty() && wanted.translated[static_cast<std::size_t>(i - 1)];
+        if (found < at || (found == at && !isOptional) || (last && !text.endsWith(next)) || (next.isEmpty() && !last))
             return std::nullopt;
         // A number or a name is within a line: what has several is translated line by line.
         if (!wanted.translated[static_cast<std::size_t>(i - 1)] && text.substring(at, found).containsChar('\n'))

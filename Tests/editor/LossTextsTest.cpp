@@ -1,4 +1,5 @@
-// Losses are told by code that knows no language: the windows have a form of each in every language.
+// Losses, and what readers of files say, are told by code that knows no language: the windows have a form of each in
+// every language.
 
 #include "document/ActuatorTrace.h"
 #include "document/ClipExport.h"
@@ -6,6 +7,7 @@
 #include "editor/Text.h"
 #include "editor/Translation.h"
 #include "editor/Unmarked.h"
+#include "io/formats/ClipFormat.h"
 #include "support/RandomClip.h"
 
 #include <algorithm>
@@ -243,7 +245,75 @@ void checkForms(const Messages& messages, const juce::StringArray& names)
     INFO(missing.joinIntoString("\n"));
     CHECK(missing.isEmpty());
 }
+
+/// What a reader of clips warns of, or why it refuses: of bytes as they are, and with single bytes changed or the end
+/// cut off.
+void addReading(const ClipFormat& format, const std::string& bytes, Messages& messages)
+{
+    const auto take = [&](const std::string& text)
+    {
+        const auto read = format.read(text);
+        if (read)
+            messages.addAll(read->warnings);
+        else
+            messages.add(read.error().message);
+    };
+    take(bytes);
+    constexpr std::size_t most = 20000; // longer ones say the same, slowly
+    if (bytes.empty() || bytes.size() > most)
+        return;
+    constexpr std::size_t changes = 60;
+    const std::string others = "\"-9n ,[x";
+    for (std::size_t i = 0; i < changes; ++i)
+    {
+        const std::size_t at = i * bytes.size() / changes;
+        std::string changed = bytes;
+        changed[at] = others[i % others.size()];
+        take(changed);
+        take(bytes.substr(0, at));
+    }
+}
+
+/// The message without the place in front of it, such as "plays[2].gain: ", which may have a broken key in it.
+juce::String withoutPlace(const juce::String& said)
+{
+    const auto mark = juce::String::fromUTF8("\xe2\x9f\xa6");
+    const auto place = said.upToFirstOccurrenceOf(": " + mark, false, false);
+    const bool isPlace = place.length() < said.length() && !place.contains(mark) &&
+                         juce::StringArray::fromTokens(place, " ", {}).size() <= 2;
+    return isPlace ? said.substring(place.length()) : said;
+}
 } // namespace
+
+TEST_CASE("What readers of clips warn of, and why they refuse a file, has a form in every language")
+{
+    const juce::ScopedJuceInitialiser_GUI gui;
+    Messages messages;
+    for (const char* folder : {"Tests/fuzz/corpus", "Tests/fuzz/regressions"})
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(sourceFolder() / folder))
+        {
+            const ClipFormat* format = clipFormatNamed(entry.path().parent_path().filename().string());
+            if (!entry.is_regular_file() || format == nullptr || format->reader == nullptr)
+                continue;
+            std::ifstream file(entry.path(), std::ios::binary);
+            addReading(*format, std::string(std::istreambuf_iterator<char>(file), {}), messages);
+        }
+    for (const char* part : {"is limited to this range", "is cut off: ", "is missing", " is needed", "is unknown"})
+    {
+        CAPTURE(part);
+        CHECK(messages.has(part));
+    }
+    juce::StringArray missing;
+    const MarkedLanguage marked;
+    for (const auto& [kind, message] : messages)
+    {
+        const auto said = withoutPlace(editor::translateMessage(editor::toText(message)));
+        if (!unmarkedWords(said, {}).isEmpty())
+            missing.add(said);
+    }
+    INFO(missing.joinIntoString("\n"));
+    CHECK(missing.isEmpty());
+}
 
 TEST_CASE("Every loss that an export tells has a German and a Japanese form")
 {
