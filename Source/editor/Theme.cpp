@@ -49,9 +49,12 @@ ButtonColours coloursOf(const juce::Button& button, const Palette& p, bool highl
     };
     if (button.getToggleState())
         return {shade(p.accent).withMultipliedAlpha(alpha), juce::Colours::transparentBlack, p.onAccent};
-    if (button.getProperties().contains(primaryProperty))
-        return {shade(p.primary).withMultipliedAlpha(alpha), juce::Colours::transparentBlack,
-                button.isEnabled() ? p.onPrimary : p.card};
+    // One that cannot be pressed calls for nothing: it looks as all others do.
+    if (button.isEnabled() && button.getProperties().contains(primaryProperty))
+        return {p.primary.interpolatedWith(p.background, down          ? 0.22f
+                                                         : highlighted ? 0.12f
+                                                                       : 0.0f),
+                juce::Colours::transparentBlack, p.onPrimary};
     return {shade(p.control).withMultipliedAlpha(alpha), p.line.withMultipliedAlpha(alpha),
             p.text.withMultipliedAlpha(alpha)};
 }
@@ -104,9 +107,15 @@ bool systemIsDark()
 #endif
 }
 
-void makePrimary(juce::Button& button)
+void makePrimary(juce::Button& button, bool isPrimary)
 {
-    button.getProperties().set(primaryProperty, true);
+    if (isPrimary == button.getProperties().contains(primaryProperty))
+        return;
+    if (isPrimary)
+        button.getProperties().set(primaryProperty, true);
+    else
+        button.getProperties().remove(primaryProperty);
+    button.repaint();
 }
 
 juce::Colour buttonTextColour(const juce::Button& button)

@@ -18,8 +18,8 @@ namespace pacini::editor
 /// Whether the system's theme is the dark one; dark where it does not say. [message]
 [[nodiscard]] bool systemIsDark();
 
-/// Marks the one prominent button of a bar.
-void makePrimary(juce::Button& button);
+/// Marks the one prominent button of a bar, or takes the mark away.
+void makePrimary(juce::Button& button, bool isPrimary = true);
 
 /// The colour of a button's text or icon, by what it is and whether it is on.
 [[nodiscard]] juce::Colour buttonTextColour(const juce::Button& button);
