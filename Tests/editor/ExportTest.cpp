@@ -110,3 +110,23 @@ TEST_CASE("A loss of the table is shown in the clip, and the choices of the expo
     CHECK(bench.view.lastExport.format == "ahap");
     CHECK_FALSE(bench.view.statusBar().steps().exported); // nothing was
 }
+
+TEST_CASE("What is kept has the height of its words, and the fields stay where they are when a table comes")
+{
+    const TempFolder folder;
+    EditorBench bench;
+    bench.openDemo("drums_tabla_pattern");
+    auto& sheet = exportOf(bench);
+    auto& words = get<juce::TextEditor>(sheet, "What is kept and what is lost");
+    auto& table = get<editor::LossTable>(sheet, "Losses");
+    auto& target = get<juce::TextEditor>(sheet, "Destination file or folder");
+    REQUIRE(pumpUntil([&] { return words.getText().contains("No losses."); }));
+    CHECK(words.getHeight() <= words.getTextHeight() + 2 * editor::grid);
+    CHECK_FALSE(table.isVisible());
+    const auto place = target.getBounds();
+    type(sheet, folder / "drums.ahap");
+    REQUIRE(pumpUntil([&] { return table.isVisible(); }));
+    CHECK(target.getBounds() == place);
+    CHECK(table.getHeight() > 15 * editor::grid);
+    CHECK(table.getY() >= words.getBottom());
+}

@@ -17,7 +17,9 @@ namespace
 {
 constexpr int rowHeight = 4 * grid;
 constexpr int labelWidth = 12 * grid;
-constexpr int sourceRate = 1; // of the menu; the others are Hz
+constexpr int fullHeight = 520;
+constexpr int mostKept = 9 * grid; // of what is kept, above a table of what is not
+constexpr int sourceRate = 1;      // of the menu; the others are Hz
 
 int itemOf(EventExport events)
 {
@@ -40,7 +42,7 @@ Error ofFormat(Error error, const ExportChoice& choice, bool several)
 } // namespace
 
 ExportSheet::ExportSheet(const EditorModel& project, const Actuators& profiles, ExportMemory& last)
-    : Sheet("Export", 760, 520),
+    : Sheet("Export", 760, fullHeight),
       model(project),
       actuators(profiles),
       memory(last),
@@ -123,7 +125,11 @@ ExportSheet::ExportSheet(const EditorModel& project, const Actuators& profiles, 
     losses.setReadOnly(true);
     losses.setCaretVisible(false);
     losses.setTitle("What is kept and what is lost");
-    losses.setFont(smallFont());
+    losses.setFont(usualFont());
+    losses.setScrollbarsShown(true);
+    losses.setIndents(grid, 6); // as the texts of the fields above
+    losses.setColour(juce::TextEditor::backgroundColourId, juce::Colours::transparentBlack);
+    losses.setColour(juce::TextEditor::outlineColourId, juce::Colours::transparentBlack);
     table.onPlace = [this](double time, double duration)
     {
         remember();
@@ -310,7 +316,7 @@ void ExportSheet::showLosses()
             losses.setText(text.trimEnd(), false);
             losses.applyColourToAllText(paletteFor(*this).text);
             setAnswerEnabled(found.ok());
-            resized();
+            fit();
         });
 }
 
@@ -398,7 +404,21 @@ void ExportSheet::fail(const Error& error, std::size_t written)
     if (written > 0)
         text << "\n" << counted(written, "{0} file was written before.", "{0} files were written before.");
     losses.setText(text, false);
+    fit();
     losses.applyColourToAllText(paletteFor(*this).danger, false);
+}
+
+/// A table has the full height; what is said without one has the height of its words.
+void ExportSheet::fit()
+{
+    constexpr int rows = 4;
+    setContentHeight(table.isEmpty() ? rows * (rowHeight + grid) + wordsHeight() : fullHeight);
+    resized();
+}
+
+int ExportSheet::wordsHeight() const
+{
+    return std::max(rowHeight, losses.getTextHeight() + 2 * grid);
 }
 
 /// For the next export.
@@ -478,9 +498,12 @@ void ExportSheet::layOut(juce::Rectangle<int> area)
     target.setBounds(line);
     lossLabel.setBounds(area.removeFromLeft(labels).removeFromTop(rowHeight));
     table.setVisible(!table.isEmpty());
-    if (table.isVisible())
-        table.setBounds(area.removeFromBottom(area.getHeight() - 7 * grid).withTrimmedTop(grid));
     losses.setBounds(area);
+    if (table.isVisible())
+    {
+        losses.setBounds(area.removeFromTop(std::min(mostKept, wordsHeight())));
+        table.setBounds(area.withTrimmedTop(grid));
+    }
     target.applyColourToAllText(paletteFor(*this).text);
     losses.applyColourToAllText(paletteFor(*this).text);
 }

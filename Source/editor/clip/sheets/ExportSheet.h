@@ -49,6 +49,8 @@ private:
     void chooseUsualEvents();
     void followExtension();
     void showLosses();
+    void fit();
+    [[nodiscard]] int wordsHeight() const;
     void browse();
     void run();
     using Clips = std::vector<std::shared_ptr<const Clip>>;

@@ -5,10 +5,12 @@
 #include "editor/Translation.h"
 #include "editor/clip/session/StepText.h"
 
+#include <algorithm>
+
 namespace pacini::editor
 {
 
-HistorySheet::HistorySheet(EditorModel& project) : Sheet("History", 360, 440), model(project)
+HistorySheet::HistorySheet(EditorModel& project) : Sheet("History", 360, 720), model(project)
 {
     list.setTitle("Steps");
     list.setRowHeight(3 * grid);
@@ -60,6 +62,8 @@ void HistorySheet::selectedRowsChanged(int row)
 
 void HistorySheet::showCurrent()
 {
+    constexpr int least = 6, most = 24; // rows
+    setContentHeight(std::clamp(getNumRows(), least, most) * list.getRowHeight());
     list.updateContent();
     const int row = static_cast<int>(model.document().steps().current());
     juce::SparseSet<int> chosen;

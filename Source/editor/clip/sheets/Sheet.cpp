@@ -7,6 +7,7 @@
 #include "editor/Translation.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace pacini::editor
 {
@@ -18,7 +19,8 @@ constexpr int buttonHeight = 4 * grid;
 constexpr int border = 3 * grid;
 } // namespace
 
-Sheet::Sheet(const juce::String& title, int width, int height) : wantedWidth(width), wantedHeight(height)
+Sheet::Sheet(const juce::String& title, int width, int height)
+    : wantedWidth(width), wantedHeight(height), shownHeight(height)
 {
     setTitle(title);
     setWantsKeyboardFocus(true);
@@ -38,8 +40,9 @@ void Sheet::takeFocus()
 
 juce::Rectangle<int> Sheet::panel() const
 {
-    const auto area = getLocalBounds().withSizeKeepingCentre(std::min(wantedWidth, getWidth() - 2 * grid),
-                                                             std::min(wantedHeight, getHeight() - 2 * grid));
+    auto area = getLocalBounds().withSizeKeepingCentre(std::min(wantedWidth, getWidth() - 2 * grid),
+                                                       std::min(wantedHeight, getHeight() - 2 * grid));
+    area.setHeight(std::min(area.getHeight(), shownHeight));
     return aside ? area.withPosition(getWidth() - grid - area.getWidth(), getHeight() - grid - area.getHeight()) : area;
 }
 
@@ -106,6 +109,16 @@ void Sheet::setAnswerEnabled(bool enabled)
 {
     if (!buttons.empty())
         buttons.front()->setEnabled(enabled);
+}
+
+void Sheet::setContentHeight(int height)
+{
+    const int below = buttons.empty() ? 0 : buttonHeight + 2 * grid;
+    const int wanted = std::min(wantedHeight, 2 * 2 * grid + titleHeight + height + below);
+    if (std::exchange(shownHeight, wanted) == wanted)
+        return;
+    resized();
+    repaint();
 }
 
 void Sheet::standAside()

@@ -52,13 +52,16 @@ protected:
     /// Whether the usual answer may be given now.
     void setAnswerEnabled(bool enabled);
     void close();
+    /// The height of what is inside. The top stays where the full height has it, so that no field moves when there is
+    /// less to show below.
+    void setContentHeight(int height);
     /// It stands at the right below and darkens nothing: what it changes is seen behind it.
     void standAside();
 
 private:
     [[nodiscard]] juce::Rectangle<int> panel() const;
 
-    int wantedWidth, wantedHeight;
+    int wantedWidth, wantedHeight, shownHeight;
     bool aside = false;
     std::vector<Answer> choices;
     std::function<void()> usual;

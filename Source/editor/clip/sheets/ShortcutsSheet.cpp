@@ -237,7 +237,7 @@ private:
     bool waits = false; ///< for a key of the chosen row
 };
 
-ShortcutsSheet::ShortcutsSheet(Menus& menus) : Sheet("Keyboard and mouse", 864, 600)
+ShortcutsSheet::ShortcutsSheet(Menus& menus) : Sheet("Keyboard and mouse", 864, 720)
 {
     auto* table = new Table(menus);
     table->say = [this](const juce::String& text)
