@@ -8,6 +8,8 @@
 #include "study/StudyTemplates.h"
 #include "support/TempFolder.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <memory>
 #include <string>
@@ -244,8 +246,78 @@ TEST_CASE("The set-up tells how many of the planned participants there were, and
     CHECK(setUp.contains("Participants so far: 1 of 12."));
 }
 
+namespace
+{
+/// What can be seen of a page, without what is said below now and then.
+juce::Rectangle<int> seenOn(const editor::StudyPage& page)
+{
+    juce::Rectangle<int> all;
+    for (auto* child : page.getChildren())
+    {
+        const auto* text = dynamic_cast<const editor::Paragraph*>(child);
+        if (child->isVisible() && (text == nullptr || text->text().isNotEmpty()))
+            all = all.isEmpty() ? child->getBoundsInParent() : all.getUnion(child->getBoundsInParent());
+    }
+    return all;
+}
+
+/// The buttons that look like the one to press.
+juce::StringArray primaryOn(const editor::StudyPage& page)
+{
+    juce::StringArray names;
+    for (auto* child : page.getChildren())
+        if (auto* button = dynamic_cast<editor::LargeButton*>(child);
+            button != nullptr && button->isEnabled() && button->getProperties().contains("primary"))
+            names.add(button->getButtonText());
+    return names;
+}
+} // namespace
+
+TEST_CASE("A study's page stands in the middle of any window, with one button to press at a time")
+{
+    const TempFolder folder;
+    InstantDevice device;
+    editor::StudyServices services;
+    services.player = &device;
+    study::Study study = twoTones();
+    study.consent = {};
+    editor::StudyPage page({study, folder.path()}, services);
+    using State = editor::StudyPage::State;
+    const auto checkPlace = [&]
+    {
+        for (const auto& [width, height] :
+             {std::pair(640, 520), std::pair(1280, 800), std::pair(1920, 1080), std::pair(3840, 2160)})
+        {
+            CAPTURE(width, height);
+            page.setSize(width, height);
+            const auto all = seenOn(page);
+            CHECK(page.getLocalBounds().contains(all));
+            CHECK(std::abs(all.getCentreX() - width / 2) <= 2);
+            const double room = height - all.getHeight();
+            CHECK(all.getY() > 0.25 * room);
+            CHECK(all.getY() <= 0.5 * room);
+            // Large windows have large letters, not small ones in a void.
+            CHECK(all.getWidth() >= std::min(width, 2 * height) / 3);
+        }
+    };
+    checkPlace();
+    CHECK(primaryOn(page) == juce::StringArray{"New participant"});
+    page.control(editor::Control::next);
+    REQUIRE(pumpUntil([&] { return page.state() == State::welcome; }));
+    checkPlace();
+    CHECK(primaryOn(page) == juce::StringArray{"Continue"});
+    page.control(editor::Control::next);
+    REQUIRE(pumpUntil([&] { return page.state() == State::trial; }));
+    checkPlace();
+    CHECK(primaryOn(page) == juce::StringArray{"Play (space)"});
+    page.control(editor::Control::play);
+    REQUIRE(pumpUntil([&] { return page.run()->canAnswer(); }));
+    REQUIRE(sliderIn(page)->keyPressed(juce::KeyPress(juce::KeyPress::rightKey)));
+    REQUIRE(pumpUntil([&] { return primaryOn(page) == juce::StringArray{"Next"}; }));
+}
+
 // For somebody who looks at all of them: PACINI_LOOK=folder build/release/bin/pacini_editor_tests "[look-study]"
-TEST_CASE("Pictures of a study's pages in two sizes and languages", "[.look-study]")
+TEST_CASE("Pictures of a study's pages in three sizes and two languages", "[.look-study]")
 {
     const char* const wanted = std::getenv("PACINI_LOOK");
     REQUIRE(wanted != nullptr);
@@ -254,7 +326,7 @@ TEST_CASE("Pictures of a study's pages in two sizes and languages", "[.look-stud
     const juce::ScopedJuceInitialiser_GUI gui;
     using State = editor::StudyPage::State;
     for (const char* language : {"en", "de"})
-        for (const auto& [width, height] : {std::pair(1280, 800), std::pair(1920, 1080)})
+        for (const auto& [width, height] : {std::pair(1280, 800), std::pair(1920, 1080), std::pair(640, 520)})
             for (const auto& one : study::studyTemplates())
             {
                 editor::useLanguage(language);

@@ -36,7 +36,7 @@ void LargeButton::paintButton(juce::Graphics& g, bool over, bool down)
 {
     getLookAndFeel().drawButtonBackground(g, *this, {}, over, down);
     g.setColour(buttonTextColour(*this));
-    g.setFont(participantFont());
+    g.setFont(isTool ? participantFont().withHeight(17.0f) : participantFont());
     g.drawFittedText(getButtonText(), getLocalBounds().reduced(grid, 2), juce::Justification::centred, 2, 1.0f);
 }
 
@@ -65,7 +65,8 @@ int Paragraph::heightFor(int width) const
 
 void Paragraph::paint(juce::Graphics& g)
 {
-    layoutFor(getWidth(), paletteFor(*this).text).draw(g, getLocalBounds().toFloat());
+    const Palette& palette = paletteFor(*this);
+    layoutFor(getWidth(), dim ? palette.dim : palette.text).draw(g, getLocalBounds().toFloat());
 }
 
 std::unique_ptr<juce::AccessibilityHandler> Paragraph::createAccessibilityHandler()
@@ -75,6 +76,8 @@ std::unique_ptr<juce::AccessibilityHandler> Paragraph::createAccessibilityHandle
 
 namespace
 {
+constexpr float scaleLabels = 28.0f; // height
+
 /// A scale with labels at its ends.
 class ScaleSlider final : public Slider
 {
@@ -92,13 +95,14 @@ public:
         setColour(juce::Slider::backgroundColourId, juce::Colours::transparentBlack);
     }
 
-    bool given = false; ///< the participant has set it
+    bool given = false;     ///< the participant has set it
+    bool isLabelled = true; ///< else a scale below has the labels
 
     void paint(juce::Graphics& g) override
     {
         const Palette& palette = paletteFor(*this);
         auto area = getLocalBounds().toFloat();
-        auto labels = area.removeFromBottom(28.0f);
+        auto labels = area.removeFromBottom(isLabelled ? scaleLabels : 0.0f);
         const float middle = area.getCentreY();
         const auto left = static_cast<float>(getPositionOfValue(getMinimum()));
         const auto right = static_cast<float>(getPositionOfValue(getMaximum()));
@@ -111,15 +115,24 @@ public:
             g.fillRect(juce::Rectangle<float>(x - 0.5f, middle - 10.0f, 1.0f, 20.0f));
         }
         const auto at = static_cast<float>(getPositionOfValue(getValue()));
-        g.setColour(given ? palette.accent : palette.dim);
         const juce::Rectangle<float> knob(at - 12.0f, middle - 18.0f, 24.0f, 36.0f);
+        // What is not set yet is no value in the middle.
+        g.setColour(given ? palette.accent : palette.background);
         g.fillRoundedRectangle(knob, 5.0f);
+        if (!given)
+        {
+            g.setColour(palette.dim);
+            g.drawRoundedRectangle(knob.reduced(0.75f), 5.0f, 1.5f);
+        }
         g.setColour(palette.text);
         g.setFont(participantFont().withHeight(17.0f));
         const auto half = static_cast<int>(labels.getWidth() / 2.0f);
         const auto text = labels.toNearestInt();
-        g.drawText(low, text.withWidth(half), juce::Justification::centredLeft);
-        g.drawText(high, text.withTrimmedLeft(half), juce::Justification::centredRight);
+        if (isLabelled)
+        {
+            g.drawText(low, text.withWidth(half), juce::Justification::centredLeft);
+            g.drawText(high, text.withTrimmedLeft(half), juce::Justification::centredRight);
+        }
         if (hasKeyboardFocus(true))
             drawFocusRing(g, *this, knob.expanded(4.0f));
     }
@@ -300,9 +313,14 @@ public:
         for (std::size_t i = 0; i < names.size(); ++i)
         {
             const auto cell = row.removeFromLeft(width).reduced(grid, 0);
+            // A light that tells what plays, and no button.
+            const auto light = cell.toFloat().withSizeKeepingCentre(5.0f * grid, 5.0f * grid);
             g.setColour(playing == i ? palette.accent : palette.line);
-            g.fillRoundedRectangle(cell.toFloat(), 5.0f);
-            g.setColour(playing == i ? palette.background : palette.text);
+            if (playing == i)
+                g.fillEllipse(light);
+            else
+                g.drawEllipse(light.reduced(0.75f), 1.5f);
+            g.setColour(playing == i ? palette.onAccent : palette.dim);
             g.drawText(names[i], cell, juce::Justification::centred);
         }
     }
@@ -590,6 +608,7 @@ public:
             if (task == study::Task::multiStimulus)
             {
                 row.slider = std::make_unique<ScaleSlider>(block.scale, language);
+                row.slider->isLabelled = i + 1 == count;
                 row.slider->onValueChange = [this, i]
                 {
                     rows[i].slider->given = true;
@@ -627,6 +646,7 @@ public:
             }
             rows.push_back(std::move(row));
         }
+        enableMoves();
     }
 
     [[nodiscard]] std::optional<study::Answer> answer() const override
@@ -658,18 +678,35 @@ public:
         for (std::size_t i = 0; i < rows.size(); ++i)
             rows[i].play->setLit(part == i);
     }
-    [[nodiscard]] int wantedHeight() const override { return static_cast<int>(rows.size()) * rowHeight(); }
+    [[nodiscard]] int wantedHeight() const override
+    {
+        const int labels = task == study::Task::multiStimulus ? static_cast<int>(scaleLabels) : 0;
+        return static_cast<int>(rows.size()) * rowHeight + labels;
+    }
+    void paint(juce::Graphics& g) override
+    {
+        if (task != study::Task::ranking)
+            return;
+        g.setColour(paletteFor(*this).dim);
+        g.setFont(participantFont());
+        for (int place = 0; place < static_cast<int>(rows.size()); ++place)
+            g.drawText(juce::String(place + 1), 0, place * rowHeight, placeWidth, rowHeight - grid,
+                       juce::Justification::centredLeft);
+    }
     void resized() override
     {
         for (std::size_t place = 0; place < order.size(); ++place)
         {
             Row& row = rows[order[place]];
             auto area =
-                getLocalBounds().withHeight(rowHeight() - grid).translated(0, static_cast<int>(place) * rowHeight());
+                getLocalBounds().withHeight(rowHeight - grid).translated(0, static_cast<int>(place) * rowHeight);
+            if (row.up)
+                area.removeFromLeft(placeWidth);
             row.play->setBounds(area.removeFromLeft(2 * participantRow).withHeight(participantRow - grid));
             area.removeFromLeft(2 * grid);
             if (row.slider)
-                row.slider->setBounds(area);
+                row.slider->setBounds(
+                    area.withHeight(area.getHeight() + (row.slider->isLabelled ? static_cast<int>(scaleLabels) : 0)));
             if (row.up)
             {
                 row.up->setBounds(area.removeFromLeft(2 * participantRow));
@@ -689,11 +726,28 @@ private:
         std::unique_ptr<juce::ComboBox> heap;
     };
 
-    [[nodiscard]] int rowHeight() const { return task == study::Task::multiStimulus ? 80 : participantRow; }
+    static constexpr int rowHeight = participantRow;
+    static constexpr int placeWidth = 4 * grid; // of the number before a stimulus in its order
     void changed()
     {
         if (onChange)
             onChange();
+    }
+    /// The first goes no further up, the last no further down; the keyboard stays at the stimulus.
+    void enableMoves()
+    {
+        for (const std::size_t stimulus : order)
+        {
+            Row& row = rows[stimulus];
+            if (!row.up)
+                continue;
+            const bool first = stimulus == order.front(), last = stimulus == order.back();
+            const bool hasFocus = row.up->hasKeyboardFocus(true) || row.down->hasKeyboardFocus(true);
+            row.up->setEnabled(!first);
+            row.down->setEnabled(!last);
+            if (hasFocus && rows.size() > 1 && (first || last))
+                (first ? row.down : row.up)->grabKeyboardFocus();
+        }
     }
     void move(std::size_t stimulus, int by)
     {
@@ -703,6 +757,7 @@ private:
             return;
         std::swap(order[static_cast<std::size_t>(place)], order[static_cast<std::size_t>(to)]);
         resized();
+        enableMoves();
         changed();
     }
 

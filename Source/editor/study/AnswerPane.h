@@ -65,6 +65,8 @@ public:
     using juce::TextButton::TextButton;
     void paintButton(juce::Graphics& g, bool over, bool down) override;
     void setLit(bool isLit);
+
+    bool isTool = false; ///< of the experimenter, in less type
 };
 
 /// A text of several lines, which screen readers read as one.
@@ -74,6 +76,7 @@ public:
     explicit Paragraph(juce::Font wanted) : font(std::move(wanted)) {}
 
     void setText(const juce::String& wanted);
+    void setDim(bool wanted) { dim = wanted; }
     [[nodiscard]] const juce::String& text() const noexcept { return content; }
     [[nodiscard]] int heightFor(int width) const;
     void paint(juce::Graphics& g) override;
@@ -83,6 +86,7 @@ private:
     [[nodiscard]] juce::TextLayout layoutFor(int width, juce::Colour colour) const;
 
     juce::Font font;
+    bool dim = false;
     juce::String content;
 };
 

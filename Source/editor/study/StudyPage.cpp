@@ -22,7 +22,15 @@ namespace fs = std::filesystem;
 
 namespace
 {
-constexpr int columnWidth = 760;
+constexpr int columnWidth = 640; // about 70 letters of what participants read
+constexpr int toolHeight = 5 * grid;
+constexpr int statusHeight = 6 * grid; // two lines
+constexpr int leastStatus = 3 * grid;
+// A window of this size shows everything as large as it is; a larger one shows it larger.
+constexpr float usualWidth = 1280.0f, usualHeight = 800.0f, mostScale = 2.0f;
+constexpr int margin = 3 * grid;
+constexpr int cardMargin = 4 * grid;
+constexpr double above = 0.42; // of the room that is left: the eye's middle is higher than half
 constexpr int pollsPerSecond = 60;
 constexpr double quieterStep = 3.0;   // dB
 constexpr double autoPlayAfter = 0.4; // s between a choice and the next trial
@@ -55,6 +63,7 @@ StudyPage::StudyPage(StudyPlace wanted, StudyServices around)
       actuator(place.study.profile),
       language(languageInUse()),
       programLanguage(language),
+      kicker(participantFont().withHeight(17.0f)),
       title(participantTitleFont()),
       text(participantFont()),
       status(participantFont().withHeight(17.0f))
@@ -67,7 +76,8 @@ StudyPage::StudyPage(StudyPlace wanted, StudyServices around)
     setLookAndFeel(&look);
     setWantsKeyboardFocus(true);
     setTitle(tr("Study"));
-    for (Paragraph* paragraph : {&title, &text, &status})
+    kicker.setDim(true);
+    for (Paragraph* paragraph : {&kicker, &title, &text, &status})
         addAndMakeVisible(paragraph);
     addChildComponent(scrolled);
     scrolled.setScrollBarsShown(true, false);
@@ -104,6 +114,12 @@ LargeButton& StudyPage::addButton(const juce::String& caption, std::function<voi
     return *buttons.back();
 }
 
+/// A button of the experimenter's, beside those that go on.
+void StudyPage::addTool(const juce::String& caption, std::function<void()> click)
+{
+    addButton(caption, std::move(click)).isTool = true;
+}
+
 juce::ComboBox& StudyPage::addBox(const juce::String& name, const juce::StringArray& items, int selected,
                                   std::function<void(int)> chosen)
 {
@@ -137,6 +153,7 @@ void StudyPage::show(State wanted)
     boxes.clear();
     names.clear();
     nextButton = playButton = nullptr;
+    kicker.setText({});
     status.setText({});
     switch (now)
     {
@@ -190,15 +207,24 @@ void StudyPage::show(State wanted)
                                 });
         break;
     }
-    if (nextButton != nullptr && now != State::consent) // both answers of which look alike
-        makePrimary(*nextButton);
     wasReady = false;
+    showPrimary();
     resized();
     repaint();
     if (isShowing())
         grabKeyboardFocus();
     if (onProgress)
         onProgress();
+}
+
+/// One button at a time is the one to press: what is to be felt first, then what goes on.
+void StudyPage::showPrimary()
+{
+    const bool isFelt = playButton == nullptr || (now == State::trial ? wasReady : nextButton->isEnabled());
+    if (playButton != nullptr)
+        makePrimary(*playButton, !isFelt && !playButton->getToggleState());
+    if (nextButton != nullptr && now != State::consent) // both answers of which look alike
+        makePrimary(*nextButton, isFelt);
 }
 
 void StudyPage::buildText(const juce::String& heading, const juce::String& content)
@@ -215,7 +241,7 @@ void StudyPage::buildConsent()
         [this]
         {
             if (const auto kept = running->session().note("agreed: " + said(study().consent).toStdString()); !kept)
-                return status.setText(toText(kept.error().text()));
+                return status.setText(translateMessage(toText(kept.error().text())));
             show(State::comfort);
         });
     // Who does not agree leaves nothing behind, and the place is free for another.
@@ -333,17 +359,17 @@ void StudyPage::buildSetUp()
         if (const auto session = study::readSession(log); session && !session->finished)
             addButton(tr("Continue with {0}", {toText(session->head.participant)}), [this, log] { begin(log); });
     if (services.showMonitor)
-        addButton(tr("Experimenter's window"), services.showMonitor);
+        addTool(tr("Experimenter's window"), services.showMonitor);
     if (services.showDevices)
-        addButton(tr("Audio devices..."), services.showDevices);
+        addTool(tr("Audio devices..."), services.showDevices);
     if (services.rig != nullptr && services.outputNames)
-        addButton(tr("Measure the delay..."), [this] { show(State::delay); });
+        addTool(tr("Measure the delay..."), [this] { show(State::delay); });
     if (services.close)
-        addButton(tr("Close"), services.close);
+        addTool(tr("Close"), services.close);
     if (services.player->sampleRate() <= 0)
         status.setText(tr("No audio device is open."));
     else if (!measured)
-        status.setText(toText(measured.error().text()));
+        status.setText(translateMessage(toText(measured.error().text())));
     else
         status.setText(programLanguage == language ? languageProblem() : missingFont(language));
 }
@@ -377,9 +403,10 @@ void StudyPage::buildDelay()
             const auto started = delay->start(index(soundOut), index(touchOut), index(heard.getSelectedItemIndex()),
                                               index(felt.getSelectedItemIndex()), limits);
             if (!started)
-                return status.setText(started.error().where == "outputs"  ? tr("Sound and touch are on one output.")
-                                      : started.error().where == "inputs" ? tr("Sound and touch are on one input.")
-                                                                          : toText(started.error().message));
+                return status.setText(started.error().where == "outputs" ? tr("Sound and touch are on one output.")
+                                      : started.error().where == "inputs"
+                                          ? tr("Sound and touch are on one input.")
+                                          : translateMessage(toText(started.error().message)));
             nextButton->setEnabled(false);
         });
     addButton(tr("Back"), [this] { show(State::setUp); });
@@ -408,7 +435,7 @@ void StudyPage::pollDelay()
             : error.where == "touch"
                 ? tr("The haptic signal was not recorded. Check its cable or sensor and its input level.")
             : error.where == "device" ? tr("The audio device was disconnected. Please measure again.")
-                                      : toText(error.text()));
+                                      : translateMessage(toText(error.text())));
     }
     status.setText(tr("Measuring: {0} %", {juce::String(static_cast<int>(100.0 * delay->progress()))}));
 }
@@ -439,7 +466,7 @@ void StudyPage::begin(const fs::path& log)
     auto session =
         log.empty() ? study::Session::begin(study(), place.folder, start) : study::Session::resume(study(), log);
     if (!session)
-        return status.setText(toText(session.error().text()));
+        return status.setText(translateMessage(toText(session.error().text())));
     const bool goesOn = !log.empty();
     if (goesOn)
         language = toText((*session)->head().language);
@@ -453,7 +480,7 @@ void StudyPage::begin(const fs::path& log)
         if (const auto kept =
                 (*session)->note(fmt::format("the touch starts {:.3f} ms earlier", 1000.0 * touchLatency));
             !kept)
-            return status.setText(toText(kept.error().text()));
+            return status.setText(translateMessage(toText(kept.error().text())));
     running = std::make_unique<study::StudyRun>(study(), std::move(*session), params, *services.player);
     comfortNext = 0;
     useLanguage(language); // of all that participants read
@@ -469,6 +496,7 @@ void StudyPage::buildComfort()
     {
         const auto refusal = running->tryOut(stimulus);
         nextButton->setEnabled(nextButton->isEnabled() || refusal == study::PlayRefusal::none);
+        showPrimary();
         tell(refusal);
     };
     playButton = &addButton(tr("Play"), tryOut);
@@ -492,9 +520,9 @@ void StudyPage::buildComfort()
 void StudyPage::buildTrial()
 {
     const study::Block& block = running->block();
-    buildText({}, said(block.question));
+    buildText(said(block.question), {});
     if (running->trial()->training)
-        title.setText(tr("For practice"));
+        kicker.setText(tr("For practice"));
     pane = makeAnswerPane(study(), block, running->trial()->stimuli.size(), language);
     pane->onChange = [this]
     {
@@ -553,7 +581,7 @@ void StudyPage::tell(study::PlayRefusal refusal)
         case study::PlayRefusal::failed:
             break;
         }
-        return running->failure() ? toText(running->failure()->text()) : juce::String();
+        return running->failure() ? translateMessage(toText(running->failure()->text())) : juce::String();
     };
     status.setText(what());
 }
@@ -581,7 +609,7 @@ void StudyPage::answer()
     if (!kept)
     {
         // The answer stays on the screen and can be given again.
-        status.setText(tr("The answer could not be kept: {0}", {toText(kept.error().text())}));
+        status.setText(tr("The answer could not be kept: {0}", {translateMessage(toText(kept.error().text()))}));
         return;
     }
     const bool rest = running->trial() != nullptr && running->trial()->afterBreak;
@@ -702,24 +730,25 @@ void StudyPage::timerCallback()
         pane->takeFocus();
     if (nextButton != nullptr)
         nextButton->setEnabled(ready && pane->answer().has_value());
+    showPrimary();
 }
 
-void StudyPage::resized()
+/// Puts everything into a column whose height is that of what is in it; returns that height.
+int StudyPage::layOut(juce::Rectangle<int> area, int paneHeight, int below)
 {
-    auto area = getLocalBounds().reduced(3 * grid);
-    area = area.withSizeKeepingCentre(std::min(columnWidth, area.getWidth()), area.getHeight());
-    area.removeFromTop(std::max(0, area.getHeight() / 12));
-    title.setBounds(area.removeFromTop(title.heightFor(area.getWidth())));
-    text.setBounds(area.removeFromTop(text.heightFor(area.getWidth()) + grid));
-    area.removeFromTop(grid);
+    const int top = area.getY();
+    for (Paragraph* paragraph : {&kicker, &title, &text})
+        paragraph->setBounds(area.removeFromTop(paragraph->heightFor(area.getWidth())));
+    area.removeFromTop(2 * grid);
     for (std::size_t i = 0; i < boxes.size(); ++i)
     {
         auto row = area.removeFromTop(5 * grid);
         names[i]->setBounds(row.removeFromLeft(22 * grid));
         boxes[i]->setBounds(row); // as wide as the buttons below
-        area.removeFromTop(grid / 2);
+        area.removeFromTop(grid);
     }
-    area.removeFromTop(grid);
+    if (!boxes.empty())
+        area.removeFromTop(grid);
     if (playButton != nullptr)
     {
         playButton->setBounds(area.removeFromTop(participantRow));
@@ -727,30 +756,62 @@ void StudyPage::resized()
     }
     if (pane)
     {
-        const int room = area.getHeight() - participantRow - 8 * grid; // for the buttons and what is said below
+        scrolled.setBounds(area.removeFromTop(paneHeight));
         const int wanted = pane->wantedHeight();
-        scrolled.setBounds(area.removeFromTop(std::min(wanted, std::max(room, 2 * participantRow))));
-        pane->setSize(scrolled.getWidth() - (wanted > scrolled.getHeight() ? scrolled.getScrollBarThickness() : 0),
-                      wanted);
+        pane->setSize(scrolled.getWidth() - (wanted > paneHeight ? scrolled.getScrollBarThickness() : 0), wanted);
         area.removeFromTop(2 * grid);
     }
-    std::vector<juce::Component*> row;
-    for (auto& button : buttons)
-        if (button.get() != playButton)
-            row.push_back(button.get());
-    constexpr std::size_t perRow = 3;
-    for (std::size_t i = 0; i < row.size(); i += perRow)
+    const auto putRows = [&](bool tools, int perRow, int height)
     {
-        auto line = area.removeFromTop(participantRow);
-        const int width = (line.getWidth() - 2 * 2 * grid) / 3;
-        for (std::size_t k = i; k < std::min(row.size(), i + perRow); ++k)
+        std::vector<juce::Component*> row;
+        for (auto& button : buttons)
+            if (button.get() != playButton && button->isTool == tools)
+                row.push_back(button.get());
+        const int width = (area.getWidth() - (perRow - 1) * 2 * grid) / perRow;
+        for (std::size_t i = 0; i < row.size(); ++i)
         {
-            row[k]->setBounds(line.removeFromLeft(width));
-            line.removeFromLeft(2 * grid);
+            const int column = static_cast<int>(i) % perRow;
+            if (column == 0 && i > 0)
+                area.removeFromTop(height + grid);
+            row[i]->setBounds(area.getX() + column * (width + 2 * grid), area.getY(), width, height);
         }
-        area.removeFromTop(grid);
+        area.removeFromTop(row.empty() ? 0 : height + 2 * grid);
+    };
+    putRows(false, 3, participantRow);
+    putRows(true, 2, toolHeight);
+    status.setBounds(area.removeFromTop(std::max(below, status.heightFor(area.getWidth()))));
+    return area.getY() - top;
+}
+
+void StudyPage::resized()
+{
+    const float scale = juce::jlimit(
+        1.0f, mostScale,
+        std::min(static_cast<float>(getWidth()) / usualWidth, static_cast<float>(getHeight()) / usualHeight));
+    for (auto* child : getChildren())
+        child->setTransform(juce::AffineTransform::scale(scale));
+    auto area = (getLocalBounds().toFloat() / scale).getSmallestIntegerContainer().reduced(margin);
+    area = area.withSizeKeepingCentre(std::min(columnWidth, area.getWidth()), area.getHeight());
+    const int room = area.getHeight();
+    const auto column = area.withHeight(1 << 20); // what does not fit is cut off below
+    int paneHeight = 0;
+    if (pane)
+    {
+        pane->setSize(area.getWidth(), pane->getHeight()); // its height depends on its width
+        paneHeight = pane->wantedHeight();
     }
-    status.setBounds(area.removeFromTop(6 * grid));
+    int below = statusHeight;
+    int height = layOut(column, paneHeight, below);
+    if (height > room)
+        height = layOut(column, paneHeight, below = leastStatus);
+    if (pane && height > room) // the pane scrolls, and the buttons stay in sight
+    {
+        paneHeight = std::max(2 * participantRow, paneHeight - (height - room));
+        height = layOut(column, paneHeight, below);
+    }
+    // What is said below comes and goes: the page stands as if nothing were.
+    const int down = static_cast<int>(std::lround(above * std::max(0, room - height + below)));
+    layOut(column.translated(0, std::min(down, std::max(0, room - height))), paneHeight, below);
 }
 
 void StudyPage::paint(juce::Graphics& g)

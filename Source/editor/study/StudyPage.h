@@ -80,6 +80,7 @@ public:
 
     void control(Control pressed);
     void setDark(bool dark);
+    [[nodiscard]] bool isDark() const noexcept { return look.isDark(); }
     void resized() override;
     void paint(juce::Graphics& g) override;
     bool keyPressed(const juce::KeyPress& key) override;
@@ -107,6 +108,9 @@ private:
     void tell(study::PlayRefusal refusal);
     void stop();
     LargeButton& addButton(const juce::String& text, std::function<void()> click);
+    void addTool(const juce::String& text, std::function<void()> click);
+    void showPrimary();
+    int layOut(juce::Rectangle<int> area, int paneHeight, int below);
     juce::ComboBox& addBox(const juce::String& name, const juce::StringArray& items, int selected,
                            std::function<void(int)> chosen);
     [[nodiscard]] const study::Study& study() const noexcept { return place.study; }
@@ -125,7 +129,7 @@ private:
     std::unique_ptr<study::StudyRun> running;
     std::size_t comfortNext = 0;
 
-    Paragraph title, text, status;
+    Paragraph kicker, title, text, status; ///< what kind of page it is, in dim type, stands above its title
     bool wasPlaying = false;
     bool wasReady = false; ///< the trial could be answered at the last look
     std::unique_ptr<AnswerPane> pane;
