@@ -16,26 +16,52 @@ namespace pacini::app
 class StudyWindow::Monitor final : public juce::DocumentWindow
 {
 public:
-    explicit Monitor(editor::StudyPage& watched)
-        : DocumentWindow(editor::tr("Study: experimenter"), juce::Colours::black, DocumentWindow::minimiseButton),
-          page(watched)
+    Monitor(editor::StudyPage& watched, std::function<void()> whenClosed)
+        : DocumentWindow(editor::tr("Study: experimenter"), juce::Colours::black,
+                         DocumentWindow::minimiseButton | DocumentWindow::closeButton),
+          page(watched),
+          closed(std::move(whenClosed))
     {
+        setLookAndFeel(&look);
         setUsingNativeTitleBar(true);
         lines.setMultiLine(true);
         lines.setReadOnly(true);
         lines.setTitle(editor::tr("State of the session"));
-        lines.setSize(420, 180);
+        lines.setFont(editor::participantFont().withHeight(17.0f));
+        lines.setLineSpacing(1.4f);
+        lines.setIndents(3 * editor::grid, 2 * editor::grid);
+        lines.setBorder({});
+        lines.setSize(60 * editor::grid, 28 * editor::grid);
         setContentNonOwned(&lines, true);
         setResizable(true, false);
         refresh();
     }
-    ~Monitor() override { clearContentComponent(); }
+    ~Monitor() override
+    {
+        clearContentComponent();
+        setLookAndFeel(nullptr);
+    }
 
-    void closeButtonPressed() override {}
-    bool keyPressed(const juce::KeyPress& key) override { return editor::enterByTab(*this, key); }
+    void closeButtonPressed() override { closed(); }
+    /// Escape stops what plays from here, too.
+    bool keyPressed(const juce::KeyPress& key) override
+    {
+        if (key == juce::KeyPress::escapeKey)
+            page.control(editor::Control::stop);
+        else if (key == juce::KeyPress::F9Key)
+            closed();
+        else
+            return editor::enterByTab(*this, key);
+        return true;
+    }
 
     void refresh()
     {
+        if (look.isDark() != page.isDark())
+        {
+            look.setDark(page.isDark());
+            sendLookAndFeelChange();
+        }
         auto* run = page.run();
         juce::StringArray text;
         if (run == nullptr)
@@ -61,10 +87,13 @@ public:
                                                                    editor::numberText(run->study().limits.daily, 2)}));
         }
         lines.setText(text.joinIntoString("\n"), false);
+        lines.applyColourToAllText(look.palette().text);
     }
 
 private:
     editor::StudyPage& page;
+    std::function<void()> closed;
+    editor::Look look;
     juce::TextEditor lines;
 };
 
@@ -181,7 +210,16 @@ void StudyWindow::showMonitor(bool shown)
     for (const auto& display : displays.displays)
         if (!display.totalArea.intersects(getBounds()))
             place = &display;
-    monitor = std::make_unique<Monitor>(*content);
+    monitor = std::make_unique<Monitor>(*content,
+                                        [this]
+                                        {
+                                            juce::MessageManager::callAsync(
+                                                [safe = juce::Component::SafePointer<StudyWindow>(this)]
+                                                {
+                                                    if (safe != nullptr)
+                                                        safe->showMonitor(false);
+                                                });
+                                        });
     if (place != nullptr)
         monitor->setTopLeftPosition(place->userArea.getRight() - monitor->getWidth(),
                                     place->userArea.getBottom() - monitor->getHeight());
@@ -199,6 +237,11 @@ bool StudyWindow::keyPressed(const juce::KeyPress& key)
     if (key == juce::KeyPress::F11Key)
     {
         setFullScreen(!isFullScreen());
+        return true;
+    }
+    if (key == juce::KeyPress::F9Key)
+    {
+        showMonitor(monitor == nullptr);
         return true;
     }
     const auto character = key.getTextCharacter();
