@@ -19,7 +19,6 @@ constexpr int fromFile = 100000;
 constexpr int strengthNumber = 5 * grid;
 constexpr int sliderWidth = space::leastTrack + strengthNumber + 3 * grid; // with the thumb at both ends
 constexpr int iconWidth = 34, playWidth = 52;
-constexpr int leastClips = 104;
 constexpr int leastHeard = 76, mostHeard = 140, leastLabel = 28;
 constexpr int leastMenus = 240;   // of the three menus together: with less, the zoom is left out
 constexpr int leastChoices = 300; // of the three menus together: with less, labels are left out
@@ -200,6 +199,7 @@ void Toolbar::resized()
     put(loopButton, iconWidth, grid);
     put(time, smallFont().getStringWidth("00:00.00 / 00:00.00") + 3 * grid, grid);
     // Menus have a name to show; the zoom has keys and a menu as well.
+    const int leastClips = std::max(104, usualFont().getStringWidth(tr("No clip")) + 5 * grid);
     const int menusNeed =
         leastHeard + leastClips + smallFont().getStringWidth(profile.getItemText(0)) + 4 * grid; // "No actuator"
     const bool narrow =

@@ -17,7 +17,7 @@ namespace
 {
 constexpr int headHeight = 6 * grid;
 constexpr int footHeight = 6 * grid;
-constexpr int stepsWidth = 18 * grid;
+constexpr int stepsWidth = 20 * grid; // the longest name of a step in any language
 
 juce::String whatToDo(MeasureStep step)
 {
