@@ -42,6 +42,18 @@ class Steps(StudyTest):
                 self.assertIn("SIMULATED", page)
                 html = (self.folder / f"{template}-simulated/report/report.html").read_text()
                 self.assertEqual(html.count("<table>"), html.count("</table>"))
+                # Links to all sections of a long page. Words are read from the left; what no row repeats is said once.
+                sections = re.findall(r'<h2 id="([^"]+)">', html)
+                self.assertEqual(re.findall(r'<a href="#([^"]+)">', html), sections if len(sections) >= 4 else [])
+                for cells in re.findall(r'<td class="(.*?)">', html):
+                    self.assertEqual(cells, "words")
+                for table in re.findall(r"<tbody>(.*?)</tbody>", html, re.S):
+                    heads = re.findall(r'<th scope="row"( class="again")?>(.*?)</th>', table)
+                    for above, head in zip([("", None), *heads], heads):
+                        self.assertEqual(head[0] != "", head[1] == above[1])
+                    for row in re.findall(r"<tr>(.*?)</tr>", table):
+                        for kind, cell in re.findall(r"<td( class=\"words\")?>(.*?)</td>", row):
+                            self.assertTrue(kind or not cell or not cell[0].isalpha(), cell)
                 for picture in re.findall(r"\]\(([^)]+\.svg)\)", page):
                     self.assertTrue((self.folder / f"{template}-simulated/report" / picture).exists())
                 self.succeeds("study", "export", f"{template}-simulated", "-o", f"{template}-tables")

@@ -5,8 +5,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <utility>
+#include <vector>
 
 namespace pacini::cli
 {
@@ -28,18 +30,60 @@ std::string cellText(std::string_view text)
 
 constexpr std::string_view stampStart = "<!-- Report by Pacini; SHA-256 of what stands above: ";
 
+/// Text has the width of a book's column, tables and figures that of the window. What is wider scrolls in its own box,
+/// with a shadow where it goes on and its first column in sight; on paper everything fits instead.
 constexpr std::string_view style = R"(
-:root { color-scheme: light dark; }
-body { font: 16px/1.5 system-ui, sans-serif; max-width: 60rem; margin: 2rem auto; padding: 0 1rem; }
-h1, h2, h3 { line-height: 1.2; margin: 2rem 0 .5rem; }
-.scrolls { overflow-x: auto; }
-table { border-collapse: collapse; margin: 1rem 0; font-variant-numeric: tabular-nums; }
-caption { text-align: left; padding: .3rem 0; opacity: .8; }
-th, td { padding: .2rem .7rem; border-bottom: 1px solid #8884; text-align: right; white-space: nowrap; }
-th:first-child, td:first-child { text-align: left; }
-figure { margin: 1rem 0; background: #fff; border-radius: 6px; }
-figure svg { width: 100%; height: auto; display: block; }
-@media print { body { max-width: none; } h2 { break-after: avoid; } figure, table { break-inside: avoid; } }
+:root { color-scheme: light dark; --ground: #fff; --text: #1b2026; --dim: #5b6570; --line: #d9dde1; --shade: #0003;
+  --accent: #0c7f69; }
+@media (prefers-color-scheme: dark) { :root { --ground: #16191d; --text: #e6e9ec; --dim: #97a1ac; --line: #333b44;
+  --shade: #000c; --accent: #3fc1a6; } }
+* { box-sizing: border-box; }
+body { font: 1rem/1.55 system-ui, sans-serif; color: var(--text); background: var(--ground); margin: 0; }
+main { max-width: 72rem; margin: 0 auto; padding: clamp(1.5rem, 5vw, 4rem) clamp(1rem, 4vw, 3rem); }
+h1, h2, h3 { line-height: 1.2; max-width: 44rem; text-wrap: balance; }
+h1 { font-size: clamp(1.75rem, 4vw, 2.25rem); margin: 0 0 1rem; }
+h2 { font-size: 1.375rem; margin: 3rem 0 .75rem; padding-top: 1.5rem; border-top: 1px solid var(--line);
+  max-width: none; }
+h3 { font-size: 1.0625rem; margin: 2rem 0 .5rem; }
+p { max-width: 44rem; margin: 0 0 1rem; }
+nav { margin: 1.5rem 0 0; display: flex; flex-wrap: wrap; gap: .5rem 1.5rem; font-size: .875rem; }
+a { color: var(--accent); text-underline-offset: .2em; }
+.scrolls { overflow-x: auto; margin: 1.5rem 0; background: linear-gradient(to right, var(--ground) 2rem, transparent) left,
+  linear-gradient(to left, var(--ground) 2rem, transparent) right, linear-gradient(to right, var(--shade), transparent) left,
+  linear-gradient(to left, var(--shade), transparent) right; background-size: 4rem 100%, 4rem 100%, .5rem 100%, .5rem 100%;
+  background-repeat: no-repeat; background-attachment: local, local, scroll, scroll; }
+.scrolls:focus-visible { outline: 2px solid var(--accent); outline-offset: 2px; }
+table { width: max-content; border-collapse: collapse; font-size: .875rem; line-height: 1.4; font-variant-numeric: tabular-nums; }
+caption { text-align: left; padding: 0 0 .5rem; color: var(--dim); }
+caption span { display: block; position: sticky; left: 0; width: max-content;
+  max-width: min(44rem, 100vw - 2 * clamp(1rem, 4vw, 3rem)); }
+th, td { padding: .375rem .75rem; border-bottom: 1px solid var(--line); text-align: right; white-space: nowrap;
+  vertical-align: baseline; font-weight: normal; }
+thead th { color: var(--dim); border-bottom-color: var(--dim); vertical-align: bottom; }
+th:first-child { text-align: left; padding-left: 0; }
+th:last-child, td:last-child { padding-right: 0; }
+tbody th { font-weight: 600; }
+tbody th.again { font-size: 0; }
+.words { text-align: left; white-space: normal; max-width: 26rem; }
+figure { margin: 1.5rem 0; overflow-x: auto; background: #fff; border: 1px solid var(--line); border-radius: 6px; }
+figure svg { width: 100%; min-width: 38rem; height: auto; display: block; }
+@media (prefers-color-scheme: dark) { figure { filter: invert(.91) hue-rotate(180deg); border-color: #ccc; } }
+@media (max-width: 40rem) { th:first-child { white-space: normal; max-width: 9rem; } .words { max-width: 16rem; } }
+@media print {
+  @page { margin: 16mm; }
+  :root { color-scheme: light; --ground: #fff; --text: #000; --dim: #444; --line: #bbb; --accent: #000;
+    font-size: 10pt; }
+  main { max-width: none; padding: 0; }
+  nav { display: none; }
+  h1, h2, h3, caption { break-after: avoid; }
+  figure, tr { break-inside: avoid; }
+  figure { filter: none; border: 0; overflow: visible; }
+  figure svg { min-width: 0; }
+  .scrolls { overflow: visible; background: none; }
+  table { width: auto; font-size: 7.5pt; }
+  th, td { padding: 2pt 4pt; white-space: normal; }
+  .words { max-width: none; }
+}
 )";
 
 /// The SVG without what only a file of its own needs.
@@ -49,24 +93,63 @@ std::string_view withoutProlog(std::string_view svg)
     return start == std::string_view::npos ? svg : svg.substr(start);
 }
 
+/// Whether a cell is a number, an interval or nothing: it is aligned at the right.
+bool isNumeric(std::string_view cell)
+{
+    constexpr std::string_view starts = "0123456789+-.<>=";
+    return cell.empty() || starts.find(cell.front()) != std::string_view::npos;
+}
+
+/// Whether each column has words, which are read from the left and have several lines.
+std::vector<bool> columnsOfWords(const PageTable& table)
+{
+    std::vector<bool> words(table.columns.size(), false);
+    for (const auto& row : table.rows)
+        for (std::size_t i = 0; i < std::min(row.size(), words.size()); ++i)
+            words[i] = words[i] || !isNumeric(row[i]);
+    return words;
+}
+
 std::string htmlTable(const PageTable& table)
 {
+    const std::vector<bool> words = columnsOfWords(table);
     std::string text = "<div class=\"scrolls\" tabindex=\"0\"><table>\n";
     if (!table.caption.empty())
-        text += fmt::format("<caption>{}</caption>\n", xmlText(table.caption));
+        text += fmt::format("<caption><span>{}</span></caption>\n", xmlText(table.caption));
     text += "<thead><tr>";
-    for (const std::string& column : table.columns)
-        text += fmt::format("<th scope=\"col\">{}</th>", xmlText(column));
+    for (std::size_t i = 0; i < table.columns.size(); ++i)
+        text += fmt::format("<th scope=\"col\"{}>{}</th>", i > 0 && words[i] ? " class=\"words\"" : "",
+                            xmlText(table.columns[i]));
     text += "</tr></thead>\n<tbody>\n";
+    std::string_view before; // the first cell of the row above
     for (const auto& row : table.rows)
     {
         text += "<tr>";
         for (std::size_t i = 0; i < row.size(); ++i)
-            text += i == 0 ? fmt::format("<th scope=\"row\">{}</th>", xmlText(row[i]))
-                           : fmt::format("<td>{}</td>", xmlText(row[i]));
+            text += i == 0 ? fmt::format("<th scope=\"row\"{}>{}</th>", row[i] == before ? " class=\"again\"" : "",
+                                         xmlText(row[i]))
+                           : fmt::format("<td{}>{}</td>", i < words.size() && words[i] ? " class=\"words\"" : "",
+                                         xmlText(row[i]));
         text += "</tr>\n";
+        before = row.empty() ? std::string_view() : std::string_view(row.front());
     }
     return text + "</tbody>\n</table></div>\n";
+}
+
+/// Links to the sections of a long page; nothing for a short one.
+std::string htmlContents(const Page& page)
+{
+    constexpr int least = 4;
+    std::string links;
+    int sections = 0;
+    for (const PagePart& part : page.parts)
+        if (const auto* heading = std::get_if<PageHeading>(&part); heading != nullptr && heading->level == 2)
+        {
+            ++sections;
+            links += fmt::format("<a href=\"#section-{}\">{}</a>\n", sections, xmlText(heading->text));
+        }
+    return sections < least ? std::string()
+                            : fmt::format("<nav aria-label=\"{}\">\n{}</nav>\n", xmlText(page.title), links);
 }
 
 std::string markdownTable(const PageTable& table)
@@ -112,9 +195,16 @@ std::string htmlOf(const Page& page)
                                    "<meta name=\"viewport\" content=\"width=device-width\">\n<title>{}</title>\n"
                                    "<style>{}</style>\n</head>\n<body>\n<main>\n",
                                    page.language, xmlText(page.title), style);
+    int sections = 0;
     for (const PagePart& part : page.parts)
     {
-        if (const auto* heading = std::get_if<PageHeading>(&part))
+        if (const auto* heading = std::get_if<PageHeading>(&part); heading != nullptr && heading->level == 2)
+        {
+            if (sections++ == 0) // behind the title and what stands below it
+                text += htmlContents(page);
+            text += fmt::format("<h2 id=\"section-{}\">{}</h2>\n", sections, xmlText(heading->text));
+        }
+        else if (heading != nullptr)
             text += fmt::format("<h{0}>{1}</h{0}>\n", heading->level, xmlText(heading->text));
         else if (const auto* paragraph = std::get_if<PageParagraph>(&part))
             text += fmt::format("<p>{}</p>\n", xmlText(paragraph->text));
