@@ -68,6 +68,7 @@ tbody th.again { font-size: 0; }
 figure { margin: 1.5rem 0; overflow-x: auto; background: #fff; border: 1px solid var(--line); border-radius: 6px; }
 figure svg { width: 100%; min-width: 38rem; height: auto; display: block; }
 @media (prefers-color-scheme: dark) { figure { filter: invert(.91) hue-rotate(180deg); border-color: #ccc; } }
+@media (max-width: 60rem) { th:first-child { white-space: normal; max-width: 16rem; } }
 @media (max-width: 40rem) { th:first-child { white-space: normal; max-width: 9rem; } .words { max-width: 16rem; } }
 @media print {
   @page { margin: 16mm; }
