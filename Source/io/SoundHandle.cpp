@@ -4,21 +4,28 @@
 #include <cctype>
 #include <cstdio>
 
+#if defined(__GLIBC__)
+#include <unistd.h>
+#endif
+
 namespace pacini
 {
 
 #if defined(__GLIBC__)
 namespace
 {
-/// The stream before ours: that of the C library, or of another module that does the same.
-std::FILE* streamBefore = nullptr;
-
 ssize_t writeUnlessFromSoundLibrary(void*, const char* bytes, size_t size)
 {
     if (SoundLibraryCall::isActive())
         return static_cast<ssize_t>(size);
-    // 0 means failure to the C library.
-    return static_cast<ssize_t>(std::fwrite(bytes, 1, size, streamBefore));
+    for (size_t done = 0; done < size;)
+    {
+        const ssize_t written = ::write(STDERR_FILENO, bytes + done, size - done);
+        if (written <= 0)
+            return 0; // means failure to the C library
+        done += static_cast<size_t>(written);
+    }
+    return static_cast<ssize_t>(size);
 }
 } // namespace
 
@@ -32,7 +39,6 @@ void muteSoundLibraries() noexcept
         if (filtered == nullptr)
             return false;
         std::setvbuf(filtered, nullptr, _IONBF, 0);
-        streamBefore = stderr;
         stderr = filtered; // a variable in the GNU C library, as its manual says
         return true;
     }();

@@ -2,7 +2,6 @@
 #include "plugin/window/HostedSession.h"
 
 #include "io/ShippedProfiles.h"
-#include "io/SoundLibraryCall.h"
 
 #include <utility>
 
@@ -33,7 +32,6 @@ Session& HostedSession::session()
 {
     if (!open)
     {
-        muteSoundLibraries(); // before a sound is read; the module stays until the host ends
         open = std::make_unique<Session>(editor::EditorModel::Folders{}, builtInProfiles());
         subscriptions.on({&open->model.projectChanged}, [this] { hosted.keep(open->model.document().project()); });
         hosted.setPlayer(&open->player);
