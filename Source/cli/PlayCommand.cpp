@@ -18,6 +18,8 @@
 #include "devices/SteadyClock.h"
 #include "io/ClipFile.h"
 
+#include <pacini/synthesis/Transparency.h>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -108,6 +110,10 @@ private:
     /// The part of the clip that is played.
     [[nodiscard]] Result<devices::PlayRange> rangeIn(const Clip& clip) const;
 
+    /// Makes the clip feel on the profile as on that of --designed-for, and tells what cannot be. Returns false on an
+    /// error, which the console has said.
+    [[nodiscard]] bool makeAlike(Console& console, Clip& clip) const;
+
     /// The controller that is meant, waited for if wanted; nothing when the user ended that.
     [[nodiscard]] Result<std::optional<OpenedController>> openDevice(Console& console,
                                                                      Interruption& interruption) const;
@@ -123,6 +129,7 @@ private:
     std::string like;
     std::string dualSense;
     std::string profileName;
+    std::string designedFor;
     std::optional<Profile> profile;
     double intensity = 0.0; ///< dB
     double from = 0.0;      ///< s
@@ -142,11 +149,14 @@ CLI::App* PlayCommand::declare(CLI::App& app)
         *command, "--device", device,
         "Device to play on: its number in 'pacini devices', its path, or part of its name [the only game controller]",
         "N|NAME");
-    addOption(
+    auto* adapted = addOption(
         *command, "--profile", profileName,
         "Actuator profile that the drive is made for: a file, such as a personal one of 'pacini study profile', or a "
         "shipped profile [none: the drive as it is]",
         "PROFILE");
+    addOption(*command, "--designed-for", designedFor,
+              "Actuator profile on which the clip was designed: it feels alike on that of --profile", "PROFILE")
+        ->needs(adapted);
     addPreset(*command, "--intensity", intensity, "Gain of the playback, dB", numberFrom(-60.0, 40.0));
     addPreset(*command, "--from", from, "Start of the part to play, s", numberFrom(0.0, limits::duration, "24 h"), "S");
     addOption(*command, "--to", to, "End of the part to play, s [the end]", numberFrom(0.0, limits::duration, "24 h"),
@@ -234,7 +244,7 @@ Exit PlayCommand::run(Console& console)
 {
     if (const auto wrong = usageError())
         return console.fail("", *wrong, Exit::usage);
-    const auto read = readClip(input, console.isStrict());
+    auto read = readClip(input, console.isStrict());
     if (!read)
         return console.fail(input, read.error());
     console.warnings(input, read->warnings);
@@ -253,9 +263,28 @@ Exit PlayCommand::run(Console& console)
                                  "have their own curves"},
                                 Exit::usage);
     }
+    if (!designedFor.empty())
+        if (!makeAlike(console, read->clip))
+            return Exit::failed;
     if (explaining)
         return explain(console, read->clip, *range);
     return dryRun ? list(console, read->clip, *range) : play(console, read->clip, *range);
+}
+
+bool PlayCommand::makeAlike(Console& console, Clip& clip) const
+{
+    const auto designed = openProfile(console, designedFor);
+    if (!designed)
+        return false;
+    auto made = transparentClip(std::move(clip), *designed, *profile);
+    if (!made)
+    {
+        console.error(input, ofProfileOption(made.error()));
+        return false;
+    }
+    console.warnings(input, made->lost);
+    clip = std::move(made->clip);
+    return true;
 }
 
 Result<devices::ControllerModel> PlayCommand::listedModel() const

@@ -47,4 +47,11 @@ std::optional<Profile> openProfile(Console& console, const std::string& name)
     return std::move(*profile);
 }
 
+Error ofProfileOption(Error error)
+{
+    error.where = (error.where.starts_with("from.") ? "--designed-for: " : "--profile: ") +
+                  error.where.substr(error.where.find('.') + 1);
+    return error;
+}
+
 } // namespace pacini::cli

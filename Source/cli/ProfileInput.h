@@ -20,4 +20,7 @@ namespace pacini::cli
 /// The profile of `--profile name`; nothing when there is none, and the console has said why.
 [[nodiscard]] std::optional<Profile> openProfile(Console& console, const std::string& name);
 
+/// Returns an error of transparentClip() or transparentScene() with the option that names the profile.
+[[nodiscard]] Error ofProfileOption(Error error);
+
 } // namespace pacini::cli

@@ -153,14 +153,6 @@ std::vector<Marker> renderedMarkers(const Clip& clip, const RenderParams& params
     return markers;
 }
 
-/// An error of transparentScene() with the option that names the profile.
-Error ofOption(Error error)
-{
-    error.where = (error.where.starts_with("from.") ? "--designed-for: " : "--profile: ") +
-                  error.where.substr(error.where.find('.') + 1);
-    return error;
-}
-
 /// Reads `input` and finds out whether anything is to be done: nothing where the output is up to date, as `result` says
 /// then.
 Result<RenderInput> readInput(const std::filesystem::path& input, const std::filesystem::path& output,
@@ -229,7 +221,7 @@ Result<RenderResult> render(const std::filesystem::path& input, const std::files
         const AdaptationParams& params = settings.compile.adaptation;
         work.run([&] { alike = transparentScene(std::move(found->scene), *settings.designedFor, *profile, params); });
         if (!*alike)
-            return ofOption(alike->error());
+            return ofProfileOption(alike->error());
         found->scene = std::move((*alike)->scene);
         made = std::move((*alike)->changes);
         for (const auto& [where, what] : (*alike)->lost)

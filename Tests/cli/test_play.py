@@ -59,6 +59,18 @@ class Play(CommandTest):
         self.fails(2, ["play", "clip.json", "--dry-run", "--like", "xbox", "--profile", "phone-erm"], "--profile", "is a motor")
         self.fails(1, ["play", "clip.json", "--dry-run", "--like", "xbox", "--profile", "none.json"], "none.json")
 
+    def test_a_clip_that_was_designed_on_another_actuator_is_played_as_it_is_rendered(self):
+        self.clip()
+        options = ["--profile", "l5-wristband", "--designed-for", "lra-175"]
+        plain = self.listed("--like", "steam", "--profile", "l5-wristband")
+        alike = self.listed("--like", "steam", *options)
+        self.assertNotEqual(alike, plain)
+        self.assertEqual(self.listed("--like", "steam", "--profile", "lra-175", "--designed-for", "lra-175"),
+                         self.listed("--like", "steam", "--profile", "lra-175"))
+        self.fails(2, ["play", "clip.json", "--dry-run", "--like", "steam", "--designed-for", "lra-175"], "--profile")
+        self.fails(1, ["play", "clip.json", "--dry-run", "--like", "steam", "--profile", "lra-175", "--designed-for",
+                       "phone-erm"], "clip.json: --designed-for: technology")
+
     def test_packets_as_json_are_those_of_the_list(self):
         self.clip()
         report = self.report("play", "clip.json", "--dry-run", "--like", "switch")
