@@ -116,6 +116,27 @@ TEST_CASE("Every method keeps its error bound and the end points", "[simplify]")
             }
 }
 
+TEST_CASE("Bounds whose square is infinite leave the end points of a curve of ordinary size", "[simplify]")
+{
+    for (const auto& [name, dense] : test::testCurves(400))
+        for (SimplifyMethod method : everyMethod)
+            for (double bound : {1e100, 1e160, 1e300, std::numeric_limits<double>::max()})
+                for (bool refit : {false, true})
+                {
+                    CAPTURE(name, static_cast<int>(method), bound, refit);
+                    SimplifyParams params = toBound(method, bound);
+                    params.refit = refit;
+                    const Curve curve = simplify(dense, params).value();
+                    // One pass with a bounded delay has a point each time that is over.
+                    const bool isStreaming = method == SimplifyMethod::streaming;
+                    CHECK(curve.size() <= 2 + (isStreaming ? dense.size() / params.streamingDelay : 0));
+                    CHECK(curve.front().time == dense.front().time);
+                    CHECK(curve.back().time == dense.back().time);
+                    CHECK(std::isfinite(curve.front().value));
+                    CHECK(std::isfinite(curve.back().value));
+                }
+}
+
 TEST_CASE("A second pass of splitting within a bound changes nothing", "[simplify]")
 {
     for (const auto& [name, dense] : test::testCurves(500))

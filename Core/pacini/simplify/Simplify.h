@@ -96,7 +96,7 @@ private:
     maxError = computable.scaled(maxError);
     const std::size_t n = dense.size();
     KeptPoints best = douglasPeuckerToBound(dense, maxError);
-    if (n < 3 || !(maxError > 0.0))
+    if (best.size() < 3 || !(maxError > 0.0)) // none has fewer; beyond that the square of the bound may be infinite
         return best;
     const DenseColumns columns(dense);
     LagrangianSegmenter segmenter;
