@@ -1,6 +1,6 @@
 // What the package says of its types, read by a compiler: each line that must be refused stands under its mark.
 import { encode, felt, formats, lint, openSound, PaciniError, profileNames, read, reapply, render, reports, rumble, touch, write } from 'pacini'
-import type { Clip, Loss, RumblePlan, Sound, TouchPlan } from 'pacini'
+import type { Clip, Loss, Marker, RumblePlan, Sound, TouchPlan } from 'pacini'
 import { createTranslator, Translator } from 'pacini/translator'
 
 const sound: Sound = { samples: new Float32Array(4800), sampleRate: 48000 }
@@ -10,6 +10,10 @@ export const use = async (context: AudioContext): Promise<number> => {
   const clip: Clip = await encode(sound, { bands: 8, signal: new AbortController().signal, progress: (share: number) => share })
   const packed: Uint8Array = await encode(decoded, { format: 'packed' })
   const inParts: Clip = await encode(openSound((at: number, length: number) => new Uint8Array(length - at), 44))
+  const loop: Marker | undefined = clip.markers?.find(({ name }) => name === 'loop start')
+  const strongest: number = Math.max(...clip.bands.flatMap(({ amplitude }) => amplitude.map((point) => point.amplitude)), loop?.time ?? 0)
+  // @ts-expect-error a clip has markers
+  clip.markrs?.length
   const text: string = await encode(sound, { format: 'text' })
   const drive = await render(packed, { profile: 'l5-wristband' })
   const skin = await felt(text, { profile: profileNames()[0] })
@@ -36,5 +40,5 @@ export const use = async (context: AudioContext): Promise<number> => {
   await reports(clip, {})
   const wrong: unknown = new Error()
   const where: string = wrong instanceof PaciniError ? wrong.where : ''
-  return inParts.duration + unfitting.length + drive.frames + skin.frames + losses.length + bytes.length + node.numberOfOutputs + warnings.length + where.length + block.length
+  return inParts.duration + unfitting.length + drive.frames + skin.frames + losses.length + bytes.length + node.numberOfOutputs + warnings.length + where.length + block.length + strongest
 }

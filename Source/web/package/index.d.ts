@@ -15,7 +15,7 @@ export type Sound =
 /** What a clip has of a sound beside its samples. */
 export interface SoundNotes {
   /** In order of time, s. */
-  markers?: { time: number, name: string }[]
+  markers?: Marker[]
   /** The channel of low-frequency effects, from 0, which counts 10 dB more than the others. */
   lowFrequency?: number
 }
@@ -39,13 +39,64 @@ export interface SoundFile extends SoundStream {
   read(from: number, count: number): Float32Array[]
 }
 
-/** A clip as it stands in a `.json` file: see the documentation of the format. */
+/** A named point of time, s. */
+export interface Marker {
+  time: number
+  name: string
+}
+
+/** A point of a curve: s, and linear, 1 is full drive. */
+export interface AmplitudePoint {
+  time: number
+  amplitude: number
+}
+
+/** A point of a curve: s and Hz. */
+export interface FrequencyPoint {
+  time: number
+  frequency: number
+}
+
+/** A band of a clip, which is played as one sinusoid. */
+export interface Band {
+  /** Hz. */
+  lowFrequency: number
+  centreFrequency: number
+  highFrequency: number
+  /** Which bands are kept when voices run out: 0 longest. */
+  priority?: number
+  amplitude: AmplitudePoint[]
+  pitch?: FrequencyPoint[]
+  /** Of the carrier at the start, cycles. */
+  phase?: number
+}
+
+/** A short event: s, linear, and from 0 (dull) to 1 (crisp). */
+export interface Transient {
+  time: number
+  amplitude: number
+  sharpness: number
+}
+
+/** A clip as it stands in a `.json` file. */
 export interface Clip {
   format: 'pacini.clip'
   version: number
   name?: string
+  /** s. */
   duration: number
-  [key: string]: unknown
+  /** The sound that it was made of. */
+  source?: { file?: string, sampleRate?: number, channels?: number }
+  /** What the encoder was told. */
+  encoder?: Record<string, number | boolean | string>
+  /** Total amplitude, to which the sum of the bands is levelled. */
+  envelope?: AmplitudePoint[]
+  centroid?: FrequencyPoint[]
+  bands: Band[]
+  transients?: Transient[]
+  noise?: { lowFrequency: number, highFrequency: number, amplitude: AmplitudePoint[] }[]
+  /** In order of time. A loop of a WAV is two of them, "loop start" and "loop end", then "loop 2 start" and so on. */
+  markers?: Marker[]
 }
 
 /** A clip: its object, the text of a `.json` file, or the bytes of a file of any format. */
