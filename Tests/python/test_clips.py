@@ -74,7 +74,8 @@ class Clips(FolderTest):
         for phase, code in ((1.5, "invalidData"), (-0.1, "invalidData"), (np.nan, "notFinite")):
             self.refuses("bands[0].phase", code, put, "bands", [pacini.Band(50, 100, 200, phase=phase)])
         self.refuses("bands[0]", "invalidArgument", put, "bands", [1])
-        self.refuses("markers", "invalidArgument", put, "markers", [1])
+        self.refuses("markers[0]", "invalidArgument", put, "markers", [1])
+        self.refuses("markers[1].time", "invalidArgument", put, "markers", [(0.1, "a"), ("b", 0.2)])
         self.refuses("duration", "invalidData", put, "duration", -1)
         self.refuses("duration", "invalidArgument", put, "duration", "long")
         self.assertEqual(clip, self.clip)

@@ -4,6 +4,7 @@ import contextlib
 import importlib.util
 import inspect
 import io
+import json
 import os
 import re
 import unittest
@@ -78,7 +79,7 @@ class Page(FolderTest):
             own = [
                 name
                 for name, one in inspect.signature(getattr(function, "__wrapped__", function)).parameters.items()
-                if name != "self" and one.kind is not inspect.Parameter.VAR_KEYWORD
+                if name not in ("self", "cls") and one.kind is not inspect.Parameter.VAR_KEYWORD
             ]
             if function is pacini.encode:  # whose options follow as a list
                 own = own[: own.index("progress") + 1]
@@ -86,6 +87,40 @@ class Page(FolderTest):
                 self.assertEqual(set(own) - documented(function), set())
                 if not inspect.isclass(function) and inspect.signature(function).return_annotation != "None":
                     self.assertRegex(doc(function), r"\n(Returns|Yields)\n-+\n")
+
+    def test_ranges_and_defaults_are_those_that_are_described(self):
+        native = pacini._native
+        translator, live = native.translator_setup_parameters(), native.translator_parameters()
+        tried = ranges = 0
+        for function, described in (
+            (pacini.render, native.render_parameters()),
+            (pacini.felt, native.render_parameters()),
+            (pacini.felt, native.felt_parameters()),
+            (pacini.explain, native.render_parameters()),
+            (pacini.Translator, translator),
+        ):
+            known = {one["name"]: one for one in json.loads(described)}
+            for name, parameter in inspect.signature(function).parameters.items():
+                words = name.split("_")
+                one = known.get("".join([words[0], *(word.capitalize() for word in words[1:])]))
+                if one is None:
+                    continue
+                with self.subTest(f"{function.__qualname__} {name}"):
+                    usual = one.get("default")
+                    self.assertEqual(parameter.default, usual)
+                    told = doc(pacini.render if f"{name} :" not in doc(function) else function)
+                    entry = re.search(rf"^(\w+, )*{name}(, \w+)* :.*\n((    .*)?\n)+?(?=\S|$)", told, re.M)
+                    if entry is not None and "lowest" in one and "As of" not in entry[0]:
+                        self.assertIn(f"{one['lowest']} to {one['highest']}", entry[0])
+                        ranges += 1
+                    tried += 1
+        self.assertGreater(tried, 20)
+        self.assertGreater(ranges, 12)
+        types = (SOURCE / "Source/web/package/translator.d.ts").read_text()
+        bands = json.loads(translator)[0]
+        self.assertIn(f"Number of bands, {bands['lowest']} to {bands['highest']}.", types)
+        names = [one["name"] for one in json.loads(live) + json.loads(translator)]
+        self.assertEqual(len(names), len(set(names)))
 
     def test_everything_public_is_documented_and_named_there(self):
         text = (SOURCE / "Resources/docs/python.md").read_text()

@@ -128,7 +128,7 @@ class Cluster(FolderTest):
         for wrong in ({"bandz": 3}, {"bands": 1000}, {"method": "none"}, {"allow-nan": True}):
             with self.assertRaises(pacini.Error):
                 pacini_ray.encode(folder, clips, compare=True, **wrong)
-        with self.assertRaisesRegex(pacini.Error, "bandz: is no option of pacini.encode.*did you mean bands"):
+        with self.assertRaisesRegex(pacini.Error, "bandz: is no argument of encode.*did you mean bands"):
             pacini_ray.encode(folder, clips, bandz=3)
         self.assertEqual((clips / "run.parquet").read_bytes(), before)
         # Nor does a run without measures lose them,

@@ -20,12 +20,6 @@ namespace pacini::python
 
 namespace
 {
-Error inFile(const std::filesystem::path& path, Error error)
-{
-    error.where = path.string() + (error.where.empty() ? "" : ": ") + error.where;
-    return error;
-}
-
 /// (frames, channels) as the file has them, the rate, and what was let pass.
 nb::object readFile(const std::filesystem::path& path, bool allowNan, bool allowTruncated, bool keepNan)
 {
@@ -34,12 +28,10 @@ nb::object readFile(const std::filesystem::path& path, bool allowNan, bool allow
     options.allowTruncated = allowTruncated;
     options.keepNan = keepNan;
     options.lowestSampleRate = limits::lowestWrittenRate;
-    auto audio = abandonable([path, options] { return readAudio(path, options); });
-    if (!audio)
-        raise(inFile(path, audio.error()));
-    const auto channels = static_cast<std::size_t>(audio->channels);
-    const std::size_t frames = audio->samples.size() / channels;
-    return nb::make_tuple(toArray(std::move(audio->samples), {frames, channels}), audio->sampleRate, audio->warnings);
+    auto audio = takeIn(path, abandonable([path, options] { return readAudio(path, options); }));
+    const auto channels = static_cast<std::size_t>(audio.channels);
+    const std::size_t frames = audio.samples.size() / channels;
+    return nb::make_tuple(toArray(std::move(audio.samples), {frames, channels}), audio.sampleRate, audio.warnings);
 }
 
 /// The number of samples that were clipped.
@@ -77,9 +69,7 @@ std::uint64_t writeFile(const std::filesystem::path& path, const SoundArray& arr
                     return done.error();
             }
         });
-    if (!written)
-        raise(inFile(path, written.error()));
-    return written->clippedSamples;
+    return takeIn(path, std::move(written)).clippedSamples;
 }
 } // namespace
 

@@ -261,14 +261,8 @@ using ReadTuple = std::tuple<ClipHandle, std::string, std::vector<std::string>>;
 
 ReadTuple readFile(const std::filesystem::path& path, bool strict)
 {
-    auto read = abandonable([path, strict] { return readClip(path, strict); });
-    if (!read)
-    {
-        Error error = read.error();
-        error.where = path.string() + (error.where.empty() ? "" : ": ") + error.where;
-        raise(error);
-    }
-    return {ClipHandle(std::move(read->clip)), std::string(read->format->name), std::move(read->warnings)};
+    auto read = takeIn(path, abandonable([path, strict] { return readClip(path, strict); }));
+    return {ClipHandle(std::move(read.clip)), std::string(read.format->name), std::move(read.warnings)};
 }
 
 ReadTuple readBytes(const nb::bytes& bytes, const std::string& extension, bool strict)
@@ -474,14 +468,8 @@ void bindFiles(ClipClass& bound)
                     if (mayWrite(file.suffix.empty() ? path : exportPath(path, file.suffix), FileKind::clip, overwrite,
                                  &self.clip(), isOwn) == Existing::replace)
                         existing = Existing::replace;
-                auto written = unlocked([&] { return writeExport(path, result, existing); });
-                if (!written)
-                {
-                    Error error = written.error();
-                    error.where = path.string() + (error.where.empty() ? "" : ": ") + error.where;
-                    raise(error);
-                }
-                return std::pair(std::move(*written), lossesOf(result));
+                auto written = takeIn(path, unlocked([&] { return writeExport(path, result, existing); }));
+                return std::pair(std::move(written), lossesOf(result));
             },
             "path"_a, "format"_a, "options"_a, "quantise"_a, "overwrite"_a.none())
         .def_prop_ro("seal",

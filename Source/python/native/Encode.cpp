@@ -137,9 +137,9 @@ public:
         };
         int rate = 0;
         if (params.method == Method::a2vt)
-            return handedOut(ofSound(take(unlocked([&] { return read(std::ref(watch)); }))));
-        auto made = take(abandonable([shared = encoder, settings = params, path]
-                                     { return fromFile(*shared, settings, path, [](double) {}); }));
+            return handedOut(ofSound(takeIn(path, unlocked([&] { return read(std::ref(watch)); }))));
+        auto made = takeIn(path, abandonable([shared = encoder, settings = params, path]
+                                             { return fromFile(*shared, settings, path, [](double) {}); }));
         rate = made.rate;
         nb::object result = handedOut(ofSound(std::move(made)));
         return methodInfo(params.method).output == MethodOutput::clip ? result : nb::make_tuple(result, rate);
@@ -185,7 +185,7 @@ private:
     {
         auto reader = AudioReader::open(path, params.reading);
         if (!reader)
-            return inFile(path, reader.error());
+            return reader.error();
         Stopwatch work;
         auto made = encoded(
             params.method, [&] { return encoder.clipOf(*reader, path, progress, work); },
@@ -195,14 +195,8 @@ private:
                 return encoder.signalOf({reader->sampleRate(), reader->channels()}, parts, work);
             });
         if (!made)
-            return inFile(path, made.error());
+            return made.error();
         return EncodedFile{std::move(*made), reader->sampleRate(), reader->warnings()};
-    }
-
-    [[nodiscard]] static Error inFile(const std::filesystem::path& path, Error error)
-    {
-        error.where = path.string() + (error.where.empty() ? "" : ": ") + error.where;
-        return error;
     }
 
     [[nodiscard]] static nb::object handedOut(Encoded made)

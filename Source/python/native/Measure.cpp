@@ -2,6 +2,7 @@
 
 #include "io/ProfileFields.h"
 #include "io/SweepFile.h"
+#include "python/native/Options.h"
 #include "python/native/ProfileHandle.h"
 #include "python/native/Support.h"
 
@@ -57,7 +58,7 @@ std::pair<nb::object, nb::dict> makeSweep(double low, double high, bool lowGiven
     params.repeats = repeats;
     params.levels = std::move(levels);
     params.sampleRate = rate;
-    take(validate(params));
+    takeNamed(validate(params));
     EqualizerSections sections;
     if (profile != nullptr)
     {
@@ -83,7 +84,7 @@ std::pair<nb::object, nb::dict> makeSweep(double low, double high, bool lowGiven
 }
 
 /// Channels one after the other, as an accelerometer on a worn actuator records them.
-nb::object simulate(const SoundArray& array, double rate, const ProfileHandle& profile, unsigned wearer, double contact,
+nb::object simulate(const SoundArray& array, double rate, const ProfileHandle& profile, int wearer, double contact,
                     double latency, double drift, double noise, double distortion, double range, int axes, int bits,
                     std::uint64_t seed)
 {
@@ -96,15 +97,14 @@ nb::object simulate(const SoundArray& array, double rate, const ProfileHandle& p
         raise({ErrorCode::invalidArgument, "sound", "must be mono: (frames,)"});
     if (!isPlayableRate(rate))
         raise({ErrorCode::invalidArgument, "sample_rate", "must be 2000 to 768000 Hz"});
-    if (wearer > simulatedWearers)
-        raise({ErrorCode::invalidArgument, "wearer", "must be 0 to 14"});
     if (axes != 1 && axes != 3)
         raise({ErrorCode::invalidArgument, "axes", "must be 1 or 3"});
     const auto within = [](const char* where, double value, double low, double high)
     {
         if (!(value >= low && value <= high))
-            raise({ErrorCode::invalidArgument, where, "is out of its range"});
+            raise({ErrorCode::invalidArgument, where, "must be " + numberText(low) + " to " + numberText(high)});
     };
+    within("wearer", wearer, 0.0, simulatedWearers);
     within("contact", contact, -60.0, 20.0);
     within("latency", latency, 0.0, 1.0);
     within("drift", drift, -5000.0, 5000.0);
@@ -112,7 +112,7 @@ nb::object simulate(const SoundArray& array, double rate, const ProfileHandle& p
     within("distortion", distortion, -1.0, 1.0);
     within("range", range, 0.1, 10000.0);
     within("bits", bits, 4, 24);
-    const RigParams rig = rigOn(wearer, actuator,
+    const RigParams rig = rigOn(static_cast<unsigned>(wearer), actuator,
                                 {.contact = contact,
                                  .latency = latency,
                                  .drift = drift,
@@ -158,7 +158,7 @@ RecordingHandle analyse(const SoundArray& array, int rate, const std::string& sw
     params.points = points;
     params.equalized = !file.equalizedFor.empty();
     params.fullScale = std::move(fullScale);
-    take(validate(params, sound.channels));
+    takeNamed(validate(params, sound.channels));
     std::vector<std::vector<float>> channels(sound.channels, std::vector<float>(sound.frames));
     for (std::size_t c = 0; c < sound.channels; ++c)
         for (std::size_t i = 0; i < sound.frames; ++i)

@@ -31,23 +31,14 @@ namespace
 {
 std::pair<ProfileHandle, std::vector<std::string>> readFile(const std::filesystem::path& path, bool strict)
 {
-    const auto raiseIn = [&](Error error)
-    {
-        error.where = path.string() + (error.where.empty() ? "" : ": ") + error.where;
-        raise(error);
-    };
     if (hasAcfExtension(path))
     {
-        auto acf = readAcfFile(path);
-        if (!acf)
-            raiseIn(acf.error());
-        return {ProfileHandle(std::move(acf->profile)), acf->warnings};
+        auto acf = takeIn(path, readAcfFile(path));
+        return {ProfileHandle(std::move(acf.profile)), acf.warnings};
     }
     ReadWarnings warnings(strict);
-    auto profile = readProfile(path, &warnings);
-    if (!profile)
-        raiseIn(profile.error());
-    return {ProfileHandle(std::move(*profile)), warnings.texts()};
+    auto profile = takeIn(path, readProfile(path, &warnings));
+    return {ProfileHandle(std::move(profile)), warnings.texts()};
 }
 
 ProfileHandle shipped(const std::string& name)

@@ -164,14 +164,8 @@ void bindScene(nb::module_& module)
             [](const std::filesystem::path& path, const std::filesystem::path& clipFolder, bool strict)
             {
                 ReadWarnings warnings(strict);
-                auto scene = unlocked([&] { return readScene(path, clipFolder, &warnings); });
-                if (!scene)
-                {
-                    Error error = scene.error();
-                    error.where = path.string() + (error.where.empty() ? "" : ": ") + error.where;
-                    raise(error);
-                }
-                return std::pair(SceneHandle(std::move(*scene)), warnings.texts());
+                auto scene = takeIn(path, unlocked([&] { return readScene(path, clipFolder, &warnings); }));
+                return std::pair(SceneHandle(std::move(scene)), warnings.texts());
             },
             "path"_a, "clip_folder"_a, "strict"_a)
         .def("to_json", [](const SceneHandle& self) { return unlocked([&] { return writeSceneJson(self.scene()); }); })
@@ -238,6 +232,8 @@ void bindRender(nb::module_& module)
         },
         "scene"_a, "options"_a, "progress"_a.none());
     module.def("transparent", &transparent, "scene"_a, "designed_for"_a, "options"_a);
+    module.def("render_parameters", [] { return descriptionsJson(infosOf(renderParameters)).dump(); });
+    module.def("felt_parameters", [] { return descriptionsJson(infosOf(feltParameters)).dump(); });
     module.attr("STANDARD_STRENGTH") = standardStrength;
     module.attr("FELT_FULL_SCALE") = FeltParams().fullScale;
 }

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <string>
 
 #ifndef _WIN32
@@ -44,7 +45,9 @@ std::string placeOf(std::size_t channels, std::size_t channel, std::size_t frame
 }
 } // namespace
 
-void raise(const Error& error)
+namespace
+{
+[[noreturn]] void raiseAt(const std::string& where, const Error& error)
 {
     // Names of files need not be UTF-8: as Python has them.
     const auto text = [](const std::string& bytes)
@@ -53,11 +56,21 @@ void raise(const Error& error)
             PyUnicode_DecodeUTF8(bytes.data(), static_cast<Py_ssize_t>(bytes.size()), "surrogateescape"));
     };
     const nb::object type = nb::module_::import_("pacini._errors").attr("Error");
-    // An argument is called as in Python; what is in a file, as the file has it.
-    const std::string where = error.code == ErrorCode::invalidArgument ? snakeCase(error.where) : error.where;
     const nb::object value = type(text(error.message), text(where), std::string(errorCodeName(error.code)));
     PyErr_SetObject(value.type().ptr(), value.ptr());
     throw nb::python_error();
+}
+} // namespace
+
+void raise(const Error& error)
+{
+    // An argument is called as in Python; what is in a file, as the file has it.
+    raiseAt(error.code == ErrorCode::invalidArgument ? snakeCase(error.where) : error.where, error);
+}
+
+void raiseIn(const std::filesystem::path& path, const Error& error)
+{
+    raiseAt(path.string() + (error.where.empty() ? "" : ": ") + error.where, error);
 }
 
 void Watch::operator()(double share)

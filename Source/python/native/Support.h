@@ -15,6 +15,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <exception>
+#include <filesystem>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -34,6 +35,9 @@ using namespace nanobind::literals;
 /// Raises pacini.Error. With the lock.
 [[noreturn]] void raise(const Error& error);
 
+/// Raises pacini.Error at a place in a file, whose name stays as it is. With the lock.
+[[noreturn]] void raiseIn(const std::filesystem::path& path, const Error& error);
+
 /// The value, or pacini.Error. With the lock.
 template <typename T>
 T take(Result<T>&& result)
@@ -42,6 +46,15 @@ T take(Result<T>&& result)
         raise(result.error());
     if constexpr (!std::is_void_v<T>)
         return std::move(result).value();
+}
+
+/// The value, or pacini.Error at a place in the file. With the lock.
+template <typename T>
+T takeIn(const std::filesystem::path& path, Result<T>&& result)
+{
+    if (!result)
+        raiseIn(path, result.error());
+    return std::move(result).value();
 }
 
 /// Runs `work` without the lock and returns its result.

@@ -85,7 +85,7 @@ nb::object render(const TextureHandle& handle, const std::pair<std::vector<doubl
         actuator = profile->profile();
     Watch watch(std::move(progress));
     std::vector<float> samples;
-    const auto rendered = unlocked(
+    auto rendered = unlocked(
         [&]
         {
             return renderTexture(*handle.texture, course, params, seed, actuator ? &*actuator : nullptr,
@@ -96,8 +96,7 @@ nb::object render(const TextureHandle& handle, const std::pair<std::vector<doubl
                                      return {};
                                  });
         });
-    if (!rendered)
-        raise({rendered.error().code, separatedName(rendered.error().where, '_'), rendered.error().message});
+    takeNamed(std::move(rendered));
     return toArray(std::move(samples));
 }
 } // namespace
@@ -112,14 +111,8 @@ void bindTextures(nb::module_& module)
             [](const std::filesystem::path& path, bool strict)
             {
                 ReadWarnings warnings(strict);
-                auto texture = unlocked([&] { return readTexture(path, &warnings); });
-                if (!texture)
-                {
-                    Error error = texture.error();
-                    error.where = path.string() + (error.where.empty() ? "" : ": ") + error.where;
-                    raise(error);
-                }
-                return std::pair(held(std::move(*texture)), warnings.texts());
+                auto texture = takeIn(path, unlocked([&] { return readTexture(path, &warnings); }));
+                return std::pair(held(std::move(texture)), warnings.texts());
             },
             "path"_a, "strict"_a)
         .def("to_json", [](const TextureHandle& self) { return textureJson(*self.texture); })
@@ -136,6 +129,7 @@ void bindTextures(nb::module_& module)
             "__eq__",
             [](const TextureHandle& self, const TextureHandle& other) { return *self.texture == *other.texture; },
             nb::is_operator());
+    module.def("texture_parameters", [] { return descriptionsJson(infosOf(textureParameters)).dump(); });
     module.def("analyse_texture", &analyse, "sound"_a, "sample_rate"_a, "times"_a, "speeds"_a, "forces"_a, "name"_a,
                "options"_a);
 }

@@ -8,6 +8,7 @@
 
 #include <pacini/realtime/Translator.h>
 #include <pacini/realtime/TranslatorPresets.h>
+#include <pacini/realtime/TranslatorSetupParameters.h>
 
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
@@ -48,10 +49,11 @@ void set(TranslatorParams& params, const std::string& name, nb::handle value)
         names.push_back(separatedName(parameter.name, '_'));
         if (names.back() != name)
             continue;
-        const double number =
-            parameter.kind == ParameterKind::truth ? (nb::cast<bool>(value) ? 1.0 : 0.0) : nb::cast<double>(value);
-        takeNamed(checkValue(parameter, number));
-        parameter.set(params, number);
+        nb::dict given;
+        given[nb::str(name.c_str())] = value;
+        const ParameterInfo* const one = &parameter;
+        for (const auto& [_, number] : givenOptions(given, std::span(&one, 1)))
+            parameter.set(params, number);
         return;
     }
     raise({ErrorCode::invalidArgument, name, "is not a parameter of the translator" + meantText(name, names)});
@@ -61,22 +63,16 @@ void set(TranslatorParams& params, const std::string& name, nb::handle value)
 class TranslatorHandle
 {
 public:
-    TranslatorHandle(double rate, const ProfileHandle* profile, std::size_t bands, double maxBoost, double strength)
+    /// `options`: bands, boost and strength.
+    TranslatorHandle(double rate, const ProfileHandle* profile, const nb::dict& options)
     {
         if (!isPlayableRate(rate))
             raise({ErrorCode::invalidArgument, "sample_rate", "must be 2000 to 768000 Hz"});
-        if (bands < 1 || bands > maxTranslatorBands)
-            raise({ErrorCode::invalidArgument, "bands", "must be 1 to 12"});
-        if (!(maxBoost >= 0.0 && maxBoost <= 40.0))
-            raise({ErrorCode::invalidArgument, "max_boost", "must be 0 to 40 dB"});
-        if (!(strength >= 0.0 && strength <= 1.0))
-            raise({ErrorCode::invalidArgument, "strength", "must be 0 to 1"});
         TranslatorSetup setup;
         if (profile != nullptr)
             setup.profile = profile->profile();
-        setup.bands.bands = bands;
-        setup.maxBoost = Decibels(maxBoost);
-        setup.strength = strength;
+        for (const auto& [parameter, value] : givenOptions(options, infosOf(translatorSetupParameters)))
+            parameterNamed(translatorSetupParameters, parameter->name).set(setup, value);
         ProcessSpec spec;
         spec.sampleRate = rate;
         translator.setSetup(setup);
@@ -173,8 +169,8 @@ std::vector<std::pair<std::string, nb::dict>> presets()
 void bindTranslator(nb::module_& module)
 {
     nb::class_<TranslatorHandle>(module, "TranslatorHandle")
-        .def(nb::init<double, const ProfileHandle*, std::size_t, double, double>(), "sample_rate"_a, "profile"_a.none(),
-             "bands"_a, "max_boost"_a, "strength"_a)
+        .def(nb::init<double, const ProfileHandle*, const nb::dict&>(), "sample_rate"_a, "profile"_a.none(),
+             "options"_a)
         .def("process", &TranslatorHandle::process, "sound"_a)
         .def("params", &TranslatorHandle::params)
         .def("set_params", &TranslatorHandle::setParams, "changes"_a)
@@ -184,6 +180,9 @@ void bindTranslator(nb::module_& module)
         .def("savings", &TranslatorHandle::savings);
     module.def("translator_presets", &presets);
     module.def("translator_settings", &settingsOf, "text"_a);
+    module.def("translator_parameters", [] { return descriptionsJson(infosOf(translatorParameters)).dump(); });
+    module.def("translator_setup_parameters",
+               [] { return descriptionsJson(infosOf(translatorSetupParameters)).dump(); });
 }
 
 } // namespace pacini::python

@@ -16,7 +16,7 @@ import atexit as _atexit
 # The first one before NumPy, which breaks for the main interpreter what another one touches.
 from . import _interpreter, _native, measure  # noqa: F401
 from ._clip import Band, Clip, NoiseBand, SimplifiedLane, Source
-from ._errors import Error, FileError, FileMissing
+from ._errors import ArgumentError, Error, FileError, FileMissing
 from ._formats import Format, Loss, formats
 from ._many import compare_files, encode_files
 from ._profile import Profile
@@ -51,6 +51,7 @@ _atexit.register(_native.wait_for_abandoned_work)
 
 __all__ = [
     "SIMPLIFIERS",
+    "ArgumentError",
     "Band",
     "Clip",
     "Comparison",

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any, Union
 import numpy as np
 import numpy.typing as npt
 
-from ._errors import Error
+from ._arguments import number
+from ._errors import ArgumentError, Error
 
 if TYPE_CHECKING:
     from typing_extensions import TypeIs
@@ -27,14 +28,19 @@ def is_path(value: object) -> TypeIs[PathLike]:
     return isinstance(value, (str, bytes, os.PathLike))
 
 
-def as_sound(samples: object, axis: int) -> FloatArray:
+def as_sound(samples: object, axis: int, where: str = "sound") -> FloatArray:
     """A view as (frames,) or (channels, frames); `axis` is the one that the frames are on. Never a copy of an array."""
-    array = np.asarray(samples)
+    try:
+        array = np.asarray(samples)
+    except (TypeError, ValueError):  # rows of different lengths
+        array = np.empty(0, object)
+    if array.dtype.kind not in "fiu":
+        raise ArgumentError("must be a file or an array of float32 or float64", where)
     if array.dtype not in (np.float32, np.float64) or not array.dtype.isnative:
         full = f": sound / {2 ** (8 * array.itemsize - 1)}" if array.dtype.kind == "i" else ""
-        raise Error(f"has samples of {array.dtype}; give float32 or float64 with a full scale of 1{full}", "sound")
+        raise Error(f"has samples of {array.dtype}; give float32 or float64 with a full scale of 1{full}", where)
     if array.ndim not in (1, 2):
-        raise Error(f"has {array.ndim} dimensions; give (frames,) or (channels, frames)", "sound")
+        raise Error(f"has {array.ndim} dimensions; give (frames,) or (channels, frames)", where)
     if not -array.ndim <= axis < array.ndim:
         raise Error(f"must be one of the {array.ndim} axes of the sound", "axis")
     if any(stride % array.itemsize for stride in array.strides):
@@ -44,7 +50,7 @@ def as_sound(samples: object, axis: int) -> FloatArray:
         raise Error(
             f"has {moved.shape[0]} channels of {moved.shape[1]} frames; give axis={0 if axis in (-1, 1) else 1} if it "
             "is the other way round",
-            "sound",
+            where,
         )
     return moved
 
@@ -53,13 +59,10 @@ def as_rate(rate: object, where: str = "sample_rate") -> int:
     """A whole sample rate in Hz."""
     if rate is None:
         raise Error("is needed for sounds in arrays, in Hz", where)
-    try:
-        number = float(rate)  # type: ignore[arg-type]
-    except (TypeError, ValueError):
-        raise Error("must be a number of Hz", where) from None
-    if not number.is_integer() or not 0 < number < 1e9:
+    rate = number(rate, where)
+    if not rate.is_integer() or not 0 < rate < 1e9:
         raise Error("must be a whole number of Hz", where)
-    return int(number)
+    return int(rate)
 
 
 def points_of(rows: npt.NDArray[np.float64], dtype: np.dtype[np.void]) -> Points:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import warnings
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Optional, Union
@@ -12,10 +11,13 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _native
+from ._arguments import checked, checked_class, listed, number, text, whole, wrong
 from ._arrays import AMPLITUDE, FREQUENCY, TRANSIENT, PathLike, Points, as_points, points_of, rows_of
-from ._document import Document, json_of, warn_of
-from ._errors import Error
+from ._document import Document, json_of
+from ._errors import ArgumentError, Error
 from ._formats import Loss, export_options, format_for, losses_of
+from ._simplify import points
+from ._warnings import warn, warn_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -28,6 +30,7 @@ def _no_points(dtype: np.dtype[np.void]) -> Any:
     return field(default_factory=lambda: np.empty(0, dtype))
 
 
+@checked_class
 @dataclass(frozen=True, eq=False)
 class Band:
     """A frequency band of a clip. A changed one is ``dataclasses.replace(band, amplitude=...)``.
@@ -82,6 +85,7 @@ class Band:
         )
 
 
+@checked_class
 @dataclass(frozen=True, eq=False)
 class NoiseBand:
     """A band of residual noise.
@@ -106,6 +110,7 @@ class NoiseBand:
         object.__setattr__(self, "amplitude", as_points(self.amplitude, AMPLITUDE, "amplitude"))
 
 
+@checked_class
 @dataclass(frozen=True)
 class Source:
     """The sound that a clip was made from.
@@ -196,6 +201,7 @@ class Clip(Document):
 
     _handle: _native.ClipHandle
 
+    @checked
     def __init__(
         self,
         duration: float,
@@ -209,9 +215,9 @@ class Clip(Document):
         markers: Iterable[tuple[float, str]] = (),
         source: Source = Source(),
     ) -> None:
-        self._handle = _native.ClipHandle(_number(duration, "duration"))
+        self._handle = _native.ClipHandle(number(duration, "duration"))
         self._edit(
-            name=str(name),
+            name=name,
             source=_source_tuple(source),
             envelope=rows_of(envelope, AMPLITUDE, "envelope"),
             centroid=rows_of(centroid, FREQUENCY, "centroid"),
@@ -232,7 +238,7 @@ class Clip(Document):
 
     @name.setter
     def name(self, value: str) -> None:
-        self._edit(name=str(value))
+        self._edit(name=text(value, "name"))
 
     @property
     def duration(self) -> float:
@@ -241,7 +247,7 @@ class Clip(Document):
 
     @duration.setter
     def duration(self, value: float) -> None:
-        self._edit(duration=_number(value, "duration"))
+        self._edit(duration=number(value, "duration"))
 
     @property
     def source(self) -> Source:
@@ -319,6 +325,7 @@ class Clip(Document):
 
     # Edits, each a new clip.
 
+    @checked
     def copy(self) -> Clip:
         return Clip._of(self._handle)
 
@@ -327,6 +334,7 @@ class Clip(Document):
     def __deepcopy__(self, memo: object) -> Clip:
         return Clip._of(self._handle)
 
+    @checked
     def trimmed(self, start: float = 0.0, end: Optional[float] = None) -> Clip:
         """Cuts out a part, whose time starts at 0.
 
@@ -341,19 +349,20 @@ class Clip(Document):
         -------
         Clip
         """
-        return Clip._of(self._handle.trimmed(float(start), self.duration if end is None else float(end)))
+        return Clip._of(self._handle.trimmed(start, self.duration if end is None else end))
 
+    @checked
     def without(self, start: float, end: float) -> Clip:
         """The clip without the part from `start` to `end`, in s; what is behind moves up."""
-        return Clip._of(self._handle.without(float(start), float(end)))
+        return Clip._of(self._handle.without(start, end))
 
     def __getitem__(self, times: slice) -> Clip:
         """``clip[0.2:1.5]`` is the part between these times in s; negative ones count from the end."""
         if not isinstance(times, slice) or times.step is not None:
-            raise TypeError("a clip is sliced by times in s: clip[0.2:1.5]")
+            raise ArgumentError("a clip is sliced by times in s: clip[0.2:1.5]")
         start, end = (
-            other if time is None else float(time) + (self.duration if time < 0 else 0.0)
-            for time, other in ((times.start, 0.0), (times.stop, self.duration))
+            other if time is None else number(time, where) + (self.duration if time < 0 else 0.0)
+            for time, other, where in ((times.start, 0.0, "start"), (times.stop, self.duration, "end"))
         )
         return self.trimmed(start, max(start, end))
 
@@ -369,22 +378,29 @@ class Clip(Document):
 
     __rmul__ = __mul__
 
+    @checked
     def inserted(self, time: float, part: Clip) -> Clip:
         """The clip with `part` inserted at `time`, in s; what is behind moves back."""
-        return Clip._of(self._handle.inserted(float(time), part._handle))
+        if not isinstance(part, Clip):
+            wrong("must be a Clip", "part", part)
+        return Clip._of(self._handle.inserted(time, part._handle))
 
+    @checked
     def reversed(self) -> Clip:
         """The clip backwards."""
         return Clip._of(self._handle.reversed())
 
+    @checked
     def transposed(self, semitones: float) -> Clip:
         """Higher or lower by -96 to 96 semitones."""
-        return Clip._of(self._handle.transposed(float(semitones)))
+        return Clip._of(self._handle.transposed(semitones))
 
+    @checked
     def stretched(self, ratio: float) -> Clip:
         """Longer (2 is twice as long) at the same pitch, 0.01 to 100."""
-        return Clip._of(self._handle.stretched(float(ratio)))
+        return Clip._of(self._handle.stretched(ratio))
 
+    @checked
     def simplified(
         self,
         count: Optional[int] = None,
@@ -406,6 +422,7 @@ class Clip(Document):
         """
         return self.simplified_report(count, error, method=method, refit=refit)[0]
 
+    @checked
     def simplified_report(
         self,
         count: Optional[int] = None,
@@ -421,12 +438,13 @@ class Clip(Document):
         clip : Clip
         lanes : list of SimplifiedLane
         """
-        handle, lanes = self._handle.simplified(method, _count(count), error, refit)
+        handle, lanes = self._handle.simplified(method, points(count), error, refit)
         return Clip._of(handle), [SimplifiedLane(*lane) for lane in lanes]
 
     # Files.
 
     @classmethod
+    @checked
     def load(cls, path: PathLike, *, strict: bool = False) -> Clip:
         """Reads a clip of any format.
 
@@ -450,6 +468,7 @@ class Clip(Document):
         warn_of(path, passed)
         return cls._of(handle)
 
+    @checked
     def save(
         self,
         path: PathLike,
@@ -491,6 +510,7 @@ class Clip(Document):
         )
         return losses_of(losses)
 
+    @checked
     def to_bytes(
         self, format: str = "packed", *, quantise: Optional[int] = None, **options: Unpack[ExportOptions]
     ) -> bytes:
@@ -509,6 +529,7 @@ class Clip(Document):
         return files[0][1]
 
     @classmethod
+    @checked
     def from_bytes(cls, data: bytes, *, extension: str = "", strict: bool = False) -> Clip:
         """Reads a clip from the bytes of a file.
 
@@ -521,16 +542,18 @@ class Clip(Document):
         strict : bool, default False
             As of :meth:`load`.
         """
-        handle, _, passed = _native.read_clip_bytes(bytes(data), extension, strict)
+        handle, _, passed = _native.read_clip_bytes(data, extension, strict)
         for message in passed:
-            warnings.warn(message, stacklevel=2)
+            warn(message)
         return cls._of(handle)
 
     @classmethod
+    @checked
     def from_dict(cls, content: dict[str, Any]) -> Clip:
         """Returns the clip of a dictionary, as :meth:`to_dict` returns it."""
         return cls._of(_native.ClipHandle.from_json(json_of(content, "clip").encode()))
 
+    @checked
     def lint(self, format: str, **options: Unpack[ExportOptions]) -> list[Loss]:
         """States what the clip would lose in a format; see :func:`pacini.lint`."""
         _, losses = self._handle.written(format, export_options("lint", options), 0)
@@ -565,23 +588,14 @@ class Clip(Document):
         return clip_html(self)
 
 
-def _number(value: object, where: str) -> float:
-    try:
-        return float(value)  # type: ignore[arg-type]
-    except (TypeError, ValueError):
-        raise Error("must be a number", where) from None
-
-
-def _count(count: Optional[int]) -> Optional[int]:
-    if count is None:
-        return None
-    if int(count) != count or count < 0:
-        raise Error("must be a whole number of points", "count")
-    return int(count)
-
-
 def _source_tuple(source: Source) -> tuple[str, float, int]:
-    return str(source.file), float(source.sample_rate), int(source.channels)
+    if not isinstance(source, Source):
+        wrong("must be a Source", "source", source)
+    return (
+        text(source.file, "source.file"),
+        number(source.sample_rate, "source.sample_rate"),
+        whole(source.channels, "source.channels"),
+    )
 
 
 _Rows = npt.NDArray[np.float64]
@@ -589,9 +603,11 @@ _Rows = npt.NDArray[np.float64]
 
 def _band_tuples(bands: Iterable[Band]) -> list[tuple[float, float, float, int, _Rows, _Rows, float]]:
     tuples = []
-    for i, band in enumerate(bands):
+    for i, band in enumerate(listed(bands, "bands")):
         if not isinstance(band, Band):
-            raise Error("must be a Band", f"bands[{i}]")
+            wrong("must be a Band", f"bands[{i}]", band)
+        if band.low > band.centre or band.centre > band.high:
+            raise Error("needs low <= centre <= high", f"bands[{i}]", "invalidData")
         tuples.append(
             (
                 float(band.low),
@@ -607,14 +623,20 @@ def _band_tuples(bands: Iterable[Band]) -> list[tuple[float, float, float, int, 
 
 
 def _noise_tuples(noise: Iterable[NoiseBand]) -> list[tuple[float, float, _Rows]]:
-    return [
-        (float(band.low), float(band.high), rows_of(band.amplitude, AMPLITUDE, f"noise[{i}].amplitude"))
-        for i, band in enumerate(noise)
-    ]
+    tuples = []
+    for i, band in enumerate(listed(noise, "noise")):
+        if not isinstance(band, NoiseBand):
+            wrong("must be a NoiseBand", f"noise[{i}]", band)
+        if band.low > band.high:
+            raise Error("needs low <= high", f"noise[{i}]", "invalidData")
+        tuples.append((float(band.low), float(band.high), rows_of(band.amplitude, AMPLITUDE, f"noise[{i}].amplitude")))
+    return tuples
 
 
 def _marker_tuples(markers: Iterable[Sequence[Any]]) -> list[tuple[float, str]]:
-    try:
-        return [(float(time), str(name)) for time, name in markers]
-    except (TypeError, ValueError):
-        raise Error("must be pairs of a time and a name", "markers") from None
+    tuples = []
+    for i, marker in enumerate(listed(markers, "markers")):
+        if not isinstance(marker, (tuple, list)) or len(marker) != 2:
+            wrong("must be a pair of a time and a name", f"markers[{i}]", marker)
+        tuples.append((number(marker[0], f"markers[{i}].time"), text(marker[1], f"markers[{i}].name")))
+    return tuples

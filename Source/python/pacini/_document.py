@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import json
 import os
-import warnings
-from collections.abc import Iterable
 from typing import Any, Optional, TypeVar
 
+from ._arguments import checked
 from ._arrays import PathLike
 from ._errors import Error
 
@@ -27,6 +26,7 @@ class Document:
         document._handle = handle
         return document
 
+    @checked
     def to_dict(self) -> dict[str, Any]:
         """All that is in it, as in its file."""
         content: dict[str, Any] = json.loads(self._handle.to_json())
@@ -44,6 +44,7 @@ class JsonDocument(Document):
 
     __slots__ = ()
 
+    @checked
     def save(self, path: PathLike, *, overwrite: Optional[bool] = None) -> None:
         """Writes the file, a scene with its clips in it; the file is complete or not there.
 
@@ -72,9 +73,3 @@ def json_of(content: Any, kind: str) -> str:
         return json.dumps(content, allow_nan=False)
     except (TypeError, ValueError) as error:
         raise Error(str(error), kind, "invalidData") from None
-
-
-def warn_of(path: PathLike, doubts: Iterable[str], *, stacklevel: int = 2) -> None:
-    """Warns of what was tolerated in a file, where `stacklevel` counts as if the caller warned."""
-    for doubt in doubts:
-        warnings.warn(f"{os.fsdecode(path)}: {doubt}", stacklevel=stacklevel + 1)

@@ -11,7 +11,7 @@ class Error(ValueError):
 
     `where` is its place, such as ``bands[2].amplitude[7].time`` or a parameter's name, empty for the whole input.
     `code` is one of invalidArgument, invalidData, unsupportedVersion, truncated, notFinite, tooLarge, io and diskFull.
-    Errors of the last two are :class:`FileError`, too.
+    Errors of the last two are :class:`FileError`, too; those of calls that cannot be are :class:`ArgumentError`.
     """
 
     def __new__(cls, message: str, where: str = "", code: str = "invalidArgument") -> Any:
@@ -27,6 +27,10 @@ class Error(ValueError):
 
     def __str__(self) -> str:
         return f"{self.where}: {self.message}" if self.where else self.message
+
+
+class ArgumentError(Error, TypeError):
+    """A call that cannot be: an argument of the wrong type, one that is missing, or an option that there is not."""
 
 
 class FileError(Error, OSError):

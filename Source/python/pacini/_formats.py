@@ -8,9 +8,10 @@ from dataclasses import dataclass
 from typing import Any, Optional
 
 from . import _native
+from ._arguments import checked
 from ._arrays import PathLike
 from ._errors import Error
-from ._parameters import EXPORT, check_names
+from ._parameters import EXPORT, checked_options
 
 
 @dataclass(frozen=True)
@@ -58,6 +59,7 @@ class Loss:
     message: str
 
 
+@checked
 def formats() -> list[Format]:
     """All formats of clips, Pacini's own first.
 
@@ -85,8 +87,7 @@ def format_for(path: PathLike, format: Optional[str]) -> str:
 
 def export_options(function: str, options: Mapping[str, Any]) -> _native.ExportOptions:
     """Options of formats, those of ``pacini convert``, and `profile`."""
-    given = dict(options)
-    check_names(function, given, EXPORT)
+    given = checked_options(function, options, EXPORT)
     profile = given.pop("profile", None)
     if profile is None:
         return _native.ExportOptions(given, None)

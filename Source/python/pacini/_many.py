@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+import inspect
 import os
 import threading
-import warnings
 from collections.abc import Iterable, Iterator
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from pathlib import Path
@@ -13,15 +13,18 @@ from typing import Any, Callable, Optional, TypeVar, Union, cast
 import numpy as np
 
 from . import _native
+from ._arguments import check_names, checked, listed
 from ._arrays import FloatArray, PathLike, is_path
 from ._clip import Clip
 from ._errors import Error
 from ._formats import formats
 from ._progress import Progress, counted
 from ._sound import Comparison, Sound, check_options, compare, encode
+from ._warnings import warn
 
 # A file, samples, or samples with their rate, as soundfile.read() returns them.
 AnySound = Union[Sound, "tuple[FloatArray, float]"]
+_MOST_THREADS = 1024
 S = TypeVar("S", bound=AnySound)
 T = TypeVar("T")
 R = TypeVar("R")
@@ -32,6 +35,8 @@ def _on_threads(
 ) -> Iterator[tuple[T, Union[R, Error]]]:
     """Each item with work(item, go_on) of it, or its Error, as they are ready. go_on() ends work that nobody awaits."""
     workers = threads if threads is not None else os.cpu_count() or 1
+    if not 1 <= workers <= _MOST_THREADS:
+        raise Error(f"must be 1 to {_MOST_THREADS}", "threads")
     over = threading.Event()
 
     def go_on(share: float) -> None:
@@ -65,6 +70,7 @@ def _on_threads(
             pool.shutdown(wait=False, cancel_futures=True)
 
 
+@checked
 def encode_files(
     sounds: Union[S, Iterable[S]],
     *,
@@ -104,9 +110,9 @@ def encode_files(
     >>> for path, clip in pacini.encode_files(["door.wav", "rain.wav"]):
     ...     print(path, clip)
     """
-    check_options(options)
+    check_options("encode_files", options)
     alone = is_path(sounds) or isinstance(sounds, np.ndarray)
-    todo = [cast(S, sounds)] if alone else list(cast("Iterable[S]", sounds))
+    todo = [cast(S, sounds)] if alone else cast("list[S]", listed(sounds, "sounds"))
 
     def one(sound: S, go_on: Callable[[float], None]) -> Clip:
         if is_path(sound):
@@ -149,10 +155,11 @@ def _pairs_of(reference: Path, candidate: Path) -> list[tuple[str, Union[tuple[P
             else:
                 pairs.append((name, Error(f"has no counterpart {stem}.* in {candidate}", name)))
     for stem in candidates.keys() - references.keys():
-        warnings.warn(f"{candidates[stem][0]}: has no reference", stacklevel=3)
+        warn(f"{candidates[stem][0]}: has no reference")
     return pairs
 
 
+@checked
 def compare_files(
     reference: PathLike,
     candidate: PathLike,
@@ -198,6 +205,7 @@ def compare_files(
     --------
     >>> scores = dict(pacini.compare_files("sounds", "clips"))
     """
+    check_names("compare_files", options, inspect.signature(compare).parameters)
     pairs = _pairs_of(Path(os.fsdecode(reference)), Path(os.fsdecode(candidate)))
 
     def one(pair: tuple[str, Union[tuple[Path, Path], Error]], go_on: Callable[[float], None]) -> Comparison:

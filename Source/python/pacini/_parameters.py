@@ -2,15 +2,24 @@
 
 from __future__ import annotations
 
-import difflib
 import inspect
 import json
-from typing import Any, Callable, Optional, TypeVar
+from collections.abc import Mapping
+from typing import Any, Callable, TypeVar
 
 from . import _native
+from ._arguments import check_names, flag, number, text
 
 _Function = TypeVar("_Function", bound=Callable[..., Any])
 _KINDS = {"number": "Optional[float]", "whole": "Optional[int]", "truth": "Optional[bool]", "choice": "Optional[str]"}
+
+_OPTIONS: dict[str, Callable[[Any, str], Any]] = {
+    "number": number,
+    "whole": number,
+    "truth": flag,
+    "choice": text,
+    "profile": lambda value, _: value,
+}
 
 
 def _by_name(described: str) -> dict[str, dict[str, Any]]:
@@ -20,21 +29,15 @@ def _by_name(described: str) -> dict[str, dict[str, Any]]:
 ENCODE = _by_name(_native.encode_parameters())
 EXPORT = _by_name(_native.export_parameters())
 """With `profile`, which is no number, choice or flag."""
+TEXTURE = _by_name(_native.texture_parameters())
+LIVE = _by_name(_native.translator_parameters())
 
 
-def unknown(options: dict[str, Any], known: dict[str, dict[str, Any]]) -> Optional[tuple[str, str]]:
-    """Returns the first unknown option and a suggestion; None if all are known."""
-    for name in options:
-        if name not in known:
-            near = difflib.get_close_matches(name, known, 1)
-            return name, f"; did you mean {near[0]}?" if near else ""
-    return None
-
-
-def check_names(function: str, options: dict[str, Any], known: dict[str, dict[str, Any]]) -> None:
-    """Refuses keywords as Python does, and names the nearest."""
-    if found := unknown(options, known):
-        raise TypeError(f"{function}() got an unexpected keyword argument '{found[0]}'{found[1]}")
+def checked_options(function: str, options: Mapping[str, Any], known: dict[str, dict[str, Any]]) -> dict[str, Any]:
+    """The options that are not None, by names that are known, with values of the types that are described."""
+    check_names(function, options, known)
+    given = {name: value for name, value in options.items() if value is not None}
+    return {name: _OPTIONS[known[name]["kind"]](value, name) for name, value in given.items()}
 
 
 def _line(name: str, one: dict[str, Any]) -> str:

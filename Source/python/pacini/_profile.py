@@ -10,9 +10,10 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _native
+from ._arguments import checked, numbers, wrong
 from ._arrays import PathLike, is_path
-from ._document import JsonDocument, json_of, warn_of
-from ._errors import Error
+from ._document import JsonDocument, json_of
+from ._warnings import warn_of
 
 
 class Profile(JsonDocument):
@@ -39,6 +40,7 @@ class Profile(JsonDocument):
 
     _handle: _native.ProfileHandle
 
+    @checked
     def __init__(self, name_or_path: PathLike, *, strict: bool = False) -> None:
         text = os.fsdecode(name_or_path)
         if os.path.exists(text):
@@ -48,11 +50,13 @@ class Profile(JsonDocument):
             self._handle = _native.ProfileHandle.shipped(text)
 
     @staticmethod
+    @checked
     def names() -> list[str]:
         """The profiles that come with Pacini."""
         return _native.profile_names()
 
     @classmethod
+    @checked
     def from_dict(cls, content: dict[str, Any]) -> Profile:
         """Returns the profile of a dictionary, as :meth:`to_dict` returns it and profile files contain it."""
         return cls._of(_native.ProfileHandle.from_json(json_of(content, "profile")))
@@ -69,6 +73,7 @@ class Profile(JsonDocument):
         points["frequency"], points["level"] = frequency, level
         return points
 
+    @checked
     def equalizer_response(
         self, frequencies: Sequence[float] | npt.NDArray[np.float64], sample_rate: float = 48000.0
     ) -> npt.NDArray[np.float64]:
@@ -87,7 +92,7 @@ class Profile(JsonDocument):
             dB.
         """
         return _native_array(
-            self._handle.equalizer_response([float(f) for f in np.asarray(frequencies).ravel()], float(sample_rate))
+            self._handle.equalizer_response(numbers(np.ravel(frequencies), "frequencies"), sample_rate)
         )
 
     def __hash__(self) -> int:
@@ -105,10 +110,10 @@ def _native_array(array: Any) -> npt.NDArray[np.float64]:
 AnyProfile = Union[Profile, PathLike]
 
 
-def as_profile(profile: object) -> Profile:
+def as_profile(profile: object, where: str = "profile") -> Profile:
     """A profile, or the one of this name or path."""
     if isinstance(profile, Profile):
         return profile
     if is_path(profile):
         return Profile(profile)
-    raise Error("must be a Profile, the name of one, or a file", "profile")
+    wrong("must be a Profile, the name of one, or a file", where, profile)

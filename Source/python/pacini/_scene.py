@@ -7,11 +7,12 @@ from collections.abc import Iterable, Mapping
 from typing import Any, Optional
 
 from . import _native
+from ._arguments import checked, entries, wrong
 from ._arrays import PathLike
 from ._clip import Clip
-from ._document import JsonDocument, json_of, warn_of
-from ._errors import Error
+from ._document import JsonDocument, json_of
 from ._texture import Texture
+from ._warnings import warn_of
 
 
 class Scene(JsonDocument):
@@ -50,6 +51,7 @@ class Scene(JsonDocument):
 
     _handle: _native.SceneHandle
 
+    @checked
     def __init__(
         self,
         clips: Iterable[Clip],
@@ -63,14 +65,13 @@ class Scene(JsonDocument):
         textures: Iterable[Texture] = (),
         **options: Any,
     ) -> None:
-        listed = list(clips)
+        listed, surfaces = list(clips), list(textures)
         for i, clip in enumerate(listed):
             if not isinstance(clip, Clip):
-                raise Error("must be a Clip", f"clips[{i}]")
-        surfaces = list(textures)
+                wrong("must be a Clip", f"clips[{i}]", clip)
         for i, texture in enumerate(surfaces):
             if not isinstance(texture, Texture):
-                raise Error("must be a Texture", f"textures[{i}]")
+                wrong("must be a Texture", f"textures[{i}]", texture)
         content = {
             "format": "pacini.scene",
             "version": 1,
@@ -81,12 +82,13 @@ class Scene(JsonDocument):
             **options,
             "clips": [str(i) for i in range(len(listed))],
             "textures": [{"texture": texture.to_dict()} for texture in surfaces],
-            "plays": [{"clip": i} for i in range(len(listed))] if plays is None else [dict(play) for play in plays],
-            "changes": [dict(change) for change in changes],
+            "plays": [{"clip": i} for i in range(len(listed))] if plays is None else _entries(plays, "plays"),
+            "changes": _entries(changes, "changes"),
         }
         self._handle = _native.SceneHandle.from_json(json_of(content, "scene"), [clip._handle for clip in listed])
 
     @classmethod
+    @checked
     def load(cls, path: PathLike, *, clips: PathLike = "", strict: bool = False) -> Scene:
         """Reads a scene.
 
@@ -139,6 +141,7 @@ class Scene(JsonDocument):
         changes: list[dict[str, Any]] = self.to_dict()["changes"]
         return changes
 
+    @checked
     def lint(self) -> list[tuple[str, str]]:
         """Finds entries that do nothing, or less than they state.
 
@@ -154,6 +157,10 @@ class Scene(JsonDocument):
 
     def __repr__(self) -> str:
         return f"<pacini.Scene {self.name!r}: {len(self.clips)} clips, {len(self.plays)} plays>"
+
+
+def _entries(given: Iterable[Mapping[str, Any]], where: str) -> list[dict[str, Any]]:
+    return [dict(entries(one, f"{where}[{i}]")) for i, one in enumerate(given)]
 
 
 def _scene_of_json(text: str) -> Scene:

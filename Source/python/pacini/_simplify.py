@@ -8,11 +8,19 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _native
+from ._arguments import checked, numbers
 from ._errors import Error
 
 SIMPLIFIERS = ("visvalingam", "douglas-peucker", "optimal", "streaming", "lagrangian")
 
 
+def points(count: Optional[int]) -> Optional[int]:
+    if count is not None and count < 0:
+        raise Error("must be a whole number of points", "count")
+    return count
+
+
+@checked
 def simplify(
     times: npt.ArrayLike,
     values: npt.ArrayLike,
@@ -48,12 +56,9 @@ def simplify(
     Error
         The curve is not one, or neither limit is given.
     """
-    x = np.asarray(times, np.float64)
-    y = np.asarray(values, np.float64)
-    if x.ndim != 1 or x.shape != y.shape:
-        raise Error("must be as many as the values, in one dimension", "times")
-    if count is not None and count < 0:
-        raise Error("must be a number of points", "count")
+    x, y = numbers(times, "times"), numbers(values, "values")
+    if len(x) != len(y):
+        raise Error("must be as many as the values", "times")
     rows = np.ascontiguousarray(np.stack([x, y], axis=1))
-    kept = np.asarray(_native.simplify_rows(rows, method, count, error, refit))
+    kept = np.asarray(_native.simplify_rows(rows, method, points(count), error, refit))
     return kept[:, 0], kept[:, 1]

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import json
 import os
 import threading
-import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple, Optional, Union
@@ -14,16 +12,18 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _native
+from ._arguments import check_names, checked, wrong
 from ._arrays import FloatArray, PathLike, as_rate, as_sound, is_path
 from ._clip import Clip
-from ._document import warn_of
+from ._document import json_of
 from ._errors import Error
 from ._files import text_of
 from ._formats import Loss, formats
-from ._parameters import ENCODE, check_names, unknown, with_keywords
+from ._parameters import ENCODE, EXPORT, checked_options, with_keywords
 from ._profile import AnyProfile, as_profile
 from ._progress import Progress, shown
 from ._scene import Scene
+from ._warnings import warn, warn_of
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -53,6 +53,7 @@ class Method:
     description: str
 
 
+@checked
 def methods() -> list[Method]:
     """The translation methods: Pacini's own, ``a2vt``, and those that it can be compared with.
 
@@ -70,6 +71,7 @@ class Preset(NamedTuple):
     purpose: str
 
 
+@checked
 def presets() -> list[Preset]:
     """The presets of :func:`encode`; the first is the default.
 
@@ -95,17 +97,18 @@ def settings_text(settings: Optional[AnySettings]) -> str:
     """The text of a settings document; empty for none. Raises :class:`pacini.Error`."""
     if settings is None:
         return ""
-    if not is_path(settings):
-        return json.dumps(settings)
-    return text_of(settings)
+    if is_path(settings):
+        return text_of(settings)
+    if not isinstance(settings, Mapping):
+        wrong("must be a file or a dictionary", "settings", settings)
+    return json_of(dict(settings), "settings")
 
 
-def check_options(options: dict[str, Any]) -> None:
+def check_options(function: str, options: dict[str, Any]) -> None:
     """Raises what :func:`encode` would raise of every sound: for many of them this is known before the first."""
     own = {"method": "", "preset": "", "settings": None, "allow_nan": False, "allow_truncated": False}
     given = {name: value for name, value in options.items() if name not in own and value is not None}
-    if found := unknown(given, ENCODE):
-        raise Error(f"is no option of pacini.encode(){found[1]}", found[0])
+    given = checked_options(function, given, ENCODE)
     chosen = {**own, **{name: value for name, value in options.items() if name in own and value is not None}}
     _native.EncoderHandle(
         str(chosen["method"]), str(chosen["preset"]), given, settings_text(chosen["settings"]),
@@ -125,7 +128,7 @@ class _Encoders(threading.local):
         if handle is None:
             handle = _native.EncoderHandle(*wanted)
             for doubt in handle.doubts:
-                warnings.warn(f"settings: {doubt}", stacklevel=5)
+                warn(f"settings: {doubt}")
         return handle
 
     def give_back(self, handle: _native.EncoderHandle, wanted: _Wanted) -> None:
@@ -159,7 +162,7 @@ def _translated(
             raise Error("is for sounds in arrays; a file has its own", "sample_rate")
         with shown(progress, os.path.basename(os.fsdecode(sound))) as tell:
             result = handle.encode_file(os.fsdecode(sound), tell)
-        warn_of(sound, handle.sound_doubts, stacklevel=4)
+        warn_of(sound, handle.sound_doubts)
     else:
         samples = as_sound(sound, axis)
         rate = as_rate(sample_rate)
@@ -172,6 +175,7 @@ def _translated(
 
 
 @with_keywords(ENCODE)
+@checked
 def encode(
     sound: Sound,
     sample_rate: Optional[float] = None,
@@ -225,20 +229,20 @@ def encode(
     ------
     Error
         The sound cannot be read, or an option is out of its range. :class:`FileMissing` where there is no file.
-    TypeError
-        There is no such option.
+    ArgumentError
+        There is no such option, or an argument is of the wrong type.
 
     Examples
     --------
     >>> clip = pacini.encode("door.wav", preset="music")
     >>> clip = pacini.encode(samples, 48000, bands=8)
     """
-    given = {name: value for name, value in options.items() if value is not None}
-    check_names("encode", given, ENCODE)
+    given = checked_options("encode", options, ENCODE)
     wanted = _Wanted(method or "", preset or "", given, settings_text(settings), allow_nan, allow_truncated)
     return Clip._of(_translated(sound, sample_rate, axis, name, source, progress, "clip", wanted))
 
 
+@checked
 def translate(
     sound: Sound,
     sample_rate: Optional[float] = None,
@@ -304,18 +308,21 @@ def _rendered(
     progress: Progress,
     designed_for: Optional[AnyProfile] = None,
 ) -> tuple[FloatArray, RenderReport]:
-    wanted = np.dtype(dtype)
+    try:
+        wanted = np.dtype(dtype)
+    except TypeError:
+        wrong("must be float32 or float64", "dtype", dtype)
     if wanted not in (np.float32, np.float64):
         raise Error("must be float32 or float64", "dtype")
     if not isinstance(content, (Clip, Scene)):
-        raise Error("must be a Clip or a Scene", "content")
+        wrong("must be a Clip or a Scene", "content", content)
     alike: list[tuple[str, str]] = []
     handle: Union[_native.ClipHandle, _native.SceneHandle] = content._handle
     if designed_for is not None:
         scene = _native.SceneHandle.of_clip(handle) if isinstance(handle, _native.ClipHandle) else handle
-        handle, alike, unlike = _native.transparent(scene, as_profile(designed_for)._handle, options)
+        handle, alike, unlike = _native.transparent(scene, as_profile(designed_for, "designed_for")._handle, options)
         for where, what in unlike:
-            warnings.warn(what if isinstance(content, Clip) else f"{where}: {what}", stacklevel=3)
+            warn(what if isinstance(content, Clip) else f"{where}: {what}")
     with shown(progress, "rendering") as tell:
         if isinstance(handle, _native.ClipHandle):
             made = _native.render_clip(handle, options, tell)
@@ -324,7 +331,7 @@ def _rendered(
     samples, reduction, error, adaptations, left_out, unplayable = made
     adaptations = [*alike, *adaptations]
     for what in unplayable:
-        warnings.warn(f"{what}, so it is left out", stacklevel=3)
+        warn(f"{what}, so it is left out")
     signal = samples[0] if isinstance(content, Clip) or samples.shape[0] == 1 else samples
     return signal.astype(wanted, copy=False), RenderReport(reduction, error, adaptations, left_out)
 
@@ -347,6 +354,7 @@ def _render_options(
     return options
 
 
+@checked
 def render(
     content: Union[Clip, Scene],
     sample_rate: float = 48000,
@@ -400,7 +408,7 @@ def render(
     delay : float, default 0
         Silence in front, 0 to 3600 s.
     start, end : float, optional
-        The part that is rendered, s.
+        The part that is rendered, 0 to 86400 s.
     variation : float, default 0
         Random deviation of the bands' amplitudes, 0 to 1, from `seed`.
     variation_per : str, default "breakpoint"
@@ -408,7 +416,7 @@ def render(
     seed : int, default 0
         Seed of the variation, 0 to 2^64 - 1.
     tolerance : float, default -60
-        Error that leaving out may cost, dB re the whole.
+        Error that leaving out may cost, -300 to 0 dB re the whole.
     leave_out : bool, default True
         Skip what nobody would feel, within `tolerance`.
     adapt : bool, default True
@@ -418,7 +426,7 @@ def render(
     max_boost : float, default 6
         Largest boost for flattening the resonance, 0 to 40 dB.
     strength : float, default 0.4
-        From 0, as flat as can be, to 1, as strong as can be: how much of the resonance is kept.
+        How much of the resonance is kept, 0 to 1: from as flat to as strong as can be.
     carriers : str, optional
         Frequencies of the sinusoids: ``"fixed"``, ``"pitch"`` or ``"centroid"`` [as the clip was made].
     follow_envelope : bool, optional
@@ -472,6 +480,7 @@ def render(
     return _rendered(content, options, dtype, progress, designed_for)[0]
 
 
+@checked
 def explain(
     content: Union[Clip, Scene],
     sample_rate: float = 48000,
@@ -497,6 +506,7 @@ def explain(
     return _rendered(content, options, np.float32, None, designed_for)[1]
 
 
+@checked
 def felt(
     content: Union[Clip, Scene],
     sample_rate: float = 48000,
@@ -522,9 +532,9 @@ def felt(
     profile : Profile, str or path
         An actuator with a model of the body.
     wearer : int, default 0
-        0 is the person of the profile, 1 to 14 are simulated people.
+        0 to 14: 0 is the person of the profile, the others are simulated people.
     full_scale : float
-        Acceleration that 1 stands for, m/s^2; the default is that of ``pacini render --felt``.
+        Acceleration that 1 stands for, 0.001 to 1000000 m/s^2; the default is that of ``pacini render --felt``.
 
     Returns
     -------
@@ -659,23 +669,24 @@ class Comparison:
 def _read_samples(path: PathLike, *allowed: bool) -> tuple[Any, int]:
     """Returns the samples of a file, (frames, channels), and its rate. Tolerated problems are warnings."""
     samples, rate, doubts = _native.read_audio(os.fsdecode(path), *allowed)
-    warn_of(path, doubts, stacklevel=4)
+    warn_of(path, doubts)
     return samples, rate
 
 
 def _read_for_comparison(
-    sound: Sound, rate: Optional[float], axis: int, where: str, allow_truncated: bool
+    sound: Sound, rate: Optional[float], axis: int, where: str, where_rate: str, allow_truncated: bool
 ) -> tuple[Any, int]:
     if is_path(sound):
         samples, own = _read_samples(sound, False, allow_truncated, True)
         return samples.T, own
-    return as_sound(sound, axis), as_rate(rate, where)
+    return as_sound(sound, axis, where), as_rate(rate, where_rate)
 
 
 def _clip_extensions() -> set[str]:
     return {one.extension for one in formats() if one.is_read}
 
 
+@checked
 def compare(
     reference: Sound,
     candidate: Union[Sound, Clip, Scene],
@@ -727,14 +738,13 @@ def compare(
     UserWarning
         Onsets are after the end of the sound.
     """
-    source, source_rate = _read_for_comparison(reference, sample_rate, axis, "sample_rate", allow_truncated)
+    source, source_rate = _read_for_comparison(
+        reference, sample_rate, axis, "reference", "sample_rate", allow_truncated
+    )
     end = source.shape[-1] / source_rate
-    late = sum(float(time) > end + 0.1 for time in onsets or ())
+    late = 0 if onsets is None else sum(time > end + 0.1 for time in onsets)
     if late:
-        warnings.warn(
-            f"{late} of the {len(onsets or ())} onsets are after the end of the sound, {end:.2f} s; give seconds",
-            stacklevel=2,
-        )
+        warn(f"{late} of the {len(onsets or ())} onsets are after the end of the sound, {end:.2f} s; give seconds")
     if is_path(candidate) and os.path.splitext(os.fsdecode(candidate))[1].lower() in _clip_extensions():
         candidate = read(candidate)
     if isinstance(candidate, (Clip, Scene)):
@@ -745,6 +755,7 @@ def compare(
             candidate,
             candidate_rate if candidate_rate is not None else sample_rate,
             axis,
+            "candidate",
             "candidate_rate",
             allow_truncated,
         )
@@ -754,14 +765,15 @@ def compare(
             source_rate,
             target,
             target_rate,
-            None if onsets is None else [float(t) for t in onsets],
-            None if events is None else [float(t) for t in events],
-            [float(t) for t in ambiguous],
+            onsets,
+            events,
+            list(ambiguous),
             allow_nan,
         )
     )
 
 
+@checked
 def read_audio(
     path: PathLike, *, allow_nan: bool = False, allow_truncated: bool = False
 ) -> tuple[npt.NDArray[np.float32], int]:
@@ -790,6 +802,7 @@ def read_audio(
     return (samples[:, 0] if samples.shape[1] == 1 else samples.T), rate
 
 
+@checked
 def write_audio(
     path: PathLike,
     sound: FloatArray,
@@ -830,6 +843,7 @@ def write_audio(
     return _native.write_audio(os.fsdecode(path), as_sound(sound, axis), as_rate(sample_rate), encoding, overwrite)
 
 
+@checked
 def convert(
     path: PathLike,
     output: PathLike,
@@ -860,12 +874,14 @@ def convert(
     Error
         The clip cannot be read or written.
     """
+    check_names("convert", options, EXPORT)
     clip = Clip.load(path)
     if os.path.exists(output) and os.path.samefile(path, output):
         raise Error("is both input and output; name another output", os.fsdecode(output), "io")
     return clip.save(output, format=format, quantise=quantise, overwrite=overwrite, **options)
 
 
+@checked
 def lint(content: Union[Clip, PathLike], format: str, **options: Unpack[ExportOptions]) -> list[Loss]:
     """States what a clip would lose in a format, without writing it.
 
@@ -882,10 +898,13 @@ def lint(content: Union[Clip, PathLike], format: str, **options: Unpack[ExportOp
     -------
     list of Loss
     """
+    if not isinstance(content, Clip) and not is_path(content):
+        wrong("must be a Clip or a file", "content", content)
     clip = content if isinstance(content, Clip) else Clip.load(content)
     return clip.lint(format, **options)
 
 
+@checked
 def read(path: PathLike) -> Union[Clip, Scene]:
     """Reads a clip of any format, or a scene.
 

@@ -9,11 +9,14 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _native
+from ._arguments import checked, wrong
 from ._arrays import PathLike, as_rate, as_sound, is_path
-from ._document import JsonDocument, json_of, warn_of
-from ._errors import Error
+from ._document import JsonDocument, json_of
+from ._errors import ArgumentError, Error
+from ._parameters import TEXTURE, checked_options
 from ._profile import AnyProfile, as_profile
 from ._progress import Progress, shown
+from ._warnings import warn_of
 
 if TYPE_CHECKING:
     from ._sound import Sound
@@ -35,7 +38,12 @@ class Texture(JsonDocument):
 
     _handle: _native.TextureHandle
 
+    @checked
+    def __init__(self) -> None:
+        raise ArgumentError("Texture() makes none; take Texture.of_recording(), load() or from_dict()")
+
     @classmethod
+    @checked
     def of_recording(
         cls,
         sound: Sound,
@@ -72,10 +80,7 @@ class Texture(JsonDocument):
         Error
             The recording is too short, silent or never moves; an option is out of its range.
         """
-        known = {"order", "pitch", "tones", "recorded_speed", "full_speed", "full_force"}
-        for option in options:
-            if option not in known:
-                raise TypeError(f"of_recording() got an unexpected keyword argument '{option}'")
+        options = checked_options("of_recording", options, TEXTURE)
         if is_path(sound):
             from ._sound import read_audio  # which knows scenes, and those textures
 
@@ -98,6 +103,7 @@ class Texture(JsonDocument):
         return cls._of(handle)
 
     @classmethod
+    @checked
     def load(cls, path: PathLike, *, strict: bool = False) -> Texture:
         """Reads a texture file.
 
@@ -118,6 +124,7 @@ class Texture(JsonDocument):
         return cls._of(handle)
 
     @classmethod
+    @checked
     def from_dict(cls, content: dict[str, Any]) -> Texture:
         """Returns the texture of a dictionary, as :meth:`to_dict` returns it and texture files contain it."""
         return cls._of(_native.TextureHandle.from_json(json_of(content, "texture")))
@@ -136,6 +143,7 @@ class Texture(JsonDocument):
         """The force that counts as 1, likewise."""
         return float(self.to_dict()["fullForce"])
 
+    @checked
     def render(
         self,
         speed: Course,
@@ -214,9 +222,12 @@ class Texture(JsonDocument):
 
 def _values(given: Course, where: str) -> npt.NDArray[np.float64]:
     try:
-        values = np.atleast_1d(np.asarray(given, np.float64))
+        values = np.atleast_1d(np.asarray(given))
     except (TypeError, ValueError):
-        raise Error("must be a number or an array of numbers", where) from None
+        values = np.empty(1, object)
+    if values.size and values.dtype.kind not in "fiu":
+        wrong("must be a number or an array of numbers", where, given)
+    values = values.astype(np.float64)
     if values.ndim != 1:
         raise Error(f"has {values.ndim} dimensions; give one", where)
     return values

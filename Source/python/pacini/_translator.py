@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-import warnings
 from typing import Any, Optional
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _native
+from ._arguments import checked, meant
 from ._arrays import FloatArray, as_rate, as_sound
 from ._errors import Error
+from ._parameters import LIVE, checked_options
 from ._profile import AnyProfile, Profile, as_profile
 from ._sound import AnySettings, settings_text
+from ._warnings import warn
 
 
 class Translator:
@@ -27,7 +29,7 @@ class Translator:
     profile : Profile, str or path, optional
         The actuator; without it the drive is flat.
     bands : int, default 6
-        Number of bands, 1 to 32.
+        Number of bands, 1 to 12.
     max_boost, strength : float
         As of :func:`render`.
     preset : str, optional
@@ -44,6 +46,7 @@ class Translator:
         A parameter is out of its range, or the settings cannot be read or have no part ``live``.
     """
 
+    @checked
     def __init__(
         self,
         sample_rate: float = 48000,
@@ -62,20 +65,26 @@ class Translator:
         self.profile: Optional[Profile] = None if profile is None else as_profile(profile)
         self._setup = (bands, max_boost, strength)
         self._handle = _native.TranslatorHandle(
-            float(self.sample_rate), None if self.profile is None else self.profile._handle, bands, max_boost, strength
+            float(self.sample_rate),
+            None if self.profile is None else self.profile._handle,
+            {"bands": bands, "max_boost": max_boost, "strength": strength},
         )
         if preset is not None:
-            self.set(**self.presets()[preset])
+            known = self.presets()
+            if preset not in known:
+                raise Error(f"'{preset}' is not one of {', '.join(known)}{meant(preset, known)}", "preset")
+            self.set(**known[preset])
         if settings is not None:
             live, doubts = _native.translator_settings(settings_text(settings))
             for doubt in doubts:
-                warnings.warn(f"settings: {doubt}", stacklevel=2)
+                warn(f"settings: {doubt}")
             self.set(**live)
         if params:
             self.set(**params)
         self._handle.reset()
 
     @staticmethod
+    @checked
     def presets() -> dict[str, dict[str, Any]]:
         """Parameters by the names of the presets of the plugin."""
         return dict(_native.translator_presets())
@@ -85,6 +94,7 @@ class Translator:
         """The parameters and their values; :meth:`set` changes them."""
         return self._handle.params()
 
+    @checked
     def set(self, **params: Any) -> None:
         """Changes parameters smoothly; right after :meth:`reset` at once.
 
@@ -98,8 +108,9 @@ class Translator:
         Error
             A value is out of its range.
         """
-        self._handle.set_params(params)
+        self._handle.set_params(checked_options("Translator", params, LIVE))
 
+    @checked
     def process(self, block: FloatArray) -> npt.NDArray[np.float32]:
         """Translates the next block.
 
@@ -113,10 +124,14 @@ class Translator:
         array of float32, (frames,)
             The drive, as many frames.
         """
-        return np.asarray(self._handle.process(as_sound(block, -1)), np.float32)
+        sound = as_sound(block, -1, "block")
+        if sound.ndim != 1:
+            raise Error("must be mono: (frames,)", "block")
+        return np.asarray(self._handle.process(sound), np.float32)
 
     __call__ = process
 
+    @checked
     def reset(self) -> None:
         """Resets the translator to its initial state."""
         self._handle.reset()

@@ -9,7 +9,6 @@
 from __future__ import annotations
 
 import os
-import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Optional, Union
@@ -18,11 +17,13 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _native
+from ._arguments import checked, listed, numbers, path, within, wrong
 from ._arrays import FloatArray, PathLike, as_rate, as_sound, is_path
 from ._errors import Error
 from ._files import text_of
 from ._profile import AnyProfile, Profile, as_profile
 from ._progress import Progress, counted
+from ._warnings import warn_of
 
 Array = npt.NDArray[np.float64]
 
@@ -58,6 +59,7 @@ class Sweep:
     gain: float
     equalized_for: str
 
+    @checked
     def save(self, path: PathLike, *, overwrite: bool = False) -> None:
         """Writes the sound, and its description beside it, as ``pacini measure sweep`` does. A description that is
         there is replaced only if `overwrite` is True, a sound as by :func:`pacini.write_audio`."""
@@ -73,6 +75,7 @@ class Sweep:
         _native.write_text(description, self.description)
 
 
+@checked
 def sweep(
     *,
     low: Optional[float] = None,
@@ -115,13 +118,13 @@ def sweep(
     rate = as_rate(sample_rate)
     handle = None if profile is None else as_profile(profile)._handle
     signal, about = _native.make_sweep(
-        10.0 if low is None else float(low),
-        float(high),
+        10.0 if low is None else low,
+        high,
         low is not None,
-        float(duration),
-        float(pause),
-        int(repeats),
-        [float(level) for level in levels],
+        duration,
+        pause,
+        repeats,
+        list(levels),
         float(rate),
         handle,
     )
@@ -144,13 +147,14 @@ class Recording:
     sample_rate: int
 
     @classmethod
+    @checked
     def load(cls, path: PathLike) -> Recording:
         samples, rate, doubts = _native.read_audio(os.fsdecode(path), False, False, False)
-        for doubt in doubts:
-            warnings.warn(f"{os.fsdecode(path)}: {doubt}", stacklevel=2)
+        warn_of(path, doubts)
         return cls(samples.T, rate)
 
 
+@checked
 def simulate(
     sweep: Sweep,
     *,
@@ -204,6 +208,8 @@ def simulate(
     Error
         A parameter is out of its range, or the profile has no model of the body.
     """
+    if not isinstance(sweep, Sweep):
+        wrong("must be a Sweep", "sweep", sweep)
     samples = _native.simulate_recording(
         sweep.signal, float(sweep.sample_rate), as_profile(profile)._handle, wearer, contact, latency, drift, noise,
         distortion, range, axes, bits, seed,
@@ -251,6 +257,7 @@ class Measurement:
 AnyRecording = Union[Recording, PathLike]
 
 
+@checked
 def analyse(
     recordings: Union[AnyRecording, Sequence[AnyRecording]],
     sweep: Union[Sweep, PathLike],
@@ -295,32 +302,33 @@ def analyse(
     Error
         A recording cannot be read, or does not have the sweep in it.
     """
-    listed: list[AnyRecording] = (
-        [recordings] if isinstance(recordings, Recording) or is_path(recordings) else list(recordings)
-    )
-    if not listed:
+    if isinstance(recordings, Recording) or is_path(recordings):
+        all_of_them: list[AnyRecording] = [recordings]
+    else:
+        all_of_them = listed(recordings, "recordings")
+    if not all_of_them:
         raise Error("has nothing in it", "recordings")
     if isinstance(sweep, Sweep):
         description = sweep.description
     else:
-        description = text_of(os.path.splitext(os.fsdecode(sweep))[0] + ".json")
-    scale = [float(s) for s in full_scale] if isinstance(full_scale, Sequence) else [float(full_scale)]
+        description = text_of(os.path.splitext(os.fsdecode(path(sweep, "sweep")))[0] + ".json")
+    scale = numbers(np.atleast_1d(np.asarray(full_scale)), "full_scale")
     handles = []
-    for one in counted(listed, len(listed), progress, "analysing"):
-        recording = one if isinstance(one, Recording) else Recording.load(one)
+    for one in counted(all_of_them, len(all_of_them), progress, "analysing"):
+        recording = one if isinstance(one, Recording) else Recording.load(path(one, "recordings"))
         handles.append(
             _native.analyse_recording(
-                as_sound(recording.samples, -1),
+                as_sound(recording.samples, -1, "recordings"),
                 as_rate(recording.sample_rate),
                 description,
                 scale,
-                float(smoothing),
-                int(points),
+                smoothing,
+                within(points, 0, 2**31 - 1, "points"),
             )
         )
     base = None if profile is None else as_profile(profile)._handle
     found, made = _native.measurement_findings(
-        handles, description, float(smoothing), float(distortion_limit), base, name
+        handles, description, smoothing, distortion_limit, base, name
     )
     times: tuple[Optional[float], Optional[float]] = found["times"] or (None, None)
     return Measurement(
@@ -401,6 +409,7 @@ class Fit:
     profile: Optional[Profile]
 
 
+@checked
 def fit(
     response: Union[AnyProfile, Measurement, tuple[npt.ArrayLike, npt.ArrayLike]],
     *,
@@ -454,25 +463,25 @@ def fit(
     if isinstance(response, Measurement):
         response = response.profile
     if isinstance(response, tuple):
-        frequency, level = response
+        frequency, level = _response(response, "response")
     else:
         measured = True
         if target is not None:
             raise Error("is for responses of frequencies and levels", "profile")
-        target = as_profile(response)
+        target = as_profile(response, "response")
         points = target.measured
         if len(points) == 0:
             raise Error("is missing in this profile; pacini.measure.analyse() makes one", "measurement", "invalidData")
-        frequency, level = points["frequency"], points["level"]
+        frequency, level = points["frequency"].tolist(), points["level"].tolist()
     found, flattened = _native.fit_equalizer(
-        _numbers(frequency),
-        _numbers(level),
+        frequency,
+        level,
         None if target is None else target._handle,
         measured,
-        float(sample_rate),
+        sample_rate,
         sections,
-        float(max_boost),
-        float(goal),
+        max_boost,
+        goal,
         low,
         high,
         highpass,
@@ -505,6 +514,7 @@ class Verification:
     profile: Profile
 
 
+@checked
 def verify(
     measurement: Union[Measurement, tuple[npt.ArrayLike, npt.ArrayLike]],
     profile: AnyProfile,
@@ -535,12 +545,10 @@ def verify(
     Error
         The response is not valid, or a parameter is out of its range.
     """
-    frequency, level = (
-        (measurement.frequency, measurement.level) if isinstance(measurement, Measurement) else measurement
-    )
-    found, proven = _native.verify_response(
-        _numbers(frequency), _numbers(level), as_profile(profile)._handle, float(tolerance), low, high
-    )
+    if isinstance(measurement, Measurement):
+        measurement = (measurement.frequency, measurement.level)
+    frequency, level = _response(measurement, "measurement")
+    found, proven = _native.verify_response(frequency, level, as_profile(profile)._handle, tolerance, low, high)
     return Verification(
         passed=found["passed"],
         low=found["low"],
@@ -554,6 +562,7 @@ def verify(
     )
 
 
-def _numbers(values: npt.ArrayLike) -> list[float]:
-    numbers: list[float] = np.asarray(values, np.float64).ravel().tolist()
-    return numbers
+def _response(response: object, where: str) -> tuple[list[float], list[float]]:
+    if not isinstance(response, (tuple, list)) or len(response) != 2:
+        wrong("must be a pair of frequencies and levels", where, response)
+    return numbers(response[0], where), numbers(response[1], where)

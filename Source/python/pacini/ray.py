@@ -455,7 +455,7 @@ def encode(
         except ValueError as error:
             raise Error(f"is no JSON ({error})", "settings") from None
     given = {name: value for name, value in options.items() if value is not None}
-    check_options(given)
+    check_options("encode", given)
     settings = _Settings(format, given, compare, overwrite)
     items = _items(sounds, target, known[format].extension)
     record = _Record(target, arrow)
