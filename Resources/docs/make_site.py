@@ -139,7 +139,7 @@ def write_pages(pages):
         text = re.sub(r'<div class="figure".*?</div>', "*The figure is computed on the [web page](web.md), in its guide.*",
                       page.read_text())
         (pages / f"guide-{page.name}").write_text(text.replace("](../", "]("))
-    for picture in DOCS.glob("*.png"):
+    for picture in [*DOCS.glob("*.png"), *DOCS.glob("*.svg")]:
         shutil.copy(picture, pages)
     for name, page in OUTSIDE.items():
         (pages / page).write_text(linked((ROOT / name).read_text()))
