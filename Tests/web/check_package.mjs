@@ -279,6 +279,8 @@ try {
     ['live settings that are none', () => Translator.create({ settings: '[]' }), 'settings'],
     ['too many bands of the live translator', () => Translator.create({ bands: 13 }), 'bands'],
     ['half a band of the live translator', () => Translator.create({ bands: 1.5 }), 'bands'],
+    ['too much boost in the live translator', () => Translator.create({ maxBoost: 41 }), 'maxBoost'],
+    ['a strength that is none', () => Translator.create({ strength: '1' }), 'strength'],
     ['a profile of the live translator that is none', () => Translator.create({ profile: '{}' }), 'profile'],
     ['a change of what is fixed', async () => (await Translator.create()).set({ bands: 2 }), 'bands'],
     ['a change out of range', async () => (await Translator.create()).set({ attack: -1 }), 'attack'],

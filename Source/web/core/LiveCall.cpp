@@ -4,7 +4,7 @@
 #include "io/LiveSettings.h"
 #include "web/core/Call.h"
 
-#include <pacini/realtime/TranslatorSetup.h>
+#include <pacini/realtime/TranslatorSetupParameters.h>
 
 #include <optional>
 
@@ -24,16 +24,13 @@ Result<void> readLive(Call& call)
         params = *live;
     }
     readParametersOf(call.reader, translatorParameters, params);
-    const TranslatorSetup usual;
-    constexpr double mostBoost = 40.0;
-    const double bands = call.number("bands", static_cast<double>(usual.bands.bands), 1.0, maxTranslatorBands);
-    if (bands != static_cast<double>(static_cast<int>(bands)))
-        call.reader.fail("bands", "must be a whole number", ErrorCode::invalidArgument);
-    const double maxBoost = call.number("maxBoost", usual.maxBoost.value, 0.0, mostBoost);
-    const double strength = call.number("strength", usual.strength, 0.0, 1.0);
+    TranslatorSetup setup;
+    readParametersOf(call.reader, translatorSetupParameters, setup);
     if (auto known = call.finishOptions(); !known)
         return known;
-    call.value["setup"] = {bands, maxBoost, strength};
+    auto& numbers = call.value["setup"] = Json::array();
+    for (const auto& parameter : translatorSetupParameters)
+        numbers.push_back(parameter.get(setup));
     auto& values = call.value["values"] = Json::array();
     for (const auto& parameter : translatorParameters)
         values.push_back(parameter.get(params));
