@@ -29,6 +29,7 @@ public:
     }
 
     [[nodiscard]] bool exists() const noexcept { return value != nullptr; }
+    [[nodiscard]] bool isText() const noexcept { return value != nullptr && value->is_string(); }
     [[nodiscard]] const std::string& path() const noexcept { return where; }
 
     void fail(std::string message, ErrorCode code = ErrorCode::invalidData) const
@@ -86,7 +87,7 @@ public:
     /// The same, also of a number in quotes.
     [[nodiscard]] double numberOrText() const
     {
-        if (value == nullptr || !value->is_string())
+        if (!isText())
             return number();
         const auto read = parseNumber(value->get_ref<const std::string&>());
         if (!read || !std::isfinite(*read))

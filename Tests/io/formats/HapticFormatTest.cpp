@@ -146,7 +146,10 @@ TEST_CASE(".haptic: what all readers refuse is an error with its place", "[io][f
         return text.starts_with(start);
     };
     CHECK(starts(errorAfter([](Json& f) { f.erase("version"); }), "version: is missing"));
-    CHECK(starts(errorAfter([](Json& f) { f["version"] = "1.0.0"; }), "version: "));
+    for (const char* version : {"2.0.0", "10.0.0", "v1", ""})
+        CHECK(starts(errorAfter([&](Json& f) { f["version"] = version; }), "version: must begin with 1"));
+    for (const Json& version : {Json(1), Json(nullptr), Json::array({1, 0, 0})})
+        CHECK(starts(errorAfter([&](Json& f) { f["version"] = version; }), "version: must be an object"));
     CHECK(starts(errorAfter([](Json& f) { f["version"]["major"] = 2; }), "version.major: is 2"));
     CHECK(starts(errorAfter([](Json& f) { f["version"]["major"] = 1.5; }), "version.major: "));
     CHECK(starts(errorAfter([](Json& f) { f["metadata"] = 3; }), "metadata"));
@@ -196,6 +199,21 @@ TEST_CASE(".haptic: an emphasis that lacks a number is completed or left out, wi
     const auto dull = readAfter([](Json& points) { points[0]["emphasis"] = {{"amplitude", 0.75}}; });
     CHECK(dull.clip.transients == std::vector<Transient>{{0.0, 0.75, 0.5}});
     CHECK(dull.warnings == std::vector<std::string>{place + ".frequency: is missing; 0.5 is taken"});
+}
+
+TEST_CASE(".haptic: a version that is a text is read with a warning", "[io][formats]")
+{
+    const auto usual = readHaptic(plain().dump());
+    REQUIRE(usual.ok());
+    for (const char* version : {"1.0.0", "1", "1.2"})
+    {
+        Json file = plain();
+        file["version"] = version;
+        const auto read = readHaptic(file.dump());
+        REQUIRE(read.ok());
+        CHECK(read->clip == usual->clip);
+        CHECK(read->warnings == std::vector<std::string>{"version: is a text; it is read as numbers"});
+    }
 }
 
 TEST_CASE(".haptic: what some reader takes is taken", "[io][formats]")

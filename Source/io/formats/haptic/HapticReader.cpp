@@ -44,6 +44,15 @@ private:
     void readVersion()
     {
         const JsonEntry version = root.required("version");
+        if (version.isText())
+        {
+            // Some programs write "1.0.0".
+            const std::string text = version.text();
+            if (text.substr(0, text.find('.')) != "1")
+                version.fail("must begin with 1, the only version that is read", ErrorCode::unsupportedVersion);
+            warnings.emplace_back("version: is a text; it is read as numbers");
+            return;
+        }
         for (const char* part : {"major", "minor", "patch"})
         {
             const JsonEntry entry = part == std::string_view("major") ? version.required(part) : version.optional(part);
