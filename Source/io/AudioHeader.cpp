@@ -209,6 +209,35 @@ std::optional<AudioChunk> walk(ByteWindow& file, const ChunkLayout& layout, std:
     }
     return {};
 }
+
+/// Where the sound of an AU begins whose offset leads into its annotation: behind the zero that ends the text. Nothing
+/// where the offset may be true.
+std::optional<std::uint64_t> behindAnnotation(ByteWindow& file, std::uint64_t begin, const AudioChunk& chunk,
+                                              std::uint64_t end)
+{
+    constexpr std::uint64_t fixedBytes = 24, most = 65536, fewest = 16; // letters, which samples do not make by chance
+    constexpr std::uint64_t muLaw = 1, eightBits = 2, aLaw = 27;        // whose samples may look like some
+    const auto text = begin + fixedBytes;
+    if (chunk.start < text || chunk.start - text > most)
+        return {};
+    auto letters = text;
+    for (; letters < std::min(end, text + most); ++letters)
+        if (const auto letter = file.number(letters, 1, true);
+            (letter < 0x20 || letter > 0x7E) && letter != '\n' && letter != '\r' && letter != '\t')
+            break;
+    const auto codec = file.number(begin + 12, 4, chunk.bigEndian);
+    const bool mayBeSound = chunk.start == text && (codec == muLaw || codec == eightBits || codec == aLaw);
+    if (mayBeSound || letters < chunk.start + 4 || letters - text < fewest || letters >= end ||
+        file.number(letters, 1, true) != 0)
+        return {};
+    const auto behind = letters + 1;
+    // Zeros fill the text up, to what the size leaves or to a multiple of 8 bytes.
+    const auto bySize = chunk.promise && *chunk.promise < end ? end - *chunk.promise : behind;
+    if (bySize > behind && bySize - behind < fewest && areZeros(file, behind, bySize))
+        return bySize;
+    const auto filled = begin + (behind - begin + 7) / 8 * 8;
+    return areZeros(file, behind, std::min(filled, end)) ? filled : behind;
+}
 } // namespace
 
 std::optional<AudioChunk> findAudioChunk(ByteWindow& file, std::uint64_t begin, std::uint64_t end)
@@ -229,6 +258,12 @@ std::optional<AudioChunk> findAudioChunk(ByteWindow& file, std::uint64_t begin, 
     found.start = begin + file.number(begin + 4, 4, isSun);
     if (const auto size = file.number(found.sizeField, 4, isSun); !isLeftOpen(size, 4))
         found.promise = size;
+    if (const auto behind = behindAnnotation(file, begin, found, end))
+    {
+        found.start = *behind;
+        found.wrongOffset = begin + 4;
+        found.rightOffset = *behind - begin;
+    }
     return found;
 }
 

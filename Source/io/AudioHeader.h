@@ -39,7 +39,8 @@ struct AudioChunk
     std::optional<std::uint64_t> promise; ///< bytes of audio; empty where the writer left them open
     bool isHidden = false;                ///< libsndfile does not find it behind what comes before it
     bool bigEndian = false;               ///< byte order of the size
-    std::uint64_t wrongOffset = 0;        ///< of an AIFF: where an offset is that cannot be true
+    std::uint64_t wrongOffset = 0;        ///< of an AIFF or AU: where an offset is that cannot be true
+    std::uint64_t rightOffset = 0;        ///< what is to stand there
     std::uint64_t silence = 0;            ///< frames of silence in front of it, by a list of waves
 
     [[nodiscard]] std::uint64_t present(std::uint64_t end) const noexcept { return end > start ? end - start : 0; }

@@ -379,6 +379,12 @@ struct AudioReader::State
                  stated, frameBytes, seconds(partFrames().value_or(there)), seconds(part().presentBytes / stated));
         if (!part().sampleWarning.empty())
             warnings.push_back(part().sampleWarning);
+        if (!part().offsetWarning.empty())
+            warnings.push_back(part().offsetWarning);
+        // 529 frames of the decoder, and 576 of most encoders.
+        constexpr int mpegPriming = 1105;
+        if (current == 0 && part().countedFrames && !part().promisedFrames)
+            warnings.push_back(primingWarning(mpegPriming, info.samplerate));
         if (part().hasOtherFormat)
             warn("has two descriptions of its samples that differ; it is read by the first, as {} channels at {} Hz, "
                  "and lasts {:.3f} s; save it anew",
@@ -444,12 +450,8 @@ struct AudioReader::State
         if (part().preSkip > mostPreSkip)
             warn("has a header that leaves out {:.3f} s at its beginning",
                  static_cast<double>(part().preSkip) / 48000.0);
-        // Programs that level loudness write up to some 30 dB.
-        constexpr double mostGain = 40.0;
-        if (const double gain = part().opusGain / 256.0; gain > mostGain)
-            warn("has a header that makes it {:.0f} dB louder", gain);
-        else if (gain < -mostGain)
-            warn("has a header that makes it {:.0f} dB softer", -gain);
+        if (auto loudness = opusGainWarning(part().opusGain))
+            warnings.push_back(std::move(*loudness));
         if (part().shiftedFrames > 0)
             warn(
                 "has times by which its first {:.3f} s lie before its start, more than an edit can; all of it is read; "

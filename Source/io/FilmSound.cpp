@@ -2,6 +2,7 @@
 
 #include "io/ByteWindow.h"
 #include "io/FileHandle.h"
+#include "io/MatroskaParts.h"
 #include "io/Mp4Tables.h"
 #include "io/SoundCodec.h"
 #include "io/Utf8.h"
@@ -32,6 +33,7 @@ using namespace std::string_view_literals;
 
 constexpr double shortest = 0.1; // s that are missing before it is said: codecs are primed and filled up with less
 constexpr std::uint64_t longestBlock = 4096; // frames of any codec
+constexpr int aacPriming = 2112;             // frames, the most that encoders of AAC put in front
 constexpr double latest = 24.0 * 3600.0;     // s after the picture that a sound may begin
 
 Error invalid(std::string message)
@@ -353,7 +355,13 @@ Result<FilmSound> FilmSound::open(const fs::path& path, std::FILE* file, const O
     if (const auto whole = sound.checkCut(file, kind); !whole)
         return whole.error();
     const double index = numberOf(track, "index").value_or(0.0);
-    sound.checkTables(file, isBehindTag ? options.begin : 0, index);
+    const std::string codec = textOf(track, "codec_name");
+    if (kind.find("mov") != std::string::npos)
+        sound.checkTables(file, isBehindTag ? options.begin : 0, index, codec);
+    if (kind.find("matroska") != std::string::npos)
+        sound.checkMatroska(file, codec);
+    if (kind == "aac")
+        sound.warnings.push_back(primingWarning(aacPriming, sound.rate));
 
     std::size_t number = 0;
     for (const Json* chapter : listOf(found, "chapters"))
@@ -453,7 +461,7 @@ Result<void> FilmSound::checkCut(std::FILE* file, const std::string& kind)
 }
 
 /// What the tables of an MP4 state beside what ffmpeg believes of them.
-void FilmSound::checkTables(std::FILE* file, std::uint64_t begin, double index)
+void FilmSound::checkTables(std::FILE* file, std::uint64_t begin, double index, const std::string& codec)
 {
     auto tracks = mp4Tracks(file, begin);
     const bool isThere = index >= 0.0 && index < static_cast<double>(tracks.size());
@@ -467,6 +475,10 @@ void FilmSound::checkTables(std::FILE* file, std::uint64_t begin, double index)
     }
     Mp4Track& track = tracks[static_cast<std::size_t>(index)];
     std::move(track.doubts.begin(), track.doubts.end(), std::back_inserter(warnings));
+    if (auto loudness = opusGainWarning(track.opusGain))
+        warnings.push_back(std::move(*loudness));
+    if (codec == "aac" && !hasPicture && !track.isPrimingTold)
+        warnings.push_back(primingWarning(aacPriming, rate));
     // Codecs are primed with up to 2112 frames, and their last block is filled up.
     constexpr double mostBlocks = 3.0;
     const double longest = static_cast<double>(longestBlock) / rate;
@@ -476,6 +488,26 @@ void FilmSound::checkTables(std::FILE* file, std::uint64_t begin, double index)
     if (track.played + margin < track.seconds)
         warnings.push_back(fmt::format("has an edit list, by which {:.3f} s of the {:.3f} s of its sound are left out",
                                        track.seconds - track.played, track.seconds));
+}
+
+/// What players pass over in a Matroska file, which they do not tell.
+void FilmSound::checkMatroska(std::FILE* file, const std::string& codec)
+{
+    if (const auto unknown = duration == Duration::estimated ? unknownBytesOfMatroska(file) : 0; unknown > 0)
+        warnings.push_back(
+            fmt::format("is damaged: {} bytes are no part of a film that is known; some of its sound may "
+                        "be missing; get a complete copy",
+                        unknown));
+    if (codec != "opus")
+        return;
+    constexpr std::uint64_t reach = 1 << 20, gainPlace = 16;
+    constexpr std::string_view name = "OpusHead";
+    ByteWindow window(file);
+    const auto place = window.find(name, 0, std::min(window.size(), reach));
+    if (!window.has(place, name))
+        return;
+    if (auto loudness = opusGainWarning(static_cast<std::int16_t>(window.number(place + gainPlace, 2, false))))
+        warnings.push_back(std::move(*loudness));
 }
 
 Result<void> FilmSound::explainEnd()

@@ -76,7 +76,8 @@ private:
     [[nodiscard]] std::size_t readFrames(std::span<float> interleaved);
     [[nodiscard]] Result<void> explainEnd();
     [[nodiscard]] Result<void> checkCut(std::FILE* file, const std::string& kind);
-    void checkTables(std::FILE* file, std::uint64_t begin, double index);
+    void checkTables(std::FILE* file, std::uint64_t begin, double index, const std::string& codec);
+    void checkMatroska(std::FILE* file, const std::string& codec);
 
     int rate = 0;
     int width = 0;

@@ -3,6 +3,8 @@
 #include "io/AudioHeader.h"
 #include "io/ByteWindow.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -52,9 +54,12 @@ public:
         }
         const auto header = child(*movie, "mvhd");
         movieScale = header ? timeScale(*header) : 0;
+        isPrimingTold = file.find("iTunSMPB", movie->begin, movie->end) < movie->end;
         std::vector<Mp4Track> all;
         for (const Mp4Box& box : children(*movie, "trak"))
             all.push_back(isFragmented ? fragmentedTrack(box, *movie, fragments, isWhole) : track(box));
+        if (isFragmented)
+            checkFragments(all, *movie, fragments);
         if (children(whole, "moov").size() > 1)
             for (Mp4Track& one : all)
                 one.doubts.emplace_back("has another film behind it, which is left out; save it as a file of its own");
@@ -62,6 +67,37 @@ public:
     }
 
 private:
+    /// Whether fragments are missing, by what is stated of all of them: how long they last, and their numbers where
+    /// they have no times.
+    void checkFragments(std::vector<Mp4Track>& all, const Mp4Box& movie, const std::vector<Mp4Box>& fragments)
+    {
+        const Mp4Box extent = inner(movie, {"mvex", "mehd"}), header = inner(movie, {"mvhd"});
+        const auto ticks = std::max(at(extent, 4, at(extent, 0, 1) == 1 ? 8 : 4),
+                                    at(header, 0, 1) == 1 ? at(header, 24, 8) : at(header, 16, 4));
+        const bool isStated = ticks != 0xFFFFFFFFu && ticks != ~std::uint64_t{0};
+        const double stated =
+            isStated && movieScale > 0 ? static_cast<double>(ticks) / static_cast<double>(movieScale) : 0.0;
+        constexpr double least = 0.3; // s: codecs are primed and filled up with less
+        std::string doubt;
+        if (stated > longest + least)
+            doubt = fmt::format("has a header that states {:.3f} s, but fragments of {:.3f} s are there; get a "
+                                "complete copy",
+                                stated, longest);
+        std::uint64_t lost = 0, before = 0;
+        for (const Mp4Box& fragment : fragments)
+        {
+            const auto number = at(inner(fragment, {"mfhd"}), 4, 4);
+            if (before > 0 && number > before + 1 && inner(fragment, {"traf", "tfdt"}).bytes() == 0)
+                lost += number - before - 1;
+            before = number;
+        }
+        if (doubt.empty() && lost > 0)
+            doubt = fmt::format("lacks {} of its fragments by their numbers; get a complete copy", lost);
+        for (Mp4Track& one : all)
+            if (!doubt.empty() && one.seconds > 0.0)
+                one.doubts.push_back(doubt);
+    }
+
     /// The boxes of that name in `outer`, as far as they fit.
     std::vector<Mp4Box> children(Mp4Box outer, std::string_view name)
     {
@@ -161,6 +197,7 @@ private:
             const double tolerance = areAlike ? 0.006 : 0.011 + 1.0 / static_cast<double>(timed);
             checkBlocks(found, descriptions, each / static_cast<double>(scale), tolerance);
         }
+        checkCodec(found, descriptions);
         checkEdits(found, inner(box, {"edts", "elst"}), scale);
         return found;
     }
@@ -169,9 +206,6 @@ private:
     Mp4Track fragmentedTrack(const Mp4Box& box, const Mp4Box& movie, const std::vector<Mp4Box>& fragments, bool isWhole)
     {
         Mp4Track found;
-        const Mp4Box handler = inner(box, {"mdia", "hdlr"});
-        if (handler.bytes() < 12 || !file.has(handler.begin + 8, "soun"))
-            return found;
         const auto id = idOf(box);
         const auto scale = timeScale(inner(box, {"mdia", "mdhd"}));
         const Mp4Box tables = inner(box, {"mdia", "minf", "stbl"});
@@ -191,7 +225,12 @@ private:
             const auto until = i + 1 < fragments.size() ? fragments[i + 1].begin - 8 : file.size();
             agree = addFragment(all, fragments[i], movie, id, known, until) && agree;
         }
-        found.seconds = found.played = scale > 0 ? all.ticks / static_cast<double>(scale) : 0.0;
+        const double seconds = scale > 0 ? all.ticks / static_cast<double>(scale) : 0.0;
+        longest = std::max(longest, seconds);
+        const Mp4Box handler = inner(box, {"mdia", "hdlr"});
+        if (handler.bytes() < 12 || !file.has(handler.begin + 8, "soun"))
+            return found;
+        found.seconds = found.played = seconds;
         if (!isWhole || fragments.empty())
             found.doubts.emplace_back(
                 "is damaged or cut off between its fragments; some of its sound may be missing; get "
@@ -209,6 +248,7 @@ private:
                         (areAlike ? static_cast<double>(all.each) : all.ticks / blocks) / static_cast<double>(scale),
                         areAlike ? 0.006 : 0.011 + 1.0 / blocks);
         }
+        checkCodec(found, descriptions);
         checkEdits(found, inner(box, {"edts", "elst"}), scale);
         return found;
     }
@@ -355,10 +395,21 @@ private:
                                       "or be at wrong times; get a complete copy");
     }
 
+    /// What a codec's description says besides.
+    void checkCodec(Mp4Track& found, const Mp4Box& descriptions)
+    {
+        constexpr std::uint64_t gainPlace = 12; // behind version, channels, frames left out and rate
+        const auto opus = file.find("dOps", descriptions.begin, descriptions.end);
+        if (opus < descriptions.end)
+            found.opusGain = static_cast<std::int16_t>(file.number(opus + gainPlace, 2, true));
+        found.isPrimingTold = isPrimingTold;
+    }
+
     void checkEdits(Mp4Track& found, const Mp4Box& list, std::uint64_t scale)
     {
         if (list.bytes() == 0)
             return;
+        found.isPrimingTold = true;
         const bool isLong = at(list, 0, 1) == 1;
         const std::uint64_t width = isLong ? 8 : 4, row = 2 * width + 4;
         const std::uint64_t nothing = isLong ? ~std::uint64_t{0} : 0xFFFFFFFFu;
@@ -381,7 +432,9 @@ private:
     ByteWindow file;
     std::uint64_t begin = 0;
     std::uint64_t movieScale = 0;
-    std::uint64_t stopped = 0; ///< where the boxes ended that were looked at last
+    bool isPrimingTold = false; ///< by iTunes
+    double longest = 0.0;       ///< s of the longest track in fragments
+    std::uint64_t stopped = 0;  ///< where the boxes ended that were looked at last
 };
 } // namespace
 

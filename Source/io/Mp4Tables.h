@@ -18,6 +18,8 @@ struct Mp4Track
     double blockSeconds = 0.0;       ///< s of one block of its codec
     bool isUnchecked = false;        ///< it has too many fragments to look at
     int sampleRate = 0;              ///< Hz, by the description of its codec
+    int opusGain = 0;                ///< dB / 256 that the description of an Opus adds
+    bool isPrimingTold = false;      ///< an edit list or iTunes says what an encoder put in front
     std::vector<std::string> doubts; ///< contradictions, each a sentence about the file
 };
 

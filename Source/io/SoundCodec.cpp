@@ -3,6 +3,8 @@
 #include "io/AudioHeader.h"
 #include "io/OggPages.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <set>
 #include <string_view>
@@ -102,6 +104,24 @@ bool isCutOgg(ByteWindow& file, std::uint64_t begin, std::uint64_t end)
         begin += bytes;
     }
     return !open.empty();
+}
+
+std::optional<std::string> opusGainWarning(int gain)
+{
+    // Programs that level loudness write up to some 30 dB.
+    constexpr double most = 40.0;
+    const double decibels = gain / 256.0;
+    if (decibels > most)
+        return fmt::format("has a header that makes it {:.0f} dB louder", decibels);
+    if (decibels < -most)
+        return fmt::format("has a header that makes it {:.0f} dB softer", -decibels);
+    return {};
+}
+
+std::string primingWarning(int frames, int sampleRate)
+{
+    return fmt::format("does not tell how its encoder was primed, so its sound may come up to {:.0f} ms late",
+                       1000.0 * frames / sampleRate);
 }
 
 } // namespace pacini

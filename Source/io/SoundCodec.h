@@ -5,6 +5,8 @@
 #include "io/ByteWindow.h"
 
 #include <cstdint>
+#include <optional>
+#include <string>
 
 namespace pacini
 {
@@ -22,5 +24,11 @@ enum class SoundCodec
 
 /// Whether an Ogg file lacks the page that ends one of its streams.
 [[nodiscard]] bool isCutOgg(ByteWindow& file, std::uint64_t begin, std::uint64_t end);
+
+/// What is said of an Opus whose header makes it much softer or louder, by `gain` dB / 256 (RFC 7845, 5.1).
+[[nodiscard]] std::optional<std::string> opusGainWarning(int gain);
+
+/// What is said of a sound that does not tell with how many `frames` its encoder and decoder may have begun it.
+[[nodiscard]] std::string primingWarning(int frames, int sampleRate);
 
 } // namespace pacini

@@ -10,6 +10,8 @@
 #include "io/SoundCodec.h"
 #include "io/SoundTags.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 #include <set>
@@ -232,6 +234,11 @@ private:
             audio.push_back({chunks[i].start, chunks[i].start + parts[first + i].presentBytes});
         const auto reading = sampleReading(file, begin, found->sizeField, audio);
         parts[first].sampleWarning = reading.warning;
+        if (found->rightOffset > 0)
+            parts[first].offsetWarning =
+                fmt::format("has a header by which its sound begins within its text; it is read from byte {} on, where "
+                            "the text ends; save it anew",
+                            found->rightOffset);
         for (std::size_t i = 0; i < chunks.size(); ++i)
         {
             SoundPart& part = parts[first + i];
@@ -273,7 +280,7 @@ private:
     void addHeader(SoundPart& part, const AudioChunk& chunk)
     {
         if (chunk.wrongOffset > 0)
-            part.patches.push_back({chunk.wrongOffset, std::string(4, '\0')});
+            part.patches.push_back({chunk.wrongOffset, numberBytes(chunk.rightOffset, 4, chunk.bigEndian)});
         const auto* layout = chunk.layout;
         if (layout && layout->fileId == "FORM")
             for (const FileChunk& piece : chunksOf(file, part.begin, end, 0))

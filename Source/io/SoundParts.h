@@ -38,6 +38,7 @@ struct SoundPart
     bool hasOtherFormat = false;                ///< a header says twice how its samples look, and differently
     double gain = 1.0;                          ///< that its samples need, see SampleReading
     std::string sampleWarning;                  ///< likewise
+    std::string offsetWarning;                  ///< of an AU whose sound begins elsewhere than it states
     bool isWhole = true;                        ///< fewer than promised are there, but nothing is missing
     std::uint64_t leftOutBytes = 0;             ///< unread bytes after the sound
     std::uint64_t skippedBytes = 0;             ///< before it, that are no sound and no tag

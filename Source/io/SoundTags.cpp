@@ -24,6 +24,25 @@ std::uint64_t lyricsBytes(ByteWindow& file, std::uint64_t digits)
     return text.size() == 6 && error == std::errc() && end == text.data() + 6 ? value : 0;
 }
 
+/// The bytes of the APE tag whose footer ends at `end`. Whether it has a header and how long it is are looked at: what
+/// a footer claims wrongly would be taken from the sound.
+std::uint64_t apeBytesBefore(ByteWindow& file, std::uint64_t begin, std::uint64_t end)
+{
+    constexpr std::string_view mark = "APETAGEX";
+    constexpr std::uint64_t itemHead = 8; // bytes: size of the value, flags; its key and a zero follow
+    const auto size = file.number(end - 20, 4, false);
+    if (size < apeHeaderBytes || size > end - begin)
+        return apeHeaderBytes;
+    const auto items = end - size;
+    if (items - begin >= apeHeaderBytes && file.has(items - apeHeaderBytes, mark))
+        return size + apeHeaderBytes;
+    if (size == apeHeaderBytes || file.has(items, mark)) // by writers that count the header
+        return size;
+    const auto key = file.number(items + itemHead, 2, true);
+    const bool isKey = key >> 8u >= 0x20 && key >> 8u < 0x7F && (key & 0xFFu) >= 0x20 && (key & 0xFFu) < 0x7F;
+    return isKey && file.number(items, 4, false) <= size - apeHeaderBytes ? size : apeHeaderBytes;
+}
+
 /// The bytes of the tag that ends at `end`, or 0.
 std::uint64_t tagBytesBefore(ByteWindow& file, std::uint64_t begin, std::uint64_t end)
 {
@@ -31,11 +50,7 @@ std::uint64_t tagBytesBefore(ByteWindow& file, std::uint64_t begin, std::uint64_
     if (room >= id3v1Bytes && file.has(end - id3v1Bytes, "TAG"))
         return id3v1Bytes;
     if (room >= apeHeaderBytes && file.has(end - apeHeaderBytes, "APETAGEX"))
-    {
-        constexpr std::uint64_t hasHeader = 0x80000000u;
-        const auto flags = file.number(end - 12, 4, false);
-        return file.number(end - 20, 4, false) + ((flags & hasHeader) != 0 ? apeHeaderBytes : 0);
-    }
+        return apeBytesBefore(file, begin, end);
     if (room >= 15 && file.has(end - 9, "LYRICS200"))
         return lyricsBytes(file, end - 15) + 15;
     if (room >= 9 && file.has(end - 9, "LYRICSEND"))

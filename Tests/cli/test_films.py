@@ -89,6 +89,36 @@ class Films(FilmTest):
         # AAC without a file around it says nothing of how it was primed: up to 2112 frames.
         self.ffmpeg("-i", "sound.wav", "-c:a", "aac", "c.aac")
         self.assertTimes(self.events("c.aac"), HITS, 0.05)
+        self.assertIn("does not tell how its encoder was primed, so its sound may come up to 44 ms late", self.said)
+
+    def test_fragments_say_how_they_were_primed_or_a_warning_does(self):
+        for name, flags, says in (("told.mp4", "+delay_moov", False), ("untold.mp4", "", True)):
+            self.ffmpeg("-i", "sound.wav", "-c:a", "aac", "-movflags", "+frag_keyframe+empty_moov" + flags, name)
+            self.assertTimes(self.events(name), HITS, 0.05 if says else 0.006)
+            self.assertEqual("how its encoder was primed" in self.said, says, self.said)
+
+    def test_an_opus_that_a_film_makes_inaudible_says_so(self):
+        for name, mark, place, order in (("a.mka", b"OpusHead", 16, "<h"), ("a.mp4", b"dOps", 12, ">h")):
+            self.ffmpeg("-i", "sound.wav", "-c:a", "libopus", name)
+            content = (self.folder / name).read_bytes()
+            at = content.index(mark) + place
+            for gain, says in ((-60, "makes it 60 dB softer"), (0, "")):
+                self.put("b" + name, content[:at] + struct.pack(order, gain * 256) + content[at + 2:])
+                self.events("b" + name)
+                self.assertIn(says, self.said)
+                self.assertEqual(self.said == "", says == "", self.said)
+
+    def test_a_recording_of_a_browser_whose_parts_are_damaged_says_so(self):
+        with open(self.folder / "a.webm", "wb") as recorded:  # as MediaRecorder has it, without a duration
+            subprocess.run(["ffmpeg", "-nostdin", "-v", "error", "-i", "sound.wav", "-c:a", "libopus", "-f", "webm", "-"],
+                           cwd=self.folder, stdout=recorded, check=True, timeout=120)
+        content = (self.folder / "a.webm").read_bytes()
+        self.assertTimes(self.events("a.webm"), HITS, 0.008)
+        self.assertEqual(self.said, "")
+        cluster = content.index(b"\x1f\x43\xb6\x75", len(content) // 4)
+        self.put("b.webm", content[:cluster + 2] + b"\x7f" + content[cluster + 3:])
+        done = self.run_command("encode", "b.webm", "-o", "b.json", "-y")
+        self.assertRegex(done.stderr.decode(), "(are no part of a film that is known|get a complete copy)")
 
     def test_the_filling_of_the_last_block_is_left_out(self):
         self.film("a.mp4", "-c:a", "aac")
@@ -140,10 +170,11 @@ class Films(FilmTest):
                               ("parts.mp4", ("-movflags", "+frag_keyframe+empty_moov"))):
             self.ffmpeg("-i", "sound.wav", *options, name)
             expected = self.events(name)
+            said = self.said
             for tag in (b"ID3\4\0\0\0\0\2\0" + bytes(256), b"ID3\3\0\0\0\1\0\0" + b"\xff\xfb\x90\x44" * 4096):
                 self.put("tagged" + name, tag + (self.folder / name).read_bytes())
                 self.assertEqual(self.events("tagged" + name), expected)
-                self.assertEqual(self.said, "", name)
+                self.assertEqual(self.said, said.replace(name, "tagged" + name))
 
     def test_a_film_that_is_cut_off_is_refused_or_read_with_a_word(self):
         for name, codec in (("a.mp4", "aac"), ("a.mkv", "aac"), ("a.avi", "pcm_s16le")):

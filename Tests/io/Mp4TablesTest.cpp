@@ -186,6 +186,54 @@ TEST_CASE("No damage of an MP4's fragments shortens its sound in silence", "[io]
     CHECK(silent > rounds / 20);
 }
 
+TEST_CASE("Fragments that are missing at the end or between others are told by what is stated of all", "[io][audio]")
+{
+    const TempFolder folder;
+    const std::string whole = fragmentedMp4Bytes(6, 10, 16000);
+    const auto doubtsOf = [&](const std::string& bytes)
+    {
+        const auto tracks = tracksOf(bytes, folder);
+        REQUIRE(tracks.size() == 1);
+        return tracks[0].doubts;
+    };
+    const auto fragment = [](const std::string& bytes, int number)
+    {
+        auto place = bytes.find("moof");
+        for (int i = 1; i < number && place != std::string::npos; ++i)
+            place = bytes.find("moof", place + 4);
+        return place == std::string::npos ? bytes.size() : place - 4;
+    };
+    // 60 blocks of 1024 frames at 16 kHz: by the header of the movie, whose unit is 1 ms, or by that of its fragments.
+    const std::string plain(4, '\0');
+    auto byMovie = whole;
+    byMovie.replace(byMovie.find("mvhd") + 20, 4, bigEndian(3840, 4));
+    auto byExtent = whole;
+    const std::string extent = mp4Box("mehd", plain + bigEndian(3840, 4));
+    byExtent.insert(byExtent.find("trex") - 4, extent);
+    for (const std::string outer : {"mvex", "moov"})
+    {
+        const auto size = byExtent.find(outer) - 4;
+        std::uint64_t stated = 0;
+        for (std::size_t i = 0; i < 4; ++i)
+            stated = stated << 8u | static_cast<unsigned char>(byExtent[size + i]);
+        byExtent.replace(size, 4, bigEndian(stated + extent.size(), 4));
+    }
+    for (const std::string& bytes : {byMovie, byExtent})
+    {
+        CHECK(doubtsOf(bytes).empty());
+        CHECK(doubtsOf(bytes.substr(0, fragment(bytes, 4))) ==
+              std::vector<std::string>{"has a header that states 3.840 s, but fragments of 1.920 s are there; get a "
+                                       "complete copy"});
+    }
+    // Without times of their own, the numbers of fragments tell which are missing.
+    auto untimed = whole;
+    for (auto place = untimed.find("tfdt"); place != std::string::npos; place = untimed.find("tfdt"))
+        untimed.replace(place, 4, "free");
+    CHECK(doubtsOf(untimed).empty());
+    CHECK(doubtsOf(untimed.substr(0, fragment(untimed, 3)) + untimed.substr(fragment(untimed, 5))) ==
+          std::vector<std::string>{"lacks 2 of its fragments by their numbers; get a complete copy"});
+}
+
 TEST_CASE("Times of an MP4 that no block of its codec has are told, whatever table they are in", "[io][audio]")
 {
     const TempFolder folder;

@@ -1,8 +1,12 @@
 #include "io/AudioBytes.h"
 #include "io/AudioReader.h"
+#include "io/FileHandle.h"
+#include "io/MatroskaParts.h"
+#include "io/Mp4Tables.h"
 #include "io/TagBytes.h"
 #include "support/Catch.h"
 #include "support/Paths.h"
+#include "support/Skip.h"
 #include "support/TempFolder.h"
 
 #include <pacini/foundation/Random.h>
@@ -12,6 +16,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <numbers>
@@ -40,6 +45,8 @@ struct KnownSound
     std::uint64_t slack = 1; ///< frames that may be left out: less than a frame behind the stated end is padding
     std::vector<std::size_t> places = {};         ///< bytes that may be changed besides: further headers
     std::string (*finish)(std::string) = nullptr; ///< makes sums right that a program would have written with the rest
+    bool isFilm = false;                          ///< the edges of bytes are tried oftener
+    int rate = 0;                                 ///< Hz, of films
 };
 
 constexpr int rate = 8000;
@@ -208,6 +215,111 @@ std::vector<KnownSound> knownSounds()
             mp3()};
 }
 
+/// Bytes of an MP4 or MOV that are not in its sound.
+std::vector<std::size_t> outsideOfMp4Sound(const std::string& bytes)
+{
+    std::vector<std::size_t> places;
+    for (std::size_t begin = 0; begin + 8 <= bytes.size();)
+    {
+        std::size_t length = 0;
+        for (std::size_t i = 0; i < 4; ++i)
+            length = length << 8u | static_cast<unsigned char>(bytes[begin + i]);
+        const bool isSound = bytes.substr(begin + 4, 4) == "mdat";
+        for (std::size_t i = 0; i < (isSound ? 8 : length); ++i)
+            places.push_back(begin + i);
+        begin += std::max<std::size_t>(length, 8);
+    }
+    return places;
+}
+
+/// Adds bytes of a Matroska file from `begin` to `end` that are not in its sound. Elements are an id and a size, whose
+/// first bits say how long they are; all bits of a size set leave it open (RFC 8794).
+void addOutsideOfBlocks(const std::string& bytes, std::size_t begin, std::size_t end, std::vector<std::size_t>& places)
+{
+    const auto number = [&](std::size_t at, bool hasMark, std::size_t& width)
+    {
+        const auto first = static_cast<unsigned char>(bytes.at(at));
+        width = 1;
+        while (width < 8 && (first >> (8 - width) & 1u) == 0)
+            ++width;
+        std::uint64_t value = hasMark ? first : first & (0xFFu >> width);
+        for (std::size_t i = 1; i < width; ++i)
+            value = value << 8u | static_cast<unsigned char>(bytes.at(at + i));
+        return value;
+    };
+    while (begin < end)
+    {
+        std::size_t idBytes = 0, sizeBytes = 0;
+        const auto id = number(begin, true, idBytes);
+        const auto size = number(begin + idBytes, false, sizeBytes);
+        const auto content = begin + idBytes + sizeBytes;
+        const bool isOpen = size == (std::uint64_t{1} << 7u * sizeBytes) - 1;
+        const auto last = isOpen ? end : std::min<std::size_t>(end, content + static_cast<std::size_t>(size));
+        constexpr std::uint64_t segment = 0x18538067, cluster = 0x1F43B675, group = 0xA0, block = 0xA1, single = 0xA3;
+        const bool isOuter = id == segment || id == cluster || id == group;
+        const auto told = isOuter ? content : id == block || id == single ? content + 4 : last;
+        for (auto at = begin; at < told; ++at)
+            places.push_back(at);
+        if (isOuter)
+            addOutsideOfBlocks(bytes, content, last, places);
+        // A cluster of an open size ends where the next begins; they lie in one another here.
+        begin = last;
+    }
+}
+
+/// A sound that ffmpeg decodes, with all that is no sound in it; codecs are primed and filled up.
+KnownSound film(const std::string& name)
+{
+    const auto path = testFolder() / "io/films" / name;
+    KnownSound sound{name, bytesOf(path), 0, 0, {0, 0}};
+    const auto whole = readAudio(path);
+    REQUIRE(whole.ok());
+    CHECK(whole->warnings.empty());
+    sound.frames = whole->samples.size();
+    sound.slack = static_cast<std::uint64_t>(whole->sampleRate) * 17 / 100;
+    sound.isFilm = true;
+    sound.rate = whole->sampleRate;
+    if (sound.bytes.starts_with("\x1A\x45\xDF\xA3"))
+        addOutsideOfBlocks(sound.bytes, 0, sound.bytes.size(), sound.places);
+    else
+        sound.places = outsideOfMp4Sound(sound.bytes);
+    return sound;
+}
+
+/// Whether all of a film's sound came and is to be heard, or something was said.
+void checkNoFilmIsLostInSilence(const KnownSound& sound, const std::filesystem::path& path)
+{
+    // What contradicts itself in the tables is told whatever the programs find, which take long to start.
+    const FileHandle file(std::fopen(path.string().c_str(), "rb"));
+    const auto tracks = mp4Tracks(file.get());
+    if (std::any_of(tracks.begin(), tracks.end(), [](const Mp4Track& track) { return !track.doubts.empty(); }))
+        return;
+    const auto audio = readAudio(path, {}, 10'000'000);
+    if (!audio.ok() || !audio->warnings.empty())
+        return;
+    const auto channels = static_cast<std::size_t>(audio->channels);
+    const auto frames = audio->samples.size() / channels;
+    const auto at = [](std::uint64_t count, int rate)
+    {
+        return static_cast<double>(count) / rate;
+    };
+    const double least = at(sound.frames - sound.slack, sound.rate);
+    // Another rate is no loss where all samples are there, and none where all of the time is.
+    CHECK((frames + sound.slack >= sound.frames || at(frames, audio->sampleRate) >= least));
+    // Pieces of the sound, which is equally loud throughout, that are no silence.
+    constexpr std::size_t pieces = 100;
+    std::size_t loud = 0;
+    for (std::size_t piece = 0; piece < pieces; ++piece)
+    {
+        const auto from = frames * piece / pieces * channels, until = frames * (piece + 1) / pieces * channels;
+        double most = 0.0;
+        for (auto i = from; i < until; ++i)
+            most = std::max(most, std::abs(static_cast<double>(audio->samples[i])));
+        loud += most > 0.05 ? 1u : 0u;
+    }
+    CHECK(loud * 100 >= pieces * 83);
+}
+
 /// Whether all of the sound came, or something was said.
 void checkNothingIsLostInSilence(const KnownSound& sound, const std::filesystem::path& path)
 {
@@ -222,6 +334,34 @@ int wanted(const char* name, int usual)
 {
     const char* text = std::getenv(name);
     return text ? std::atoi(text) : usual;
+}
+
+/// Checks rounds of random damage, PACINI_MUTATIONS of them or as many as `usual`.
+template <typename Check>
+void damage(const KnownSound& sound, int usual, Check check)
+{
+    const TempFolder folder;
+    Random random(static_cast<std::uint64_t>(wanted("PACINI_MUTATION_SEED", 20261128)));
+    const int rounds = wanted("PACINI_MUTATIONS", usual);
+    for (int round = 0; round < rounds; ++round)
+    {
+        auto bytes = sound.bytes;
+        std::string changed;
+        for (int i = 0; i <= round % 4; ++i)
+        {
+            auto place = random.next() % (sound.header + sound.places.size());
+            if (place >= sound.header)
+                place = sound.places[place - sound.header];
+            if (place >= sound.format.first && place < sound.format.second)
+                continue;
+            constexpr unsigned char edges[] = {0, 1, 127, 128, 255};
+            const auto kind = sound.isFilm ? random.next() % 6 : 5;
+            bytes[place] = static_cast<char>(kind < 5 ? edges[kind] : random.next());
+            changed += fmt::format("{} = {} ", place, static_cast<unsigned char>(bytes[place]));
+        }
+        CAPTURE(sound.name, round, changed);
+        check(sound, put(folder / "damaged", sound.finish ? sound.finish(std::move(bytes)) : bytes));
+    }
 }
 } // namespace
 
@@ -265,31 +405,21 @@ TEST_CASE("No size that a header may state loses sound in silence", "[io][audio]
 
 TEST_CASE("Damaged headers of every kind lose no sound in silence", "[io][audio]")
 {
-    const TempFolder folder;
     for (const KnownSound& sound : knownSounds())
         DYNAMIC_SECTION(sound.name) // -c NAME runs one kind alone
-        {
-            Random random(static_cast<std::uint64_t>(wanted("PACINI_MUTATION_SEED", 20261128)));
-            const int rounds = wanted("PACINI_MUTATIONS", 300); // of each kind
-            for (int round = 0; round < rounds; ++round)
-            {
-                auto bytes = sound.bytes;
-                std::string changed;
-                for (int i = 0; i <= round % 4; ++i)
-                {
-                    auto place = random.next() % (sound.header + sound.places.size());
-                    if (place >= sound.header)
-                        place = sound.places[place - sound.header];
-                    if (place >= sound.format.first && place < sound.format.second)
-                        continue;
-                    bytes[place] = static_cast<char>(random.next());
-                    changed += fmt::format("{} = {} ", place, static_cast<unsigned char>(bytes[place]));
-                }
-                CAPTURE(round, changed);
-                checkNothingIsLostInSilence(
-                    sound, put(folder / "damaged", sound.finish ? sound.finish(std::move(bytes)) : bytes));
-            }
-        }
+    damage(sound, 300, checkNothingIsLostInSilence);
+}
+
+TEST_CASE("Damaged headers of every kind of film lose no sound in silence", "[io][audio][slow]")
+{
+    if (const auto found = readAudio(testFolder() / "io/films/tone.m4a"); !found.ok())
+    {
+        REQUIRE(found.error().message.find("is not installed") != std::string::npos);
+        return skip("ffmpeg is not installed");
+    }
+    for (const char* name : {"tone.m4a", "fragments.mp4", "tone.mov", "tone.mka", "recorded.webm"})
+        DYNAMIC_SECTION(name)
+    damage(film(name), 20, checkNoFilmIsLostInSilence);
 }
 
 TEST_CASE("What follows a sound is told from more of it", "[io][audio]")
@@ -825,6 +955,98 @@ TEST_CASE("A header whose frames are longer or shorter than its samples is told 
     REQUIRE(audio.ok());
     CHECK(audio->warnings.empty());
     CHECK(audio->samples.size() == knownFrames);
+}
+
+TEST_CASE("An AU whose sound begins within its text is read behind it, with a word", "[io][audio]")
+{
+    const TempFolder folder;
+    const auto plain = au().bytes;
+    const auto samples = plain.substr(24);
+    const auto read = [&](std::uint64_t offset, const std::string& text, bool isOpen)
+    {
+        const std::string head =
+            ".snd" + bigEndian(offset, 4) + bigEndian(isOpen ? 0xFFFFFFFFu : samples.size(), 4) + plain.substr(12, 12);
+        const auto audio = readAudio(put(folder / "x", head + text + samples));
+        REQUIRE(audio.ok());
+        return *audio;
+    };
+    const auto whole = readAudio(put(folder / "x", plain));
+    REQUIRE(whole.ok());
+    for (const bool isOpen : {false, true})
+        for (const std::size_t letters : {39u, 2000u})
+        {
+            CAPTURE(isOpen, letters);
+            const auto text = std::string(letters, 'a') + std::string(8 - letters % 8, '\0');
+            const auto right = read(24 + text.size(), text, isOpen);
+            CHECK(right.samples == whole->samples);
+            CHECK(right.warnings.empty());
+            for (const std::uint64_t offset : {24u, 28u, 43u})
+            {
+                CAPTURE(offset);
+                const auto audio = read(offset, text, isOpen);
+                CHECK(audio.samples == whole->samples);
+                REQUIRE(audio.warnings.size() == 1);
+                CHECK(audio.warnings.front() ==
+                      fmt::format("has a header by which its sound begins within its text; it is read from byte {} on, "
+                                  "where the text ends; save it anew",
+                                  24 + text.size()));
+            }
+        }
+}
+
+TEST_CASE("The footer of an APE tag takes nothing of the sound, whatever it claims", "[io][audio]")
+{
+    const TempFolder folder;
+    const std::string item = littleEndian(5, 4) + littleEndian(0, 4) + std::string("Title\0Hello", 11);
+    const auto mark = [&](std::uint64_t size, std::uint64_t flags)
+    {
+        return "APETAGEX" + littleEndian(2000, 4) + littleEndian(size, 4) + littleEndian(1, 4) +
+               littleEndian(flags, 4) + std::string(8, '\0');
+    };
+    constexpr std::uint64_t hasHeader = 0x80000000u, isHeader = 0xA0000000u;
+    auto open = waveFile("RIFF").bytes;
+    open.replace(40, 4, littleEndian(0xFFFFFFFFu, 4));
+    const auto size = item.size() + 32;
+    for (const std::string& sound : {waveFile("RIFF").bytes, open})
+        for (const std::uint64_t claim : {std::uint64_t{0}, hasHeader})
+            for (const bool isThere : {false, true})
+            {
+                CAPTURE(claim, isThere);
+                const auto audio = readAudio(
+                    put(folder / "x", sound + (isThere ? mark(size, isHeader) : "") + item + mark(size, claim)));
+                REQUIRE(audio.ok());
+                CHECK(audio->samples.size() == knownFrames);
+                CHECK(audio->warnings.empty());
+            }
+    // A size that leads into the sound.
+    for (const std::uint64_t wrong : {std::uint64_t{0}, std::uint64_t{31}, size + 400, std::uint64_t{1} << 31u})
+    {
+        CAPTURE(wrong);
+        const auto audio = readAudio(put(folder / "x", open + item + mark(wrong, hasHeader)));
+        REQUIRE(audio.ok());
+        CHECK(audio->samples.size() >= knownFrames);
+    }
+}
+
+TEST_CASE("A Matroska file without a duration says what of it no player knows", "[io][audio]")
+{
+    const TempFolder folder;
+    const auto recorded = bytesOf(testFolder() / "io/films/recorded.webm");
+    const auto unknownOf = [&](const std::string& bytes)
+    {
+        const FileHandle file(std::fopen(put(folder / "x", bytes).string().c_str(), "rb"));
+        return unknownBytesOfMatroska(file.get());
+    };
+    CHECK(unknownOf(recorded) == 0);
+    CHECK(unknownOf(recorded.substr(0, recorded.size() - 20)) == 0); // which ffmpeg tells
+    const auto cluster = recorded.find("\x1F\x43\xB6\x75");
+    auto damaged = recorded;
+    damaged[cluster + 2] = '\x7F';
+    CHECK(unknownOf(damaged) > 3000); // with all its blocks
+    damaged = recorded;
+    damaged[cluster] = '\0';
+    CHECK(unknownOf(damaged) == recorded.size() - cluster);
+    CHECK(unknownOf(recorded + std::string("\xEC\x84\0\0\0\0", 6)) == 0);
 }
 
 TEST_CASE("Two descriptions of the samples of a WAV that differ are told", "[io][audio]")

@@ -24,6 +24,7 @@ BINARY = {
     "Resources/docs/*.png": "pictures of the documentation",
     "Tests/golden/editor/*.png": "blessed pictures of the windows",
     "Tests/io/audio/*": "a sound in each container that is read",
+    "Tests/io/films/*": "a sound in each container that ffmpeg reads, whose headers are damaged",
     "Tests/analysis/*.wav": "a sentence by a speech synthesiser, which tests of the voice gate need",
     "Tests/io/broken/*": "documents with bytes that no text has",
     "Tests/fuzz/corpus/chapters/*": "tags and comments of sound files",
