@@ -1,10 +1,12 @@
 #include "io/FilmSound.h"
 
+#include "io/AudioHeader.h"
 #include "io/ByteWindow.h"
 #include "io/FileHandle.h"
 #include "io/MatroskaParts.h"
 #include "io/Mp4Tables.h"
 #include "io/SoundCodec.h"
+#include "io/SoundTags.h"
 #include "io/Utf8.h"
 
 #include <pacini/foundation/ParseNumber.h>
@@ -206,6 +208,27 @@ bool isMp4(std::FILE* opened, std::uint64_t begin)
     return std::any_of(boxes.begin(), boxes.end(), [&](std::string_view box) { return file.has(begin + 4, box); });
 }
 
+/// Whether a transport stream of MPEG begins there or within its first packet: packets of 188 bytes begin with a G
+/// (ISO/IEC 13818-1); cameras put four bytes in front of each.
+bool isTransportStream(ByteWindow& file, std::uint64_t begin)
+{
+    constexpr std::uint64_t packets = 16; // which samples of a tone make, too, but not in front of them
+    const bool isOther = startsSound(file, begin) || tagBytesAt(file, begin) > 0 || file.number(begin, 1, true) == 0xFF;
+    for (const std::uint64_t length : {std::uint64_t{188}, std::uint64_t{192}})
+        for (std::uint64_t first = 0; first < length; ++first)
+        {
+            if (first > 0 && isOther)
+                return false;
+            const auto fewest = first == length - 188 ? 3 : packets;
+            std::uint64_t found = 0;
+            while (found < fewest && file.has(begin + first + found * length, "G"))
+                ++found;
+            if (found == fewest)
+                return true;
+        }
+    return false;
+}
+
 /// What a person calls a track: `2 (eng, 5.1)`.
 std::string trackText(std::size_t number, const Json& stream)
 {
@@ -231,10 +254,8 @@ bool isFilm(std::FILE* opened, std::uint64_t begin)
                                       "#!AMR"sv, "\x7F\xFE\x80\x01"sv, "\xFE\x7F\x01\x80"sv})
         if (at(0, id))
             return true;
-    constexpr std::uint64_t packet = 188; // bytes of an MPEG transport stream
     return at(0, "\x1A\x45\xDF\xA3"sv) || (at(0, "RIFF") && at(8, "AVI ")) || at(0, "\xFF\xF1"sv) ||
-           at(0, "\xFF\xF9"sv) || at(0, "\x0B\x77"sv) || at(0, "\0\0\1\xBA"sv) ||
-           (at(0, "G") && at(packet, "G") && at(2 * packet, "G"));
+           at(0, "\xFF\xF9"sv) || at(0, "\x0B\x77"sv) || at(0, "\0\0\1\xBA"sv) || isTransportStream(file, begin);
 }
 
 Result<FilmSound> FilmSound::open(const fs::path& path, std::FILE* file, const Options& options)
@@ -360,7 +381,7 @@ Result<FilmSound> FilmSound::open(const fs::path& path, std::FILE* file, const O
         sound.checkTables(file, isBehindTag ? options.begin : 0, index, codec);
     if (kind.find("matroska") != std::string::npos)
         sound.checkMatroska(file, codec);
-    if (kind == "aac")
+    if (kind == "aac" || (codec == "aac" && !sound.hasPicture && (kind == "mpegts" || kind == "flv")))
         sound.warnings.push_back(primingWarning(aacPriming, sound.rate));
 
     std::size_t number = 0;

@@ -120,6 +120,17 @@ class Films(FilmTest):
         done = self.run_command("encode", "b.webm", "-o", "b.json", "-y")
         self.assertRegex(done.stderr.decode(), "(are no part of a film that is known|get a complete copy)")
 
+    def test_transport_streams_of_cameras_and_recorders_are_read(self):
+        self.film("a.ts", "-c:a", "aac")
+        expected = self.events("a.ts")
+        content = (self.folder / "a.ts").read_bytes()
+        camera = b"".join(bytes(4) + content[at:at + 188] for at in range(0, len(content), 188))
+        for name, changed in (("a.mts", camera), ("b.ts", b"\x11" * 100 + content)):
+            self.put(name, changed)
+            self.assertTimes(self.events(name), expected)
+        self.put("none.bin", b"G" + bytes(5000) + b"G")
+        self.fails(1, ["encode", "none.bin"], "is not audio in a supported format")
+
     def test_the_filling_of_the_last_block_is_left_out(self):
         self.film("a.mp4", "-c:a", "aac")
         self.assertEqual(self.report("info", "a.mp4")["files"][0]["frames"], 4 * RATE)
