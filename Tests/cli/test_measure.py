@@ -231,6 +231,25 @@ class EndToEnd(MeasureTest):
         self.assertEqual(same["resonance"], report["resonance"])
         self.assertNotIn("worn", same)
 
+    def test_levels_without_a_calibration_are_no_accelerations(self):
+        self.succeeds("measure", "sweep", "-o", "sweep.wav", "--duration", "2", "--levels", "-10")
+        self.succeeds("measure", "simulate", "sweep.wav", "-o", "rec.wav")
+        relative = ["--sweep", "sweep.json", "--volts", "2.8"]
+        report = self.warned("measure", "report", "rec.wav", *relative, "-o", "report.json")[1]
+        self.assertEqual(list(report["strongest"]), ["frequency"])
+        self.assertEqual(json.loads((self.folder / "report.json").read_text())["strongest"], report["strongest"])
+        printed = self.succeeds("measure", "report", "rec.wav", *relative, "-o", "report.html").stdout.decode()
+        page = (self.folder / "report.html").read_text()
+        for name in ("Acceleration at full drive", "Acceleration at 1 V"):
+            self.assertIn(f"{name}: not known without --full-scale", printed)
+        self.assertEqual(page.count("not known without --full-scale"), 2)
+        self.assertNotIn("dB re 1 m/s", page)
+        self.warned("measure", "analyse", "rec.wav", "--sweep", "sweep.json", "--plot", "r.svg")
+        self.assertNotIn("dB re 1 m/s", (self.folder / "r.svg").read_text())
+        # One m/s^2 of full scale is a calibration, too.
+        known = self.warned("measure", "report", "rec.wav", *relative, "--full-scale", "1", "-o", "known.json")[1]
+        self.assertAlmostEqual(known["strongest"]["perVolt"], known["strongest"]["acceleration"] / 2.8)
+
     def test_a_report_is_written_over_nothing_that_was_read(self):
         self.succeeds("measure", "sweep", "-o", "sweep.wav", "--duration", "2", "--levels", "-10")
         self.succeeds("measure", "simulate", "sweep.wav", "-o", "rec.wav")

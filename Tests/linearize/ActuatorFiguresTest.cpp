@@ -52,7 +52,7 @@ Reported reportOn(const RigParams& rig, double level = -6.0, std::optional<doubl
     const auto average = averagePlacements(std::vector{measured.response()}).value();
     const SweepMeasurement* const placements[] = {&measured};
     const auto findings = findingsOf(placements, average, 1.0 / 12.0, 10.0).value();
-    return {average.response, actuatorFigures(placements, average, findings, volts)};
+    return {average.response, actuatorFigures(placements, average, findings, volts, true)};
 }
 
 /// An actuator on a device that moves freely.
@@ -165,8 +165,8 @@ TEST_CASE("Figures of a measured actuator are those of its equations of motion",
         CHECK(figures.edges->fall == Approx(edge).epsilon(0.1));
         const TrueWidth width3 = widthOf(rig, 3.0);
         const TrueWidth width10 = widthOf(rig, 10.0);
-        CHECK(Decibels::fromGain(figures.strongest).value == Approx(width3.strongest).margin(0.3));
-        CHECK(*figures.perVolt == Approx(figures.strongest / 2.5));
+        CHECK(Decibels::fromGain(figures.strongest.value()).value == Approx(width3.strongest).margin(0.3));
+        CHECK(*figures.perVolt == Approx(*figures.strongest / 2.5));
         CHECK(figures.within3.range.low == Approx(width3.low).epsilon(0.02));
         CHECK(figures.within3.range.high == Approx(width3.high).epsilon(0.02));
         CHECK(figures.within10.range.low == Approx(width10.low).epsilon(0.02));
@@ -197,7 +197,7 @@ TEST_CASE("Distortion of a cubic amplifier is that of its Chebyshev polynomial",
         findings.features.resonance.frequency = 120.0;
         const auto average = averagePlacements(std::vector{measured.response()}).value();
         const SweepMeasurement* const placements[] = {&measured};
-        const auto figures = actuatorFigures(placements, average, findings, {});
+        const auto figures = actuatorFigures(placements, average, findings, {}, true);
         CHECK(figures.distortionAtResonance == Approx(expected).epsilon(0.02));
     }
 }

@@ -110,7 +110,7 @@ struct ActuatorFigures
     Bandwidth within10;                  ///< dB below it
     std::optional<BurstEdges> edges;     ///< medians over the placements; none if the recordings end too early
     double strongestFrequency = 0.0;     ///< Hz
-    double strongest = 0.0;              ///< m/s^2 at full drive
+    std::optional<double> strongest;     ///< m/s^2 at full drive; none if the levels are relative
     std::optional<double> perVolt;       ///< m/s^2 at 1 V; peak for peak, RMS for RMS
     double distortion = 0.0;             ///< %, the largest within 10 dB of the strongest frequency
     double distortionAtResonance = 0.0;  ///< %, the median over the placements
@@ -147,10 +147,11 @@ struct ActuatorFigures
 }
 
 /// The figures of `placements`, whose average is `average` and whose summary `findings`. `voltage` is the peak at full
-/// drive, V (above 0).
+/// drive, V (above 0). Levels are in m/s^2 if the sensor is `calibrated`, else relative.
 [[nodiscard]] inline ActuatorFigures actuatorFigures(std::span<const SweepMeasurement* const> placements,
                                                      const PlacementAverage& average,
-                                                     const MeasurementFindings& findings, std::optional<double> voltage)
+                                                     const MeasurementFindings& findings, std::optional<double> voltage,
+                                                     bool calibrated)
 {
     const FrequencyResponse& response = average.response;
     ActuatorFigures figures;
@@ -159,9 +160,10 @@ struct ActuatorFigures
     figures.within10 = bandwidthOf(response, 10.0);
     const auto strongest = std::max_element(response.level.begin(), response.level.end());
     figures.strongestFrequency = response.frequency[static_cast<std::size_t>(strongest - response.level.begin())];
-    figures.strongest = Decibels(*strongest).gain();
-    if (voltage)
-        figures.perVolt = figures.strongest / *voltage;
+    if (calibrated)
+        figures.strongest = Decibels(*strongest).gain();
+    if (calibrated && voltage)
+        figures.perVolt = *figures.strongest / *voltage;
     figures.harmonics = findings.harmonics;
 
     const FrequencyRange& range = figures.within10.range;

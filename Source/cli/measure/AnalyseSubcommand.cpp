@@ -315,6 +315,7 @@ Result<std::size_t> AnalyseSubcommand::drawPicture(const AnalysedRecordings& ana
     {
         const auto& outliers = analysed.average.outliers;
         const bool out = std::any_of(outliers.begin(), outliers.end(),
+    content.absolute = options.isCalibrated();
                                      [i](const PlacementOutlier& outlier) { return outlier.index == i; });
         content.responses.push_back({out ? "left out" : "placements", analysed.recordings[i].measurement.response(),
                                      out ? plot::ResponseRole::outlier : plot::ResponseRole::placement});

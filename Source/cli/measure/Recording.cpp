@@ -220,7 +220,8 @@ std::optional<AnalysedRecordings> analyseRecordings(Console& console, const Reco
     params.smoothing = options.smoothingOctaves();
     params.points = static_cast<std::size_t>(options.points);
     params.equalized = !result.sweep.equalizedFor.empty();
-    params.fullScale.clear();
+    if (options.isCalibrated())
+        params.fullScale.clear();
     for (const std::string& value : options.fullScale)
         params.fullScale.push_back(*acceleration(value));
 

@@ -25,13 +25,16 @@ struct RecordingOptions
 {
     std::vector<std::string> recordings;
     std::string sweep;
-    std::vector<int> channels; ///< counted from 1; empty: all
-    std::vector<std::string> fullScale{"1"};
+    std::vector<int> channels;          ///< counted from 1; empty: all
+    std::vector<std::string> fullScale; ///< empty: levels are relative
     std::string smoothing = "1/12";
     int points = 240;
 
     void declare(CLI::App& command);
     [[nodiscard]] double smoothingOctaves() const;
+
+    /// Whether levels are in m/s^2.
+    [[nodiscard]] bool isCalibrated() const noexcept { return !fullScale.empty(); }
 };
 
 /// Names the first of `results` (empty ones aside) that is one of the recordings or the sweep: the result and why it

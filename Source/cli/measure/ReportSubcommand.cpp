@@ -45,7 +45,9 @@ Json figuresJson(const ActuatorFigures& figures)
               {"bandwidth10", bandwidthJson(figures.within10)}};
     if (figures.edges)
         json["edges"] = {{"rise", figures.edges->rise}, {"fall", figures.edges->fall}};
-    json["strongest"] = {{"frequency", figures.strongestFrequency}, {"acceleration", figures.strongest}};
+    json["strongest"] = {{"frequency", figures.strongestFrequency}};
+    if (figures.strongest)
+        json["strongest"]["acceleration"] = *figures.strongest;
     if (figures.perVolt)
         json["strongest"]["perVolt"] = *figures.perVolt;
     json["drive"] = figures.drive;
@@ -97,14 +99,18 @@ std::vector<Row> rowsOf(const ActuatorFigures& figures, const std::string& wornW
     row("Bandwidth within 10 dB", bandwidthText(figures.within10), "Immersion, thesis");
     row("Rise, 10 to 90 %", milliseconds(&BurstEdges::rise), speed);
     row("Fall, 90 to 10 %", milliseconds(&BurstEdges::fall), speed);
-    row("Acceleration at full drive",
-        fmt::format("{:.4g} m/s\u00b2 ({:.3g} g) at {:.1f} Hz", figures.strongest, figures.strongest / standardGravity,
-                    figures.strongestFrequency),
+    constexpr const char* relative = "not known without --full-scale";
+    const auto acceleration = [](double value)
+    {
+        return fmt::format("{:.4g} m/s\u00b2 ({:.3g} g)", value, value / standardGravity);
+    };
+    row("Strongest frequency", fmt::format("{:.1f} Hz", figures.strongestFrequency), sheets);
+    row("Acceleration at full drive", figures.strongest ? acceleration(*figures.strongest) : relative,
         "IEEE 1918.1.1, data sheets");
     row("Acceleration at 1 V",
-        figures.perVolt
-            ? fmt::format("{:.4g} m/s\u00b2 ({:.3g} g)", *figures.perVolt, *figures.perVolt / standardGravity)
-            : "not known without --volts",
+        !figures.strongest ? relative
+        : figures.perVolt  ? acceleration(*figures.perVolt)
+                           : "not known without --volts",
         sheets);
     row("Distortion at the resonance", distortionText(figures.distortionAtResonance, figures.drive), "thesis");
     row("Largest distortion within 10 dB", distortionText(figures.distortion, figures.drive), "thesis");
@@ -238,7 +244,8 @@ Result<Page> ReportSubcommand::page(const AnalysedRecordings& free, const std::o
     }
     plot::ResponseFigureContent content;
     content.title = page.title;
-    content.subtitle = "dB re 1 m/s\u00b2 at full drive";
+    content.absolute = options.isCalibrated();
+    content.subtitle = content.absolute ? "dB re 1 m/s\u00b2 at full drive" : "dB at full drive, relative";
     content.lowFrequency = figures.within10.range.low;
     content.highFrequency = figures.within10.range.high;
     const SweepMeasurement& first = free.recordings.front().measurement;
@@ -304,7 +311,8 @@ Exit ReportSubcommand::run(Console& console)
     const auto findings = findingsOf(placements, free->average, options.smoothingOctaves(), distortionLimit);
     if (!findings)
         return console.fail("", findings.error());
-    ActuatorFigures figures = actuatorFigures(placements, free->average, *findings, voltage(actuator));
+    ActuatorFigures figures =
+        actuatorFigures(placements, free->average, *findings, voltage(actuator), options.isCalibrated());
     if (heavy)
     {
         const auto drop =

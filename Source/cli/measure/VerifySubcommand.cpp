@@ -165,6 +165,7 @@ Result<std::size_t> VerifySubcommand::drawPicture(const Profile& actuator, const
 {
     plot::ResponseFigureContent content;
     content.title = actuator.name;
+    content.absolute = options.isCalibrated();
     content.subtitle = fmt::format("{}: {:.2f} dB mean deviation, {} dB at most, tolerance \u00b1{:.3g} dB",
                                    linearity.passed() ? "flat" : "not flat", linearity.meanDeviation,
                                    signedText(linearity.worstDeviation, 2), tolerance);

@@ -107,7 +107,7 @@ Panel responsePanel(const ResponseFigureContent& content, const Axis& frequency,
         panel.series.push_back(
             Line{shown.name, pointsOf(shown.response), strokeFor(shown.role, look), {}, {}, isFirst});
     }
-    panel.y = levelAxis("dB re 1 m/s\u00b2", panel.series, 100.0);
+    panel.y = levelAxis(content.absolute ? "dB re 1 m/s\u00b2" : "dB, relative", panel.series, 100.0);
     if (const auto& linearity = content.linearity)
     {
         const double top = linearity->level + linearity->tolerance;

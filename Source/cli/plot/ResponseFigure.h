@@ -36,6 +36,7 @@ struct ResponseFigureContent
     std::string title;
     std::string subtitle;
     std::vector<NamedResponse> responses;
+    bool absolute = true;                    ///< levels are dB re 1 m/s^2, else re an unknown acceleration
     EqualizerSections equalizer;             ///< shown in a panel of its own unless empty
     double sampleRate = 48000.0;             ///< Hz, of the equaliser
     std::optional<NamedResponse> distortion; ///< % over frequency, in a panel of its own
