@@ -217,7 +217,7 @@ bool ConvertCommand::overwritesInput(Console& console) const
     std::error_code unknown;
     if (!std::filesystem::equivalent(inputs.front(), output, unknown))
         return false;
-    console.error(output, {ErrorCode::invalidArgument, "", "is both input and output; name another output"});
+    console.error(output, {ErrorCode::invalidArgument, "", alsoInput});
     return true;
 }
 

@@ -484,7 +484,13 @@ Exit EncodeCommand::run(Console& console)
         return console.fail("", fits.error(), Exit::usage);
     if (isStandardOutput(output))
         console.keepStdoutFree();
-    auto tasks = makeTasks<EncodeResult>(found, names, overwriting, !dryRun);
+    // A clip would be encoded onto itself, but is no sound in the first place.
+    const auto unreadable = [&settings](const std::filesystem::path& input)
+    {
+        const auto sound = AudioReader::open(input, settings.reading);
+        return sound ? std::nullopt : std::optional(sound.error());
+    };
+    auto tasks = makeTasks<EncodeResult>(found, names, overwriting, !dryRun, unreadable);
     if (const auto started = batch.start(tasks, dryRun); !started)
         return console.fail("", started.error());
     BatchEnd end;

@@ -18,6 +18,9 @@ namespace pacini::cli
 {
 
 /// -n and -y, declared once per command.
+/// The error of an output that is the input.
+inline constexpr const char* alsoInput = "is also the input; choose another output with -o";
+
 class OverwriteOptions
 {
 public:

@@ -226,8 +226,7 @@ Exit PlotCommand::run(Console& console)
     if (from && to && *from >= *to)
         return console.fail("", {ErrorCode::invalidArgument, "--from", "must be before --to"}, Exit::usage);
     if (std::error_code ignored; std::filesystem::equivalent(*target, path, ignored))
-        return console.fail(
-            input, {ErrorCode::invalidArgument, "", "would be overwritten by its own picture; name another with -o"});
+        return console.fail(input, {ErrorCode::invalidArgument, "", alsoInput});
     if (overwriting.keepsAll() && isOccupied(*target))
     {
         console.note(fmt::format("{} exists and was kept", printable(target->string())));

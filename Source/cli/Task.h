@@ -15,6 +15,7 @@
 #include <cstddef>
 #include <exception>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <new>
 #include <optional>
@@ -104,11 +105,12 @@ void tellError(Console& console, const Task<ResultType>& task, BatchEnd& end)
 }
 
 /// The tasks for the inputs that were named; two that would be written to one file are an error, as are unreadable
-/// folders, and one that would be written to any of the inputs. Folders for the outputs are made unless nothing is to
-/// be written.
+/// folders, and one that would be written to any of the inputs; where that is the input itself, the error is what
+/// `unreadable` finds wrong with it, if anything. Folders for the outputs are made unless nothing is to be written.
 template <typename ResultType>
-[[nodiscard]] std::vector<Task<ResultType>> makeTasks(const InputFiles& found, const OutputNames& names,
-                                                      const OverwriteOptions& overwriting, bool makeFolders)
+[[nodiscard]] std::vector<Task<ResultType>>
+makeTasks(const InputFiles& found, const OutputNames& names, const OverwriteOptions& overwriting, bool makeFolders,
+          const std::function<std::optional<Error>(const std::filesystem::path&)>& unreadable = nullptr)
 {
     std::vector<Task<ResultType>> tasks;
     for (const InputFailure& failure : found.failures)
@@ -137,9 +139,14 @@ template <typename ResultType>
             fail("would be written to " + place->path.string() + ", as " + other->second.string() +
                  " is; rename one of them");
         else if (std::filesystem::equivalent(place->path, file.path, ignored))
-            fail("would be overwritten by its own result; name another output with -o");
+        {
+            fail(alsoInput);
+            if (auto wrong = unreadable ? unreadable(file.path) : std::nullopt)
+                task.error = std::move(wrong);
+        }
         else if (const auto input = inputs.find(realPlace(place->path)); input != inputs.end())
-            fail("would overwrite " + input->second.string() + ", which is an input too; name another output with -o");
+            fail("would overwrite " + input->second.string() +
+                 ", which is an input too; choose another output with -o");
         else
         {
             task.output = place->path;

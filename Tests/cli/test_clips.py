@@ -81,7 +81,7 @@ class Convert(CommandTest):
         before = (self.folder / "clip.json").read_bytes()
         os.symlink("clip.json", self.folder / "link.json")
         for output in ("clip.json", "./clip.json", "link.json"):
-            self.fails(1, ["convert", "clip.json", output], "is both input and output")
+            self.fails(1, ["convert", "clip.json", output], "is also the input")
         self.assertEqual((self.folder / "clip.json").read_bytes(), before)
 
 

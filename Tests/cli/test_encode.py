@@ -151,7 +151,7 @@ class Encode(CommandTest):
         os.symlink("a.wav", self.folder / "link.wav")
         for output in ("a.wav", "./a.wav", "link.wav"):
             self.fails(2, ["encode", "a.wav", "-o", output], "has the extension of a sound")
-            self.fails(1, ["encode", "a.wav", "-o", output, "--format", "json"], "would be overwritten", "-o")
+            self.fails(1, ["encode", "a.wav", "-o", output, "--format", "json"], "is also the input; choose another output with -o")
         self.assertEqual((self.folder / "a.wav").read_bytes(), content)
 
     def test_opposite_channels_do_not_cancel(self):

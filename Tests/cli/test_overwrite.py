@@ -32,6 +32,18 @@ class Recordings(Overwrite):
         self.assertEqual(self.bytes_of("bell.wav"), recording)
         self.assertEqual(self.names(), ["bell.haptic.wav", "bell.json", "bell.wav"])
 
+    def test_what_is_no_sound_is_said_to_be_none_with_and_without_an_output(self):
+        self.put("bell.wav", wav(sine(100, 0.3)))
+        self.succeeds("encode", "bell.wav", "-o", "clip.json")
+        self.put("empty.json", "")
+        self.put("x.texture.json", json.dumps({"format": "pacini.texture", "version": 1}))
+        for name in ("clip.json", "empty.json", "x.texture.json"):
+            said = self.fails(1, ["encode", name, "-o", "out.json"]).stderr
+            self.assertEqual(self.fails(1, ["encode", name]).stderr, said)
+            self.assertNotIn(b"also the input", said)
+        self.fails(1, ["encode", "bell.wav", "-o", "bell.wav", "--format", "json"],
+                   "bell.wav: is also the input; choose another output with -o")
+
     def test_whole_trees_of_recordings_survive(self):
         names = ["s/a.wav", "s/deep/b.wav", "s/deep/c.wav"]
         for i, name in enumerate(names):

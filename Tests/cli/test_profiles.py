@@ -147,7 +147,7 @@ class Convert(CommandTest):
         self.fails(1, ["convert", "missing.acf", "x.json"], "pacini: missing.acf: does not exist")
         self.fails(2, ["convert", "quest.acf", "x.pacb"], "x.pacb: must have the extension .json or .acf")
         self.fails(2, ["convert", "quest.acf", "x.json", "--format", "json"], "quest.acf: is a profile")
-        self.fails(1, ["convert", "quest.acf", "quest.acf"], "is both input and output")
+        self.fails(1, ["convert", "quest.acf", "quest.acf"], "is also the input")
         clip = self.clip()
         self.fails(2, ["convert", "clip.json", "x.acf"], "x.acf: ")
         self.fails(1, ["render", "clip.json", "--profile", "quest.acf"], "quest.acf: is an ACF file", "convert")

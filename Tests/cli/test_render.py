@@ -230,7 +230,7 @@ class Render(CommandTest):
         self.clip()
         self.fails(1, ["render", "clip.json", "-o", "out.mp3"], "pacini: clip.json: out.mp3: ", ".wav or .flac")
         self.fails(1, ["render", "clip.json", "-o", "out.flac"], "out.flac: FLAC does not support float samples")
-        self.fails(1, ["render", "clip.json", "-o", "clip.json"], "would be overwritten")
+        self.fails(1, ["render", "clip.json", "-o", "clip.json"], "is also the input")
         self.assertEqual(self.names(), ["clip.json"])
 
 

@@ -189,8 +189,8 @@ class Overwriting(Texture):
         for more in ([], ["-y"]):
             for output in ("stroke.wav", "./stroke.wav", "link.wav", "hand.csv"):
                 self.fails(1, ["texture", "analyse", "stroke.wav", "--speed", "hand.csv", "-o", output, *more],
-                           "is an input and would be overwritten")
-            self.fails(1, [*render, "--speed", "0:0 1:1", "-o", "wood.texture.json", *more], "is an input")
+                           "is also the input; choose another output with -o")
+            self.fails(1, [*render, "--speed", "0:0 1:1", "-o", "wood.texture.json", *more], "is also the input")
         self.succeeds("texture", "analyse", "stroke.wav", "-o", "wood.texture.json", "-n")
         self.assertEqual({name: (self.folder / name).read_bytes() for name in before}, before)
         self.succeeds(*render, "--speed", "0:0 1:1", "-o", "drive.wav")

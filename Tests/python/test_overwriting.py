@@ -74,7 +74,7 @@ class Overwriting(FolderTest):
         pacini.encode(knocks(), RATE).save(path)
         os.symlink(path, self.folder / "link.json")
         for output in (path, self.folder / "link.json"):
-            self.keeps(path, "is both input and output", pacini.convert, path, output, format="packed", overwrite=True)
+            self.keeps(path, "is also the input", pacini.convert, path, output, format="packed", overwrite=True)
 
     def test_files_of_one_kind_are_replaced_and_those_of_another_are_not(self) -> None:
         clip, scene = pacini.encode(knocks(), RATE), pacini.Scene([pacini.Clip(1.0)])

@@ -20,8 +20,7 @@ namespace pacini::cli
 {
     for (const std::string& input : inputs)
         if (!isStandardOutput(output) && !isStream(input) && isSameFile(output, input))
-            return console.fail(input, {ErrorCode::invalidArgument, "",
-                                        "is an input and would be overwritten; name another output with -o"});
+            return console.fail(input, {ErrorCode::invalidArgument, "", alsoInput});
     if (overwriting.keepsAll() && isOccupied(output))
     {
         console.note(printable(output) + " exists and was kept");

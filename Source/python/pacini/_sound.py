@@ -877,7 +877,7 @@ def convert(
     check_names("convert", options, EXPORT)
     clip = Clip.load(path)
     if os.path.exists(output) and os.path.samefile(path, output):
-        raise Error("is both input and output; name another output", os.fsdecode(output), "io")
+        raise Error("is also the input; choose another output", os.fsdecode(output), "io")
     return clip.save(output, format=format, quantise=quantise, overwrite=overwrite, **options)
 
 
