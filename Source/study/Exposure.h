@@ -2,6 +2,9 @@
 
 // Exposure of a person to vibration: of hand and arm (ISO 5349-1:2001), of the whole body on a seat (ISO 2631-1:1997).
 
+#include <pacini/actuator/Profile.h>
+
+#include <optional>
 #include <span>
 #include <string_view>
 
@@ -31,6 +34,16 @@ enum class ExposedPart
 [[nodiscard]] constexpr std::string_view standardOf(ExposedPart part) noexcept
 {
     return part == ExposedPart::hand ? "ISO 5349-1" : "ISO 2631-1";
+}
+
+/// The part that an actuator shakes, by the mass of the skin in its body model; none without one. Assumed: a hand with
+/// its forearm weighs some 2 kg and moves only in part, and of a sitting person several kg move with the seat.
+[[nodiscard]] constexpr std::optional<ExposedPart> exposedPartOf(const Profile& profile) noexcept
+{
+    constexpr double mostOfHand = 2.0; // kg
+    if (!profile.body)
+        return std::nullopt;
+    return profile.body->skinMass > mostOfHand ? ExposedPart::wholeBody : ExposedPart::hand;
 }
 
 /// A(8), m/s2: the constant acceleration that would bring about in eight hours what `dose` (m2/s4 s: weighted

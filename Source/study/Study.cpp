@@ -11,6 +11,7 @@
 #include <cmath>
 #include <iterator>
 #include <numeric>
+#include <utility>
 
 namespace pacini::study
 {
@@ -45,6 +46,13 @@ double valueOf(Variable variable, double strength) noexcept
     if (variable == Variable::level)
         return strength;
     return Decibels((easierBelow(variable) ? -strength : strength)).gain();
+}
+
+void setActuator(Study& study, std::string name, const Profile& profile)
+{
+    study.profile = std::move(name);
+    study.limits.part = exposedPartOf(profile).value_or(study.limits.part);
+    study.limits.daily = actionValue(study.limits.part);
 }
 
 std::size_t stimulusNamed(const Study& study, std::string_view name)

@@ -307,6 +307,10 @@ struct Study
     bool operator==(const Study&) const = default;
 };
 
+/// Plays the study on an actuator: `name` is its profile as the study names it. Exposure is then that of the part that
+/// it shakes, limited to the action value.
+void setActuator(Study& study, std::string name, const Profile& profile);
+
 namespace studyLimits
 {
 inline constexpr std::size_t stimuli = 10'000, groups = 100, blocks = 100, items = 200, choices = 100, events = 12;

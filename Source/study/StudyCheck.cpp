@@ -77,6 +77,7 @@ public:
     {
         result.exposureIsAssumed = !maker.params().profile || !maker.params().profile->body;
         makeAll();
+        checkExposedPart();
         checkSoundAsWhole();
         checkGroups();
         checkTexts();
@@ -172,6 +173,22 @@ private:
             doubts(where, fmt::format("\"{}\" is louder than full scale and will be clipped; lower soundLevel",
                                       heard.stimulus));
         result.heard.push_back(std::move(heard));
+    }
+
+    void checkExposedPart()
+    {
+        if (!maker.params().profile)
+            return;
+        const auto shaken = exposedPartOf(*maker.params().profile);
+        if (!shaken || *shaken == study.limits.part)
+            return;
+        const bool isSeat = *shaken == ExposedPart::wholeBody;
+        doubts("limits.part",
+               fmt::format("is {}, but '{}' shakes {}, whose exposure {} limits to {:g} m/s2; state \"limits\": "
+                           "{{\"part\": \"{}\"}}",
+                           isSeat ? "the hand" : "the whole body", maker.params().profile->name,
+                           isSeat ? "the whole body" : "a hand", standardOf(*shaken), actionValue(*shaken),
+                           isSeat ? "wholeBody" : "hand"));
     }
 
     void checkSoundAsWhole()

@@ -637,6 +637,23 @@ class Plans(StudyTest):
         page = (SOURCE / "Resources/docs/study.md").read_text()
         self.assertIn(f"at eight frequencies; some {said} minutes", page)
         [group] = self.report("study", "check", "mine")["groups"]
+    def test_exposure_is_that_of_the_part_which_the_actuator_shakes(self):
+        for profile, part, daily in (("seat-shaker", "wholeBody", 0.5), ("bass-shaker", "wholeBody", 0.5),
+                                     ("l5-wristband", "hand", 2.5), ("phone-erm", "hand", 2.5)):
+            with self.subTest(profile):
+                limits = self.new("jnd", "--profile", profile, "-y")["limits"]
+                self.assertEqual((limits["part"], limits["daily"]), (part, daily))
+                findings = json.loads(self.run_command("study", "check", "mine", "--json").stdout)["findings"]
+                self.assertEqual([one for one in findings if one["where"] == "limits.part"], [])
+        # What was made for another is told, both ways.
+        self.new("words", "-y")
+        self.warns("study", "check", "mine", "--profile", "bass-shaker",
+                   says="limits.part: is the hand, but 'Puck bass shaker below a seat' shakes the whole body, whose "
+                        "exposure ISO 2631-1 limits to 0.5 m/s2")
+        self.new("words", "-y", "--profile", "bass-shaker")
+        self.warns("study", "check", "mine", "--profile", "l5-wristband", says="limits.part: is the whole body")
+        self.fails(1, ["study", "new", "other", "--template", "jnd", "--profile", "gone.json"], "gone.json")
+
         self.assertEqual(said, ["eight", "nine", "ten"][round(group["minutes"]) - 8])
 
     def test_the_check_tells_the_power_of_the_design(self):

@@ -3,6 +3,7 @@
 #include "cli/InputFiles.h"
 #include "cli/Options.h"
 #include "cli/Overwrite.h"
+#include "cli/ProfileInput.h"
 #include "io/AtomicFile.h"
 #include "study/Plan.h"
 #include "study/Questionnaires.h"
@@ -114,7 +115,13 @@ struct NewSubcommand : Command
             if (const auto added = study::addQuestionnaire(*made, one); !added)
                 return console.fail("", added.error(), Exit::usage);
         made->seed = seed;
-        made->profile = profile;
+        if (!profile.empty())
+        {
+            const auto actuator = openProfile(console, profile);
+            if (!actuator)
+                return Exit::failed;
+            study::setActuator(*made, profile, *actuator);
+        }
         const study::Study written = study::relocated(std::move(*made), fs::path(), folder);
         if (const auto valid = study::validate(written); !valid)
             return console.fail("", valid.error());
