@@ -3,6 +3,8 @@
 #include "io/ProfileFile.h"
 #include "io/ShippedProfiles.h"
 
+#include <pacini/synthesis/SignalPlayer.h>
+
 #include <string>
 
 namespace pacini::cli
@@ -10,9 +12,9 @@ namespace pacini::cli
 
 Result<void> checkFelt(const Profile& profile, const std::filesystem::path& programFolder)
 {
-    if (profile.body)
+    if (profile.body || hasMeasuredAcceleration(profile))
         return {};
-    std::string message = "is missing in this profile, so the acceleration of the skin cannot be predicted";
+    std::string message = notFeltText(profile);
     bool first = true;
     for (const ShippedProfile& shipped : shippedProfiles(programFolder))
         if (const auto other = readProfile(shipped.path); other && other->body)

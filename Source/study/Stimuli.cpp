@@ -5,6 +5,7 @@
 #include "study/Exposure.h"
 
 #include <pacini/actuator/FeltModel.h>
+#include <pacini/actuator/MeasuredFelt.h>
 #include <pacini/clip/PackedClip.h>
 #include <pacini/filters/Resampler.h>
 #include <pacini/synthesis/ActuatorOutput.h>
@@ -118,10 +119,23 @@ void protectDrive(std::vector<float>& samples, const std::optional<Profile>& pro
     samples.erase(samples.begin(), samples.begin() + static_cast<std::ptrdiff_t>(late));
 }
 
+bool knowsFelt(const std::optional<Profile>& profile) noexcept
+{
+    return profile && (profile->body || hasMeasuredAcceleration(*profile));
+}
+
 std::vector<float> feltOf(const std::vector<float>& drive, const std::optional<Profile>& profile, int sampleRate)
 {
     std::vector<float> felt = drive;
     const auto params = profile ? feltModelParams(*profile) : std::nullopt;
+    if (!params && profile && hasMeasuredAcceleration(*profile))
+    {
+        MeasuredFelt model(profile->measurement->points, sampleRate);
+        felt.resize(drive.size() + model.latencyFrames(), 0.0f);
+        model.process(felt, felt);
+        felt.erase(felt.begin(), felt.begin() + static_cast<std::ptrdiff_t>(model.latencyFrames()));
+        return felt;
+    }
     if (!params)
     {
         scale(felt, assumedAcceleration);
@@ -269,8 +283,8 @@ std::optional<Error> StimulusMaker::calibrate(std::vector<float>& touch, const S
     };
     if (!settings.profile)
         return problem("needs the profile of the actuator, to know what is felt");
-    if (stimulus.acceleration && !feltModelParams(*settings.profile))
-        return problem("needs a profile with a body, to know the felt acceleration");
+    if (stimulus.acceleration && !knowsFelt(settings.profile))
+        return problem("needs a profile with a body or a calibrated measurement, to know the felt acceleration");
     const double wanted =
         stimulus.sensationLevel
             ? Decibels(*stimulus.sensationLevel - settings.profile->range.dynamicRange + stimulus.touchLevel).gain()

@@ -74,8 +74,11 @@ private:
 /// Limits `samples` of a drive signal to full drive and the limits of the profile, without equalising. In place.
 void protectDrive(std::vector<float>& samples, const std::optional<Profile>& profile, int sampleRate);
 
-/// Returns the felt acceleration of a drive signal, m/s2. Without a body model, `assumedAcceleration` at full drive is
-/// assumed, more than wristbands reach.
+/// Whether a profile says what is felt, by its body model or a calibrated measurement.
+[[nodiscard]] bool knowsFelt(const std::optional<Profile>& profile) noexcept;
+
+/// Returns the felt acceleration of a drive signal, m/s2. Of a profile that does not know it, `assumedAcceleration` at
+/// full drive is assumed, more than wristbands reach.
 [[nodiscard]] std::vector<float> feltOf(const std::vector<float>& drive, const std::optional<Profile>& profile,
                                         int sampleRate);
 inline constexpr double assumedAcceleration = 50.0;

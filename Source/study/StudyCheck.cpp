@@ -75,7 +75,7 @@ public:
 
     StudyCheck run()
     {
-        result.exposureIsAssumed = !maker.params().profile || !maker.params().profile->body;
+        result.exposureIsAssumed = !knowsFelt(maker.params().profile);
         makeAll();
         checkExposedPart();
         checkSoundAsWhole();

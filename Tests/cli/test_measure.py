@@ -250,6 +250,50 @@ class EndToEnd(MeasureTest):
         known = self.warned("measure", "report", "rec.wav", *relative, "--full-scale", "1", "-o", "known.json")[1]
         self.assertAlmostEqual(known["strongest"]["perVolt"], known["strongest"]["acceleration"] / 2.8)
 
+    def test_a_measured_profile_says_what_is_felt_where_its_levels_are_known(self):
+        self.succeeds("measure", "sweep", "-o", "sweep.wav", "--duration", "4", "--levels", "-6")
+        self.succeeds("measure", "simulate", "sweep.wav", "-o", "rec.wav", "--profile", "l5-wristband")
+        self.warned("measure", "analyse", "rec.wav", "--sweep", "sweep.json", "--full-scale", "5g", "-o", "mine.json")
+        self.warned("measure", "analyse", "rec.wav", "--sweep", "sweep.json", "-o", "relative.json")
+        points = json.loads((self.folder / "mine.json").read_text())["measurement"]["points"]
+
+        def measured(frequency):
+            """m/s^2 at full drive."""
+            return 10 ** (min(points, key=lambda point: abs(point["frequency"] - frequency))["level"] / 20)
+
+        # The acceleration that is felt of a tone is the measured one.
+        for frequency in (40, 80, 160, 320):
+            curve = [{"time": 0, "amplitude": 0.2}, {"time": 4, "amplitude": 0.2}]
+            self.put("tone.json", json.dumps({
+                "format": "pacini.clip", "version": 1, "name": "tone", "duration": 4, "envelope": [], "transients": [],
+                "bands": [{"lowFrequency": 0.9 * frequency, "centreFrequency": frequency, "highFrequency": 1.1 * frequency,
+                           "priority": 0, "amplitude": curve, "pitch": []}]}))
+            self.succeeds("render", "tone.json", "--profile", "mine.json", "-o", "drive.wav")
+            self.succeeds("render", "tone.json", "--profile", "mine.json", "--felt", "-o", "felt.wav")
+            levels = []
+            for name in ("drive.wav", "felt.wav"):
+                rate, channels, samples = self.floats(name)
+                self.assertEqual(len(samples), 4 * rate)
+                middle = samples[rate:3 * rate]
+                levels.append((sum(x * x for x in middle) / len(middle)) ** 0.5)
+            with self.subTest(frequency):
+                self.assertAlmostEqual(20 * math.log10(100 * levels[1] / levels[0] / measured(frequency)), 0, delta=0.5)
+        # So it serves as the actuator of a design, and limits the exposure of a study.
+        for pair in (("mine.json", "lra-175"), ("lra-175", "mine.json")):
+            self.assertEqual(self.run_command("render", "tone.json", "--designed-for", pair[0], "--profile", pair[1],
+                                              "-o", "alike.wav", "-y").returncode, 0, pair)
+        self.succeeds("study", "new", "s", "--template", "jnd", "--profile", "mine.json")
+        check = json.loads(self.run_command("study", "check", "s", "--json").stdout)
+        self.assertFalse(check["exposureIsAssumed"])
+        # Relative levels say nothing of that, and are told so.
+        self.fails(1, ["render", "tone.json", "--profile", "relative.json", "--felt", "-o", "no.wav"],
+                   "body: is missing, and the measured levels are relative", "--full-scale")
+        self.fails(1, ["render", "tone.json", "--profile", "lra-175", "--designed-for", "relative.json", "-o", "no.wav"],
+                   "--designed-for: body: is missing, and the measured levels are relative")
+        self.fails(1, ["render", "tone.json", "--profile", "mine.json", "--felt", "--wearer", "3", "-o", "no.wav"], "wearer")
+        said = self.run_command("study", "check", "s", "--profile", "relative.json").stdout.decode()
+        self.assertIn("(assuming 50 m/s2 at full drive, as the measured levels of the profile are relative)", said)
+
     def test_a_report_is_written_over_nothing_that_was_read(self):
         self.succeeds("measure", "sweep", "-o", "sweep.wav", "--duration", "2", "--levels", "-10")
         self.succeeds("measure", "simulate", "sweep.wav", "-o", "rec.wav")

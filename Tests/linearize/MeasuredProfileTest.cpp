@@ -43,7 +43,7 @@ TEST_CASE("A measurement takes the place of what the profile said, with its sour
                              "range.lowFrequency", "range.highFrequency", "drive.maxPower", "range.levels"})
         profile.sources.push_back({path, "assumed"});
     const FrequencyResponse response{{20.0, 60.0, 300.0}, {-10.0, 4.0, 1.5}};
-    setMeasurement(profile, response, someFindings(), 7, -6.5);
+    setMeasurement(profile, response, someFindings(), 7, -6.5, true);
 
     CHECK(test::asNumbers(profile.resonance.frequency, profile.resonance.q, profile.range.lowFrequency,
                           profile.range.highFrequency, profile.response.riseTime,
@@ -65,14 +65,17 @@ TEST_CASE("A measurement takes the place of what the profile said, with its sour
     std::vector<std::string> paths;
     for (const ProfileSource& source : profile.sources)
         paths.push_back(source.path);
-    CHECK(paths == std::vector<std::string>{"drive.maxPower", "range.highFrequency", "range.levels",
+    CHECK(paths == std::vector<std::string>{"drive.maxPower", "measurement", "range.highFrequency", "range.levels",
                                             "range.lowFrequency", "resonance", "response"});
+    CHECK(hasMeasuredAcceleration(profile));
     CHECK(sourceOf(profile, "drive.maxPower") == "assumed");
     CHECK(sourceOf(profile, "range.levels") == "assumed");
     CHECK(sourceOf(profile, "response") == "measured with swept sines at -6.5 dB, 5 placements");
     CHECK(sourceOf(profile, "resonance") == "measured with swept sines at -6.5 dB, 5 placements, as it is worn");
 
-    setMeasurement(profile, response, MeasurementFindings{}, 1, 0.0);
+    setMeasurement(profile, response, MeasurementFindings{}, 1, 0.0, false);
+    CHECK_FALSE(hasMeasuredAcceleration(profile));
+    CHECK(isAssumed(*pacini::sourceOf(profile.sources, "measurement")));
     CHECK(sourceOf(profile, "range.lowFrequency") ==
           "measured with swept sines at 0 dB, 1 placement, 20 dB below the strongest frequency");
     CHECK(sourceOf(profile, "response").empty()); // its times were not measured this time
@@ -87,13 +90,13 @@ TEST_CASE("What was measured beyond what a profile may hold is moved to its ends
     findings.features.felt = {0.2, 40000.0};
     findings.times = ActuatorResponse{3.0, 1.9};
     Profile profile;
-    setMeasurement(profile, {{20.0}, {0.0}}, findings, 3, 0.0);
+    setMeasurement(profile, {{20.0}, {0.0}}, findings, 3, 0.0, true);
     CHECK(test::asNumbers(profile.resonance.frequency, profile.resonance.q, profile.range.lowFrequency,
                           profile.range.highFrequency, profile.response.riseTime,
                           profile.response.fallTime) == test::Numbers{1.0, 100.0, 1.0, 20000.0, 2.0, 1.9});
     findings.features.resonance = {30000.0, 0.001};
     findings.times = ActuatorResponse{1.9, 3.0};
-    setMeasurement(profile, {{20.0}, {0.0}}, findings, 3, 0.0);
+    setMeasurement(profile, {{20.0}, {0.0}}, findings, 3, 0.0, true);
     CHECK(profile.resonance.frequency == 20000.0);
     CHECK(profile.resonance.q == 0.01);
     CHECK(profile.response.fallTime == 2.0);
@@ -103,7 +106,7 @@ TEST_CASE("An equalizer undoes what was verified with another one, and a proof h
           "[linearize]")
 {
     Profile profile;
-    setMeasurement(profile, {{20.0, 100.0, 400.0, 2000.0}, {1.0, 2.0, 3.0, 4.0}}, someFindings(), 2, 0.0);
+    setMeasurement(profile, {{20.0, 100.0, 400.0, 2000.0}, {1.0, 2.0, 3.0, 4.0}}, someFindings(), 2, 0.0, true);
     Linearity linearity;
     linearity.worstDeviation = 1.25;
     const FrequencyResponse after{{100.0, 400.0, 1600.0}, {6.0, 8.0, 10.0}};

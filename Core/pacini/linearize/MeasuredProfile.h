@@ -2,6 +2,7 @@
 
 // Profile update from a measurement: its findings, its equalizer and its proof, each with where it comes from.
 
+#include <pacini/actuator/MeasuredFelt.h>
 #include <pacini/actuator/Profile.h>
 #include <pacini/foundation/NumberText.h>
 #include <pacini/linearize/EqualizerFit.h>
@@ -39,10 +40,11 @@ inline void sortSources(Profile& profile)
 }
 
 /// Replaces the values of the profile by the measured ones. `response` is the average of all placements, `placements`
-/// their number and `drive` the level of the loudest sweep, dB re full drive. Removes equalizer and body, because they
+/// their number and `drive` the level of the loudest sweep, dB re full drive. The levels are in m/s^2 if the sensor was
+/// `calibrated`, else relative, as their source says. Removes equalizer and body, because they
 /// belong to another resonance. Frequencies outside the valid range of a profile are moved to its ends.
 inline void setMeasurement(Profile& profile, const FrequencyResponse& response, const MeasurementFindings& findings,
-                           std::size_t placements, double drive)
+                           std::size_t placements, double drive, bool calibrated)
 {
     const auto frequency = [](double f)
     {
@@ -72,12 +74,15 @@ inline void setMeasurement(Profile& profile, const FrequencyResponse& response, 
         const std::string_view path = source.path;
         return path.starts_with("resonance") || path == "range" || path.starts_with("range.lowFrequency") ||
                path.starts_with("range.highFrequency") || path.starts_with("response") ||
-               path.starts_with("equalizer") || path.starts_with("body");
+               path.starts_with("equalizer") || path.starts_with("body") || path.starts_with(measurementSource);
     };
     std::erase_if(profile.sources, measuredNow);
     const std::string how = "measured with swept sines at " + numberText(drive, std::chars_format::general, 3) +
                             " dB, " + std::to_string(profile.measurement->placements) + " placement" +
                             (profile.measurement->placements == 1 ? "" : "s");
+    profile.sources.push_back({std::string(measurementSource),
+                               calibrated ? how + ", with a calibrated sensor"
+                                          : "assumed levels: the sensor was not calibrated, so they are relative"});
     profile.sources.push_back({"resonance", how + ", as it is worn"});
     profile.sources.push_back({"range.lowFrequency", how + ", 20 dB below the strongest frequency"});
     profile.sources.push_back(

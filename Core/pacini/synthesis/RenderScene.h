@@ -203,8 +203,8 @@ inline Result<RenderPart> renderPart(const RenderParams& params, std::uint64_t t
 
 /// Renders a scene for an actuator (null: the plain drive signal) into `sink`: its drive signals, or the accelerations
 /// felt from them. Errors: those of compilePlan() and of the sink; invalidArgument if the part to render is empty, and
-/// at `profile` if felt accelerations are requested without a profile; invalidData at `body` if it has no body model;
-/// tooLarge for more than 24 hours. [worker]
+/// at `profile` if felt accelerations are requested without a profile; those of notFelt(); tooLarge for more than 24
+/// hours. [worker]
 [[nodiscard]] inline Result<RenderReport> renderScene(Scene scene, const Profile* profile, const RenderParams& params,
                                                       RenderSink& sink)
 {
@@ -215,8 +215,7 @@ inline Result<RenderPart> renderPart(const RenderParams& params, std::uint64_t t
             return Error{ErrorCode::invalidArgument, "profile", "is needed to predict the acceleration of the skin"};
         felt = feltSettingsOf(*profile, params.felt->wearer, params.felt->fullScale);
         if (!felt)
-            return Error{ErrorCode::invalidData, "body",
-                         "is missing in this profile, so the acceleration of the skin cannot be predicted"};
+            return notFelt(*profile, params.felt->wearer);
     }
     const std::size_t plays = scene.plays.size();
     std::vector<std::string> names;

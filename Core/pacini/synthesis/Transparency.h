@@ -4,6 +4,7 @@
 
 #include <pacini/actuator/ActuatorFit.h>
 #include <pacini/actuator/BodyChain.h>
+#include <pacini/actuator/MeasuredFelt.h>
 #include <pacini/actuator/OutputFilter.h>
 #include <pacini/actuator/Profile.h>
 #include <pacini/clip/Clip.h>
@@ -27,12 +28,12 @@
 namespace pacini
 {
 
-/// Acceleration of the skin, m/s^2, that an amplitude of 1 of a clip becomes at a frequency: output filter, actuator
-/// and body of a profile, as it is played with `params`.
+/// Acceleration of the skin, m/s^2, that an amplitude of 1 of a clip becomes at a frequency: output filter, and
+/// actuator and body of a profile or its measured response, as it is played with `params`.
 class FeltResponse
 {
 public:
-    /// The profile has a body and is no motor.
+    /// The profile has a body or a measured acceleration and is no motor.
     FeltResponse(const Profile& profileOfActuator, const AdaptationParams& params)
         : profile(profileOfActuator),
           fit(fitActuator(profile, {params.maxBoost, params.strength})),
@@ -44,14 +45,18 @@ public:
     [[nodiscard]] double at(double f) const noexcept
     {
         const Hertz played(std::clamp(f, fit.range.lowFrequency, fit.range.highFrequency));
-        return std::abs(filter.response(played, sampleRate)) *
-               std::abs(bodyFrequencyResponse(*profile.body, profile.resonance, played));
+        const double filtered = std::abs(filter.response(played, sampleRate));
+        if (!profile.body) // the drive signal of an amplitude of 1 leaves room for the overdrive
+            return filtered * Decibels(measuredLevelAt(profile.measurement->points, played.value)).gain() /
+                   profile.drive.overdrive;
+        return filtered * std::abs(bodyFrequencyResponse(*profile.body, profile.resonance, played));
     }
 
     /// Where events are strongest.
     [[nodiscard]] double atResonance() const noexcept
     {
-        return at(loadedResonance(*profile.body, profile.resonance).frequency);
+        return at(profile.body ? loadedResonance(*profile.body, profile.resonance).frequency
+                               : profile.resonance.frequency);
     }
 
     [[nodiscard]] const ActuatorRange& range() const noexcept { return fit.range; }
@@ -80,7 +85,11 @@ inline Result<void> checkTransparent(const Profile& profile)
     if (profile.technology == Technology::erm)
         return Error{ErrorCode::invalidData, "technology",
                      "is a motor, whose frequency follows its strength; choose an actuator that plays frequencies"};
-    if (!profile.body)
+    if (!profile.body && hasRelativeLevels(profile))
+        return Error{ErrorCode::invalidData, "body",
+                     "is missing, and the measured levels are relative, so that nobody knows how strongly it is felt; "
+                     "measure with a calibrated sensor (--full-scale)"};
+    if (!profile.body && !hasMeasuredAcceleration(profile))
         return Error{ErrorCode::invalidData, "body",
                      "is missing, so that nobody knows how strongly it is felt; choose a profile with a body model"};
     return {};

@@ -239,7 +239,7 @@ Exit AnalyseSubcommand::run(Console& console)
     {
         const auto& levels = analysed->sweep.sweep.levels;
         setMeasurement(profile, analysed->average.response, *findings, analysed->recordings.size(),
-                       *std::max_element(levels.begin(), levels.end()));
+                       *std::max_element(levels.begin(), levels.end()), options.isCalibrated());
         if (const auto written = writeProfile(output, profile); !written)
             return console.fail(output, written.error());
     }

@@ -137,8 +137,10 @@ struct CheckSubcommand : Command
                 fmt::format("{}: {} trials, some {:.0f} minutes, A(8) = {:.2f} m/s2{} of {:.1f} allowed", load.group,
                             load.trials, load.minutes, load.exposure,
                             check.exposureIsAssumed
-                                ? fmt::format(" (assuming {:.0f} m/s2 at full drive, which the profile does not state)",
-                                              study::assumedAcceleration)
+                                ? fmt::format(" (assuming {:.0f} m/s2 at full drive, {})", study::assumedAcceleration,
+                                              params.profile && params.profile->measurement
+                                                  ? "as the measured levels of the profile are relative"
+                                                  : "which the profile does not state")
                                 : "",
                             opened->study.limits.daily));
             if (load.soundDaily)

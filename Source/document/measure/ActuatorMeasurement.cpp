@@ -55,7 +55,8 @@ void ActuatorMeasurement::setBase(std::shared_ptr<const Profile> profile)
         {
             auto fitted = std::make_shared<FittedEqualizer>(*equalizing);
             Profile actuator = *known;
-            setMeasurement(actuator, average->average.response, average->findings, taken.size(), chosen.level);
+            setMeasurement(actuator, average->average.response, average->findings, taken.size(), chosen.level,
+                           chosen.calibrated);
             fitted->cost = equalizerCost(actuator, fitted->fit.sections, runningRate);
             return fitted;
         }();
@@ -219,7 +220,7 @@ Profile ActuatorMeasurement::profile(const std::string& name) const
     double drive = -200.0;
     for (const auto& placement : taken)
         drive = std::max(drive, placement->level);
-    setMeasurement(profile, average->average.response, average->findings, taken.size(), drive);
+    setMeasurement(profile, average->average.response, average->findings, taken.size(), drive, chosen.calibrated);
     pacini::setEqualizer(profile, equalizing->fit, "the measurement", runningRate);
     if (proof)
         setVerification(profile, proof->after, proof->linearity);

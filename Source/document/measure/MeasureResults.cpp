@@ -141,7 +141,7 @@ Result<FittedEqualizer> fitFor(const MeasuredResponse& response, const Equalizer
         return plain(linearity.error());
     fitted.predictedLinearity = *linearity;
     Profile actuator = base;
-    setMeasurement(actuator, measured, response.findings, 1, 0.0);
+    setMeasurement(actuator, measured, response.findings, 1, 0.0, false);
     fitted.cost = equalizerCost(actuator, fitted.fit.sections, rate);
     return fitted;
 }

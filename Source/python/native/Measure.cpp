@@ -190,7 +190,7 @@ nb::dict levelOf(const LevelMeasurement& level)
 /// What recordings of one sweep say of an actuator, and `base` with it.
 std::pair<nb::dict, ProfileHandle> findings(const std::vector<RecordingHandle>& recordings,
                                             const std::string& sweepText, double smoothing, double distortionLimit,
-                                            const ProfileHandle* base, const std::string& name)
+                                            const ProfileHandle* base, const std::string& name, bool calibrated)
 {
     const SweepFile file = take(readSweepJson(sweepText));
     std::vector<FrequencyResponse> responses;
@@ -209,7 +209,7 @@ std::pair<nb::dict, ProfileHandle> findings(const std::vector<RecordingHandle>& 
     if (!name.empty())
         renameProfile(profile, name);
     setMeasurement(profile, average.response, found, recordings.size(),
-                   *std::max_element(file.sweep.levels.begin(), file.sweep.levels.end()));
+                   *std::max_element(file.sweep.levels.begin(), file.sweep.levels.end()), calibrated);
     nb::dict result = responseOf(average.response);
     result["spread"] = toArray(std::vector<double>(average.spread));
     result["offsets"] = average.offsets;
@@ -343,7 +343,7 @@ void bindMeasure(nb::module_& module)
     module.def("analyse_recording", &analyse, "sound"_a, "sample_rate"_a, "sweep"_a, "full_scale"_a, "smoothing"_a,
                "points"_a);
     module.def("measurement_findings", &findings, "recordings"_a, "sweep"_a, "smoothing"_a, "distortion_limit"_a,
-               "base"_a.none(), "name"_a);
+               "base"_a.none(), "name"_a, "calibrated"_a);
     module.def("fit_equalizer", &fit, "frequency"_a, "level"_a, "profile"_a.none(), "measured"_a, "sample_rate"_a,
                "sections"_a.none(), "max_boost"_a, "goal"_a, "low"_a.none(), "high"_a.none(), "highpass"_a.none(),
                "boost_outside"_a, "shelves"_a);

@@ -272,6 +272,7 @@ def measurement_findings(
     distortion_limit: float,
     base: ProfileHandle | None,
     name: str,
+    calibrated: bool,
 ) -> tuple[dict[str, Any], ProfileHandle]: ...
 def fit_equalizer(
     frequency: Sequence[float],

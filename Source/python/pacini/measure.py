@@ -262,7 +262,7 @@ def analyse(
     recordings: Union[AnyRecording, Sequence[AnyRecording]],
     sweep: Union[Sweep, PathLike],
     *,
-    full_scale: Union[float, Sequence[float]] = 1.0,
+    full_scale: Optional[Union[float, Sequence[float]]] = None,
     smoothing: float = 1.0 / 12.0,
     points: int = 240,
     distortion_limit: float = 10.0,
@@ -278,8 +278,8 @@ def analyse(
         One, or several of the same actuator attached anew or on other people.
     sweep : Sweep or path
         What was played: the sweep, or the file that describes it.
-    full_scale : float or sequence of float, default 1
-        Acceleration of a sample of 1, m/s^2, for all channels or for each.
+    full_scale : float or sequence of float, optional
+        Acceleration of a sample of 1, m/s^2, for all channels or for each. Without it levels are relative.
     smoothing : float, default 1/12
         Bandwidth of the power average, octaves.
     points : int, default 240
@@ -312,7 +312,7 @@ def analyse(
         description = sweep.description
     else:
         description = text_of(os.path.splitext(os.fsdecode(path(sweep, "sweep")))[0] + ".json")
-    scale = numbers(np.atleast_1d(np.asarray(full_scale)), "full_scale")
+    scale = numbers(np.atleast_1d(np.asarray(1.0 if full_scale is None else full_scale)), "full_scale")
     handles = []
     for one in counted(all_of_them, len(all_of_them), progress, "analysing"):
         recording = one if isinstance(one, Recording) else Recording.load(path(one, "recordings"))
@@ -328,7 +328,7 @@ def analyse(
         )
     base = None if profile is None else as_profile(profile)._handle
     found, made = _native.measurement_findings(
-        handles, description, smoothing, distortion_limit, base, name
+        handles, description, smoothing, distortion_limit, base, name, full_scale is not None
     )
     times: tuple[Optional[float], Optional[float]] = found["times"] or (None, None)
     return Measurement(
