@@ -15,6 +15,7 @@ namespace pacini::study
 
 namespace
 {
+constexpr std::size_t mostEvents = 4;
 constexpr std::array<StudyTemplate, 12> templates{
     {{"coherence", "Sound and touch together",
       "how well sound and touch belong together: three groups, free words and ratings (Weber 2020)", 2},
@@ -22,16 +23,16 @@ constexpr std::array<StudyTemplate, 12> templates{
      {"mushra", "MUSHRA: translations side by side",
       "quality of translations beside each other, with hidden reference and anchor", 1},
      {"abx", "ABX: coarse or full", "can a translation with fewer breakpoints be told from the full one?", 1},
-     {"jnd", "Just noticeable differences", "just noticeable differences of level and frequency of a touch", 0},
+     {"jnd", "Just noticeable differences", "just noticeable differences of level and frequency of a touch", 0, 0},
      {"compression", "Bands and points needed",
       "how few bands and points are not told from the full translation, felt alone and with its sound", 1},
-     {"threshold", "Threshold of touch", "weakest touch that is felt, at eight frequencies", 0},
+     {"threshold", "Threshold of touch", "weakest touch that is felt, at eight frequencies", 0, 0},
      {"similarity", "Likeness of touches", "how alike touches are, pair by pair, for a map of them", 3},
      {"ranking", "Order of preference", "touches in order of preference", 2},
      {"place", "Place between actuators",
-      "where a touch between two actuators is felt that is placed by level, delay or both", 0},
-     {"events", "Events at once", "how many touches at once are told apart, and which", 0},
-     {"questionnaire", "Questionnaire", "age, handedness, hearing and musical experience", 0}}};
+      "where a touch between two actuators is felt that is placed by level, delay or both", 0, 0},
+     {"events", "Events at once", "how many touches at once are told apart, and which", 0, mostEvents, 2},
+     {"questionnaire", "Questionnaire", "age, handedness, hearing and musical experience", 0, 0}}};
 
 // The octave from 31.5 to 500 Hz in halves, around the 250 Hz where Pacinian corpuscles feel best.
 constexpr std::array<double, 8> thresholdFrequencies{31.5, 45.0, 63.0, 90.0, 125.0, 180.0, 250.0, 355.0};
@@ -361,14 +362,12 @@ Study placed()
 /// Two to four events, alone and in all combinations: the translations of sounds, or four tones.
 Study simultaneous(const std::vector<std::string>& sounds)
 {
-    constexpr std::size_t most = 4;
     constexpr double quieter = -12.0; // dB: four at once stay below full drive
     Study study = begun("events");
     study.description = "How many touches at once are told apart, and which: each alone and in all combinations.";
     std::vector<std::string> events;
-    if (sounds.size() >= 2)
-        events = addSounds(
-            study, {sounds.begin(), sounds.begin() + static_cast<std::ptrdiff_t>(std::min(sounds.size(), most))});
+    if (!sounds.empty())
+        events = addSounds(study, sounds);
     else
         for (const double frequency : {40.0, 90.0, 180.0, 320.0})
             events.push_back(addTone(study, fmt::format("{} Hz", frequency), frequency, 0.0, 1.0).name);
@@ -423,6 +422,13 @@ std::span<const StudyTemplate> studyTemplates() noexcept
     return templates;
 }
 
+std::string soundsOf(const StudyTemplate& one)
+{
+    if (one.mostSounds == StudyTemplate::any)
+        return fmt::format("{} or more", one.fewestSounds);
+    return one.mostSounds == 0 ? "none" : fmt::format("none, or {} to {}", one.fewestOwn, one.mostSounds);
+}
+
 Result<Study> makeStudy(std::string_view name, const std::vector<std::string>& sounds)
 {
     const StudyTemplate* wanted = nullptr;
@@ -435,6 +441,17 @@ Result<Study> makeStudy(std::string_view name, const std::vector<std::string>& s
         return Error{ErrorCode::invalidArgument, "sounds",
                      fmt::format("{} needs {} at least, such as pacini study new {} --template {} sounds/", name,
                                  wanted->fewestSounds, name, name)};
+    if (sounds.size() > wanted->mostSounds || (!sounds.empty() && sounds.size() < wanted->fewestOwn))
+    {
+        std::string message = fmt::format("{} takes {} sounds, but {} {} given;", name,
+                                          wanted->mostSounds == 0 ? std::string("no") : soundsOf(*wanted),
+                                          sounds.size(), sounds.size() == 1 ? "was" : "were");
+        std::string_view before = " choose as many, or another template: ";
+        for (const StudyTemplate& one : templates)
+            if (one.mostSounds > 0)
+                message += fmt::format("{}{} ({})", std::exchange(before, ", "), one.name, soundsOf(one));
+        return Error{ErrorCode::invalidArgument, "sounds", std::move(message)};
+    }
     if (name == "coherence")
         return coherence(sounds);
     if (name == "words")

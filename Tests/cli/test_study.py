@@ -20,8 +20,14 @@ class StudyTest(CommandTest):
             sound = [0.5 * (low + high) for low, high in zip(sine(frequency, 0.4, 44100), sine(0.4 * frequency, 0.4, 44100))]
             self.put(f"sounds/{'abc'[i]}.wav", wav(sound, 44100))
 
+    #: Templates that present nothing but tones of their own.
+    TONES = ("jnd", "threshold", "place", "questionnaire")
+
+    def sounds_for(self, template):
+        return () if template in self.TONES else ("sounds/",)
+
     def new(self, template="coherence", *more):
-        self.succeeds("study", "new", "mine", "--template", template, "sounds/", *more)
+        self.succeeds("study", "new", "mine", "--template", template, *self.sounds_for(template), *more)
         return json.loads((self.folder / "mine/study.json").read_text())
 
 
@@ -32,7 +38,7 @@ class Steps(StudyTest):
         self.assertEqual(len(templates), 12)
         for template in templates:
             with self.subTest(template):
-                self.succeeds("study", "new", f"{template}/", "--template", template, "sounds/", "-g", "A:3", "-g", "B:3"
+                self.succeeds("study", "new", f"{template}/", "--template", template, *self.sounds_for(template), "-g", "A:3", "-g", "B:3"
                               if template != "coherence" else "C:3", *(["-g", "B:3"] if template == "coherence" else []))
                 self.succeeds("study", "check", template)
                 self.succeeds("study", "simulate", template, "-o", f"{template}-simulated", "--runs", "20")
@@ -285,8 +291,8 @@ class Methods(StudyTest):
                          "questionnaire"):
             with self.subTest(template):
                 groups = () if template == "coherence" else ("-g", "all:5")
-                self.succeeds("study", "new", template, "--template", template, "sounds/", *groups, "--ask", "music")\
-                    if template != "questionnaire" else self.succeeds("study", "new", template, "--template", template)
+                asked = () if template == "questionnaire" else (*groups, "--ask", "music")
+                self.succeeds("study", "new", template, "--template", template, *self.sounds_for(template), *asked)
                 self.succeeds("study", "simulate", template, "-o", f"{template}-simulated", "--runs", "10")
                 said = " ".join(self.methods(f"{template}-simulated", f"{template}-simulated/report"))
                 self.assertNotIn("{}", said)
@@ -631,12 +637,6 @@ class Plans(StudyTest):
         found = self.report("study", "report", "simulated")
         self.assertEqual(set(found["participants"]), {"C", "D"})
 
-    def test_minutes_of_the_templates_are_those_of_the_check(self):
-        self.new("threshold")
-        said = re.search(r"some (\w+) minutes", (self.folder / "mine/study.json").read_text())[1]
-        page = (SOURCE / "Resources/docs/study.md").read_text()
-        self.assertIn(f"at eight frequencies; some {said} minutes", page)
-        [group] = self.report("study", "check", "mine")["groups"]
     def test_exposure_is_that_of_the_part_which_the_actuator_shakes(self):
         for profile, part, daily in (("seat-shaker", "wholeBody", 0.5), ("bass-shaker", "wholeBody", 0.5),
                                      ("l5-wristband", "hand", 2.5), ("phone-erm", "hand", 2.5)):
@@ -654,6 +654,12 @@ class Plans(StudyTest):
         self.warns("study", "check", "mine", "--profile", "l5-wristband", says="limits.part: is the whole body")
         self.fails(1, ["study", "new", "other", "--template", "jnd", "--profile", "gone.json"], "gone.json")
 
+    def test_minutes_of_the_templates_are_those_of_the_check(self):
+        self.new("threshold")
+        said = re.search(r"some (\w+) minutes", (self.folder / "mine/study.json").read_text())[1]
+        page = (SOURCE / "Resources/docs/study.md").read_text()
+        self.assertIn(f"at eight frequencies; some {said} minutes", page)
+        [group] = self.report("study", "check", "mine")["groups"]
         self.assertEqual(said, ["eight", "nine", "ten"][round(group["minutes"]) - 8])
 
     def test_the_check_tells_the_power_of_the_design(self):
@@ -706,6 +712,21 @@ class Mistakes(StudyTest):
         document["blocks"][0]["replay"] = 1
         self.put("mine/study.json", json.dumps(document).encode())
         self.fails(1, ["--strict", "study", "check", "mine"], '"replays"')
+
+    def test_no_sound_is_left_out(self):
+        for template, takes, *given in (
+                ("place", "takes no sounds, but 1 was given", "sounds/a.wav"),
+                ("threshold", "takes no sounds, but 3 were given", "sounds/"), ("jnd", "takes no sounds", "sounds/"),
+                ("questionnaire", "takes no sounds", "sounds/"),
+                ("events", "takes none, or 2 to 4 sounds, but 1 was given", "sounds/a.wav"),
+                ("events", "but 6 were given", "sounds/", "more/")):
+            with self.subTest((template, given)):
+                for name in "def":
+                    self.put(f"more/{name}.wav", wav(sine(100, 0.1)))
+                self.fails(2, ["study", "new", "x", "--template", template, *given], takes,
+                           "another template: coherence (2 or more), words (1 or more)", "events (none, or 2 to 4)")
+        self.assertFalse((self.folder / "x").exists())
+        self.assertIn("(sounds: none, or 2 to 4)", self.succeeds("study", "new", "--help"))
 
     def test_nothing_of_the_users_is_lost(self):
         self.new()

@@ -4,6 +4,9 @@
 #include "support/Catch.h"
 #include "support/ChangedText.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <array>
 #include <string>
 #include <utility>
@@ -22,7 +25,7 @@ TEST_CASE("Every template is a study that comes back as it was written")
 {
     for (const StudyTemplate& one : studyTemplates())
     {
-        const auto made = makeStudy(one.name, sounds);
+        const auto made = makeStudy(one.name, one.mostSounds == 0 ? std::vector<std::string>() : sounds);
         INFO(one.name);
         REQUIRE(made);
         CHECK(validate(*made));
@@ -33,6 +36,24 @@ TEST_CASE("Every template is a study that comes back as it was written")
         CHECK(warnings.texts().empty());
         if (one.fewestSounds > 0)
             CHECK_FALSE(makeStudy(one.name, {}));
+        // All that is given is presented, or nothing is made.
+        for (std::size_t count = 1; count < 8; ++count)
+        {
+            std::vector<std::string> given;
+            for (std::size_t i = 0; i < count; ++i)
+                given.push_back(fmt::format("sounds/{}.wav", i));
+            const auto from = makeStudy(one.name, given);
+            INFO(count);
+            if (from)
+                for (const std::string& sound : given)
+                    CHECK(std::any_of(from->stimuli.begin(), from->stimuli.end(),
+                                      [&](const Stimulus& stimulus) { return stimulus.sound == sound; }));
+            else
+            {
+                CHECK((count < one.fewestSounds || count < one.fewestOwn || count > one.mostSounds));
+                CHECK(from.error().where == "sounds");
+            }
+        }
     }
     CHECK(makeStudy("nothing", sounds).error().where == "template");
 }

@@ -230,7 +230,7 @@ def check(root, tables):
             if re.match(r"[A-Z0-9]", text):
                 wanted.setdefault(text, f"{presets.as_posix()}:{line}")
     templates = (root / STUDY_TEMPLATES).read_text(encoding="utf-8")
-    for match in re.finditer(r'\{"[\w-]+",\s*"([^"]*)",\s*("(?:\\.|[^"\\])*"(?:\s*"(?:\\.|[^"\\])*")*),\s*\d+\}',
+    for match in re.finditer(r'\{"[\w-]+",\s*"([^"]*)",\s*("(?:\\.|[^"\\])*"(?:\s*"(?:\\.|[^"\\])*")*),\s*\d+(?:,\s*\w+)*\}',
                              templates):
         line = templates.count("\n", 0, match.start()) + 1
         for text in (match.group(1), "".join(PART.findall(match.group(2)))):

@@ -50,13 +50,14 @@ struct NewSubcommand : Command
         for (const auto& one : study::studyTemplates())
         {
             names.emplace_back(one.name);
-            list += fmt::format("  {:<15}{}\n", one.name, one.purpose);
+            list += fmt::format("  {:<15}{}\n  {:<15}(sounds: {})\n", one.name, one.purpose, "", soundsOf(one));
         }
         auto* command = app.add_subcommand("new", "Create a study from a template");
         addOption(*command, "output", output, "Folder for study.json and the answers, or the name of a .json file",
                   "STUDY")
             ->required();
-        addOption(*command, "sounds", sounds, "Sounds to present, or folders of sounds", "SOUND");
+        addOption(*command, "sounds", sounds, "Sounds to present, or folders of sounds; as many as the template takes",
+                  "SOUND");
         addOption(*command, "-t,--template", kind, "Template: the kind of question", oneOf(names), "NAME")->required();
         addOption(*command, "-g,--group", groups,
                   "Name and number of participants of a group; repeat for several groups", "NAME:SIZE")

@@ -103,8 +103,12 @@ void NewStudySheet::showTemplate()
     text = text.substring(0, 1).toUpperCase() + text.substring(1);
     if (chosen.fewestSounds > 0)
         text << "\n" << counted(chosen.fewestSounds, "Needs {0} sound or more.", "Needs {0} sounds or more.");
+    else if (chosen.mostSounds > 0)
+        text << "\n"
+             << tr("Takes {0} to {1} sounds, or none.", {juce::String(static_cast<int>(chosen.fewestOwn)),
+                                                         juce::String(static_cast<int>(chosen.mostSounds))});
     else
-        text << "\n" << tr("Needs no sounds.");
+        text << "\n" << tr("Presents no sounds.");
     purpose.setText(text, juce::dontSendNotification);
     std::vector<std::string> enough(chosen.fewestSounds, "sound.wav");
     for (std::size_t i = 0; i < enough.size(); ++i)

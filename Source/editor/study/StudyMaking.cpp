@@ -68,6 +68,15 @@ Result<fs::path> makeStudyFile(const StudyWish& wish)
                              : fmt::format("This study needs at least {} sounds, and {} were found. Choose a folder of "
                                            "them.",
                                            one.fewestSounds, sounds.size())};
+    for (const auto& one : study::studyTemplates())
+        if (one.name == wish.kind && one.mostSounds == 0 && !sounds.empty())
+            return Error{ErrorCode::invalidArgument, "",
+                         "This study presents no sounds. Leave the field of sounds empty."};
+        else if (one.name == wish.kind && !sounds.empty() &&
+                 (sounds.size() > one.mostSounds || sounds.size() < one.fewestOwn))
+            return Error{ErrorCode::invalidArgument, "",
+                         fmt::format("This study takes {} to {} sounds or none, and {} were found. Choose others.",
+                                     one.fewestOwn, one.mostSounds, sounds.size())};
     auto made = study::makeStudy(wish.kind, sounds);
     if (!made)
         return made.error();

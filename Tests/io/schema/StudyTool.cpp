@@ -14,7 +14,10 @@ study::Study sample(int number)
     const auto templates = study::studyTemplates();
     const std::size_t which = static_cast<std::size_t>(number) % (templates.size() + 1);
     if (which < templates.size())
-        return study::makeStudy(templates[which].name, {"a.wav", "b.wav", "c.wav"}).value();
+        return study::makeStudy(templates[which].name, templates[which].mostSounds == 0
+                                                           ? std::vector<std::string>()
+                                                           : std::vector<std::string>{"a.wav", "b.wav", "c.wav"})
+            .value();
     study::Study whole = study::makeStudy("coherence", {"a.wav", "b.wav", "c.wav"}).value();
     whole.profile = "l5-wristband";
     whole.comfort = {"a"};
