@@ -145,6 +145,19 @@ class Encode(CommandTest):
         for again in ("a.wav", "./a.wav", "."):
             self.assertEqual(len(self.report("encode", "a.wav", again)["files"]), 1, again)
 
+    def test_limits_that_leave_nothing_are_refused_at_every_door(self):
+        self.put("a.wav", wav(sine(100, 0.2)))
+        both = {"lowLimit": 500, "highLimit": 100}
+        says = "must be below the high limit, or nothing is left"
+        for method in ("thesis", "envelope-sine", "vocoder16"):
+            self.fails(2, ["encode", "a.wav", "--method", method, "--low-limit", "500", "--high-limit", "100"],
+                       "--low-limit: " + says)
+        self.put("own.json", json.dumps({"format": "pacini.settings", "version": 1,
+                                         "encode": {"method": "thesis", **both}}))
+        self.assertIn(says, self.run_command("encode", "a.wav", "--settings", "own.json").stderr.decode())
+        self.assertEqual(self.names(), ["a.wav", "own.json"])
+        self.succeeds("encode", "a.wav", "--method", "thesis", "--low-limit", "100", "--high-limit", "500")
+
     def test_a_sound_is_never_overwritten_by_its_clip(self):
         content = wav(sine(100, 0.2))
         self.put("a.wav", content)

@@ -299,7 +299,13 @@ struct TranslationParams
     const EncoderParams usual; // the ends are those of the thesis too
     const double low = translation.choices.lowFrequency.value_or(usual.lowFrequency);
     const double high = translation.choices.highFrequency.value_or(usual.highFrequency);
-    return low < high ? Result<void>() : Error{ErrorCode::invalidArgument, "low", "must be lower than high"};
+    if (!(low < high))
+        return Error{ErrorCode::invalidArgument, "low", "must be lower than high"};
+    // The methods' own are 5 Hz and 1800 Hz or more, which no other end that is allowed contradicts.
+    if (translation.choices.lowLimit && translation.choices.highLimit &&
+        !(*translation.choices.lowLimit < *translation.choices.highLimit))
+        return Error{ErrorCode::invalidArgument, "lowLimit", "must be below the high limit, or nothing is left"};
+    return {};
 }
 
 } // namespace pacini
