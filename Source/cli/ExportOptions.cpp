@@ -30,7 +30,8 @@ std::optional<ExportParams> ExportOptions::params(Console& console, const ClipFo
 {
     GivenParameters wanted;
     for (const auto& [parameter, value] : settings)
-        if (parameterNamed(exportParameters, parameter->name).isIn(format))
+        if (parameterNamed(exportParameters, parameter->name).isIn(format) &&
+            (parameter->name != "strength" || !profile.empty()))
             wanted.set(*parameter, value);
     described.addGiven(wanted);
     std::optional<Profile> actuator;

@@ -194,13 +194,13 @@ CLI::App* RenderCommand::declare(CLI::App& app)
         command->add_flag("--everything", everything, "Render everything, also inaudible and imperceptible parts");
     command->get_option("--tolerance")->excludes(all);
     auto* asIs = command->add_flag("--no-adapt", noAdaptation, "Do not adapt clips to the profile's actuator");
-    auto* mapped = command->get_option("--mapping");
-    auto* boosted = command->get_option("--max-boost");
-    auto* strengthened = command->get_option("--strength");
-    for (CLI::Option* fitted : {asIs, mapped, boosted, strengthened, designed})
-        fitted->needs(command->get_option("--profile"));
-    for (CLI::Option* fitted : {mapped, boosted, strengthened, designed})
-        fitted->excludes(asIs);
+    std::vector<CLI::Option*> adapting{designed};
+    for (const RenderParameter& parameter : renderParameters)
+        if (parameter.need == RenderNeed::adaptation)
+            adapting.push_back(command->get_option(optionName(parameter)));
+    asIs->needs(command->get_option("--profile"));
+    for (CLI::Option* fitted : adapting)
+        fitted->needs(command->get_option("--profile"))->excludes(asIs);
     command->add_flag(
         "--no-protection", noProtection,
         "Switch off the limiter and the profile's limits: samples beyond 1 are written unchanged, or clipped in PCM");
@@ -266,19 +266,16 @@ std::string RenderCommand::record() const
 Exit RenderCommand::readSettings(Console& console, RenderSettings& settings) const
 {
     described.apply(renderParameters, settings);
-    if (settings.to && *settings.to <= settings.from)
+    if (const auto part = checkPart(settings); !part)
         return console.fail("", {ErrorCode::invalidArgument, "render", "--from must be before --to"}, Exit::usage);
-    const auto pulse = settings.compile.decoder.pulseShape;
-    for (const char* option : {"--pulse-frequency", "--pulse-cycles"})
-        if (command->count(option) > 0 && pulse.value_or(TransientShape::adaptive) == TransientShape::adaptive)
-            return console.fail("",
-                                {ErrorCode::invalidArgument, option,
-                                 "is for square and sine pulses; leave it out, or choose --pulse square or sine"},
-                                Exit::usage);
     settings.compile.sampleRate = std::round(settings.compile.sampleRate);
     settings.adjustment.variation.seed = seed;
     settings.compile.leaveOut = !everything;
     settings.compile.adapt = !noAdaptation;
+    for (const RenderParameter& parameter : renderParameters)
+        if (command->count(optionName(parameter)) > 0)
+            if (const auto used = checkEffect(parameter, settings, !profile.empty()); !used)
+                return console.fail("", {used.error().code, optionName(parameter), used.error().message}, Exit::usage);
     settings.protect = !noProtection;
     settings.dryRun = dryRun;
     settings.reading = {clipFolder, console.isStrict()};

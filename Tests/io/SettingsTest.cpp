@@ -206,6 +206,8 @@ TEST_CASE("Exports take what changes something in their format, within one range
     CHECK(message("haptic", "points", 0.0) == "points: must be 0.5 to 10000 per second");
     CHECK(message("openxr", "sampleRate", 48000.0).empty());
     CHECK(message("openxr", "sampleRate", 100.0) == "sampleRate: must be 2000 to 48000 Hz");
+    CHECK(message("wav16", "strength", 0.5) == "strength: needs a profile; leave it out, or name one");
+    CHECK(message("haptic", "strength", 0.5).starts_with("strength: has no effect in haptic"));
     CHECK(message("haptic", "sampleRate", 8000.0).starts_with("sampleRate: has no effect in haptic; leave it out, or"));
     CHECK(message("json", "points", 10.0).starts_with("points: is for formats of other programs, but json keeps the"));
 

@@ -366,6 +366,24 @@ class Arrays(FolderTest):
             for value in (np.nan, np.inf, 1e300, -1e300):
                 self.refuses(option, "invalidArgument", pacini.render, clip, **{option: value})
         self.refuses("end", "invalidArgument", pacini.render, clip, start=0.2, end=0.1)
+        # What has no effect is refused, as by the command.
+        for option, value in (("strength", 0.5), ("max_boost", 3), ("mapping", "clamp")):
+            self.refuses(option, "invalidArgument", pacini.render, clip, **{option: value})
+            self.refuses(
+                option, "invalidArgument", pacini.render, clip, profile="lra-175", adapt=False, **{option: value}
+            )
+            pacini.render(clip, profile="lra-175", **{option: value})
+        for option in ("pulse_frequency", "pulse_cycles"):
+            for pulse in (None, "adaptive"):
+                self.refuses(option, "invalidArgument", pacini.render, clip, pulse=pulse, **{option: 40})
+            pacini.render(clip, pulse="sine", **{option: 40})
+        self.refuses("strength", "invalidArgument", pacini.explain, clip, strength=0.5)
+        self.refuses("strength", "invalidArgument", clip.lint, "wav16", strength=0.5)
+        self.refuses("strength", "invalidArgument", clip.to_bytes, "wav16", strength=0.5)
+        self.refuses("strength", "invalidArgument", clip.save, self.folder / "x.haptic", strength=0.5)
+        self.refuses(
+            "low_limit", "invalidArgument", pacini.encode, knocks(0.3), RATE, method="thesis", low_limit=500, high_limit=100
+        )
         self.refuses("content", "invalidArgument", pacini.render, "clip.json")
         report = pacini.explain(clip, profile="lra-175")
         self.assertTrue(report.adaptations)

@@ -99,6 +99,8 @@ Result<ExportParams> exportParamsOf(const ClipFormat& format, const GivenParamet
                                  params.envelope->shortest, params.envelope->longest)};
     if (params.envelope == EnvelopeLimits())
         params.envelope.reset();
+    if (!std::isnan(given.find("strength")) && !profile)
+        return Error{ErrorCode::invalidArgument, "strength", "needs a profile; leave it out, or name one"};
     if (profile)
     {
         const auto used = checkUse("profile", format, hasProfile);

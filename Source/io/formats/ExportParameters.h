@@ -121,7 +121,7 @@ inline constexpr std::string_view exportProfileText =
 [[nodiscard]] nlohmann::ordered_json exportDescriptionsJson();
 
 /// The parameters that were given for `format`. Errors: invalidArgument at the name of a parameter that changes nothing
-/// in it, `profile` among them, or whose value is not allowed.
+/// in it, `profile` among them, or without a profile, or whose value is not allowed.
 [[nodiscard]] Result<ExportParams> exportParamsOf(const ClipFormat& format, const GivenParameters& given,
                                                   std::optional<Profile> profile = {});
 

@@ -49,19 +49,23 @@ struct RenderOptions : RenderParams
     {
         if (actuator != nullptr)
             profile = actuator->profile();
-        for (const auto& [parameter, value] : givenOptions(options, infosOf(renderParameters)))
+        given = givenOptions(options, infosOf(renderParameters));
+        for (const auto& [parameter, value] : given)
             parameterNamed(renderParameters, parameter->name).set(*this, value);
-        if (to && !(*to > from))
-            wrong("end", "must be after start");
+        takeNamed(checkPart(*this));
     }
 
-    /// What no table describes.
+    /// What no table describes. Raises pacini.Error for a parameter without effect; all come here, so that those with
+    /// the usual value do not count as given.
     void set(bool protectIt, bool leaveOut, bool adapt, std::uint64_t seed)
     {
         protect = protectIt;
         compile.leaveOut = leaveOut;
         compile.adapt = adapt;
         adjustment.variation.seed = seed;
+        for (const auto& [parameter, value] : given)
+            if (value != parameter->usual())
+                takeNamed(checkEffect(parameterNamed(renderParameters, parameter->name), *this, profile.has_value()));
     }
 
     void feel(const nb::dict& options)
@@ -72,6 +76,9 @@ struct RenderOptions : RenderParams
     }
 
     std::optional<Profile> profile;
+
+private:
+    GivenParameters given;
 };
 
 /// Without the lock.

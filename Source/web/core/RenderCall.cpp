@@ -39,14 +39,29 @@ Result<void> renderClipOrScene(Call& call)
     CompileParams& compiling = params.compile;
     compiling.leaveOut = call.truth("leaveOut", compiling.leaveOut);
     compiling.adapt = call.truth("adapt", compiling.adapt);
-    readParametersOf(call.reader, renderParameters, params);
+    GivenParameters given, givenFelt;
+    readParameters(call.reader, infosOf(renderParameters), given);
+    readParameters(call.reader, infosOf(feltParameters), givenFelt);
+    for (const auto& [parameter, value] : given)
+        parameterNamed(renderParameters, parameter->name).set(params, value);
     FeltParams felt;
-    readParametersOf(call.reader, feltParameters, felt);
-    if (call.truth("felt", false))
+    for (const auto& [parameter, value] : givenFelt)
+        parameterNamed(feltParameters, parameter->name).set(felt, value);
+    const bool isFelt = call.truth("felt", false);
+    if (isFelt)
         params.felt = felt;
     params.protect = call.truth("protect", params.protect);
     if (auto known = call.finishOptions(); !known)
         return known;
+    if (auto part = checkPart(params); !part)
+        return part;
+    for (const auto& [parameter, value] : given)
+        if (auto used = checkEffect(parameterNamed(renderParameters, parameter->name), params, withProfile); !used)
+            return used;
+    for (const auto& [parameter, value] : givenFelt)
+        if (!isFelt)
+            return Error{ErrorCode::invalidArgument, std::string(parameter->name),
+                         "is for the felt acceleration; leave it out, or choose felt"};
     const std::size_t firstClip = withProfile ? 2 : 1;
     std::optional<Profile> profile;
     if (withProfile)

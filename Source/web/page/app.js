@@ -359,7 +359,7 @@ const renderDrive = newestOnly(async () => {
 })
 
 const profileOption = () => element('profile').value ? { profile: element('profile').value } : {}
-const strength = () => ({ strength: Number(element('strength').value) })
+const strength = () => element('profile').value ? { strength: Number(element('strength').value) } : {}
 
 let pictureWanted = false, pictureOf = ''
 /** The spectrogram of what is shown, when it is asked for and not there. */
