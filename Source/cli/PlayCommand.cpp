@@ -118,6 +118,9 @@ private:
     [[nodiscard]] Result<std::optional<OpenedController>> openDevice(Console& console,
                                                                      Interruption& interruption) const;
 
+    /// Says so where not these packets but samples by a sound device are played.
+    void tellOfSound(Console& console, const devices::ControllerModel& model) const;
+
     Exit explain(Console& console, const Clip& clip, const devices::PlayRange& range) const;
     Exit list(Console& console, const Clip& clip, const devices::PlayRange& range) const;
     Exit playSound(Console& console, const Clip& clip, const devices::PlayRange& range, OpenedController& opened,
@@ -305,11 +308,23 @@ Result<devices::ControllerModel> PlayCommand::listedModel() const
     return opened->model;
 }
 
+void PlayCommand::tellOfSound(Console& console, const devices::ControllerModel& model) const
+{
+    if (model.haptics != devices::ControllerHaptics::dualSense || model.transport == devices::Transport::bluetooth ||
+        way() == DualSenseWay::rumble)
+        return;
+    console.warning(input, fmt::format("a DualSense on a cable plays samples by its sound device, which sends no "
+                                       "packets and loses only what is beyond full drive; {} its rumble, which plays "
+                                       "where that device is missing",
+                                       dryRun ? "these are the packets of" : "this is lost by"));
+}
+
 Exit PlayCommand::explain(Console& console, const Clip& clip, const devices::PlayRange& range) const
 {
     const auto model = listedModel();
     if (!model)
         return console.fail("", model.error());
+    tellOfSound(console, *model);
     Json losses = Json::array();
     for (const FormatLoss& loss : playLosses(clip, range, Decibels(intensity), *model, actuator()))
     {
@@ -330,6 +345,7 @@ Exit PlayCommand::list(Console& console, const Clip& clip, const devices::PlayRa
     const auto model = listedModel();
     if (!model)
         return console.fail("", model.error());
+    tellOfSound(console, *model);
     warnOfSilence(console, input, *model);
     devices::InstantClock clock;
     PacketList sink(clock);

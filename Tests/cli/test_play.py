@@ -11,10 +11,19 @@ KINDS = {"switch": (0.015, 10, 1, 0), "switch-usb": (0.015, 10, 3, 0), "dualshoc
          "dualsense-bluetooth": (0.032 / 3, 142, 1, 1), "xbox": (0.016, 9, 0, 0), "waveforms": (0.020, 6, 0, 0)}
 
 
+#: What is said of a DualSense on a cable.
+SOUND = r"^pacini: clip.json: warning: .* plays samples by its sound device, .*(these are the packets of|this is lost by) " \
+        r"its rumble.*\n$"
+
+
 class Play(CommandTest):
     def listed(self, *arguments):
         """[(time, bytes)] that would be sent."""
-        lines = self.succeeds("play", "clip.json", "--dry-run", *arguments).splitlines()
+        done = self.run_command("play", "clip.json", "--dry-run", *arguments)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        # A DualSense on a cable plays by its sound device, unless it is told otherwise.
+        self.assertRegex(done.stderr.decode(), SOUND if "dualsense" in arguments and "rumble" not in arguments else "^$")
+        lines = done.stdout.decode().splitlines()
         return [(float(line.split()[0]), bytes.fromhex(line.split(maxsplit=1)[1])) for line in lines]
 
     def test_every_kind_of_controller_gets_its_reports_at_its_times(self):
@@ -79,8 +88,11 @@ class Play(CommandTest):
 
     def losses(self, *arguments):
         """The losses of clip.json that --explain lists; the lines say the same, and nothing needs to be connected."""
-        report = self.report("play", "clip.json", "--explain", *arguments)
-        lines = self.succeeds("play", "clip.json", "--explain", *arguments).splitlines()
+        done = [self.run_command("play", "clip.json", "--explain", *arguments, *more) for more in (["--json"], [])]
+        for one in done:
+            self.assertEqual(one.returncode, 0, one.stderr)
+            self.assertRegex(one.stderr.decode(), SOUND if "dualsense" in arguments and "rumble" not in arguments else "^$")
+        report, lines = json.loads(done[0].stdout), done[1].stdout.decode().splitlines()
         self.assertEqual(len([line for line in lines if " s " in line]), len(report["losses"]))
         for loss, line in zip(report["losses"], lines):
             self.assertEqual(set(loss), {"kind", "time", "duration", "error", "message"})
