@@ -1,12 +1,15 @@
 // Subcommand that describes files.
 
 #include "cli/Command.h"
+#include "cli/Counted.h"
 #include "cli/Options.h"
 #include "cli/ProfileInput.h"
 #include "cli/ProfileReport.h"
 #include "cli/SceneReport.h"
 #include "io/AudioReader.h"
 #include "io/ClipFile.h"
+#include "io/Overwrite.h"
+#include "io/TextureFile.h"
 #include "io/formats/json/ClipJson.h"
 
 #include <pacini/clip/Clip.h>
@@ -140,7 +143,33 @@ Result<Json> describeAudio(const std::string& file, std::vector<std::string>& wa
                 {"peak", peak}};
 }
 
-/// `pacini info`: shows the content of a clip, a scene, a sound file or a profile.
+Json describeTexture(const Texture& texture)
+{
+    Json nodes = Json::array();
+    for (const TextureNode& node : texture.nodes)
+        nodes.push_back({{"speed", node.speed}, {"level", node.level}});
+    return {{"kind", "texture"},
+            {"name", texture.name},
+            {"fullSpeed", texture.fullSpeed},
+            {"fullForce", texture.fullForce},
+            {"pitch", texture.pitch},
+            {"levelBySpeed", texture.levelBySpeed},
+            {"levelByForce", texture.levelByForce},
+            {"nodes", std::move(nodes)},
+            {"tones", texture.tones.size()}};
+}
+
+std::string textureText(const std::string& file, const Texture& texture)
+{
+    return fmt::format("{}: texture \"{}\", {} from {:.2g} to {:.2g} of the full speed ({:g} in the unit of the "
+                       "recording), {}\n  frequencies as speed^{:.2g}, level as speed^{:.2g} and force^{:.2g}",
+                       printable(file), printable(texture.name), counted(texture.nodes.size(), "speed", "speeds"),
+                       texture.nodes.front().speed, texture.nodes.back().speed, texture.fullSpeed,
+                       counted(texture.tones.size(), "tone", "tones"), texture.pitch, texture.levelBySpeed,
+                       texture.levelByForce);
+}
+
+/// `pacini info`: shows the content of a clip, a scene, a texture, a sound file or a profile.
 struct InfoCommand : Command
 {
     CLI::App* declare(CLI::App& app) override;
@@ -153,10 +182,10 @@ struct InfoCommand : Command
 
 CLI::App* InfoCommand::declare(CLI::App& app)
 {
-    auto* command =
-        app.add_subcommand("info", "Show the content of a clip of any format, a scene, a sound or an actuator profile");
-    addOption(*command, "inputs", inputs, "Clips, scenes, audio files, profiles, or names of shipped profiles",
-              "FILE|PROFILE")
+    auto* command = app.add_subcommand(
+        "info", "Show the content of a clip of any format, a scene, a texture, a sound or an actuator profile");
+    addOption(*command, "inputs", inputs,
+              "Clips, scenes, textures, audio files, profiles, or names of shipped profiles", "FILE|PROFILE")
         ->required();
     addOption(*command, "--clips", clipFolder, "Folder with the clip files of scenes [the folder of the scene]", "DIR");
     return command->footer("Examples:\n  pacini info door.json door.haptic door.wav\n"
@@ -188,6 +217,20 @@ Exit InfoCommand::run(Console& console)
                 add(file, describe(**profile));
                 console.print(profileText(file, **profile));
             }
+            continue;
+        }
+        if (!isStream(file) && kindOf(file) == FileKind::texture)
+        {
+            const auto texture = readTexture(file, &keys);
+            console.warnings(file, keys.texts());
+            if (texture)
+            {
+                add(file, describeTexture(*texture));
+                console.print(textureText(file, *texture));
+            }
+            else
+                console.error(file, texture.error());
+            failed = failed || !texture;
             continue;
         }
         const auto read = readClipOrScene(file, {clipFolder, console.isStrict()});

@@ -35,6 +35,18 @@ std::vector<std::size_t> playCounts(const Scene& scene)
     return counts;
 }
 
+/// Whether nothing but textures play as long as the clip, which has nothing of its own.
+bool isLengthOfTextures(const Scene& scene, std::size_t clip)
+{
+    std::size_t textures = 0;
+    for (const ScenePlay& play : scene.plays)
+        if (play.clip == clip && !play.texture)
+            return false;
+        else if (play.clip == clip)
+            ++textures;
+    return textures > 0 && isSilent(scene.clips[clip]);
+}
+
 std::string counted(std::size_t count, std::string_view one)
 {
     return fmt::format("{} {}{}", count, one, count == 1 ? "" : "s");
@@ -55,8 +67,11 @@ std::string clipText(std::size_t i, const Clip& clip, std::size_t plays)
 std::string playText(const TimedPlay& timed, const Scene& scene)
 {
     const ScenePlay& play = scene.plays[timed.play];
-    std::string text = fmt::format("  plays[{}]{}: clips[{}]{}, {:.3f} to {:.3f} s", timed.play, quoted(play.name),
-                                   play.clip, quoted(scene.clips[play.clip].name), timed.start, timed.end);
+    const std::string what =
+        play.texture ? fmt::format("textures[{}]{}", *play.texture, quoted(scene.textures[*play.texture].name))
+                     : fmt::format("clips[{}]{}", play.clip, quoted(scene.clips[play.clip].name));
+    std::string text = fmt::format("  plays[{}]{}: {}, {:.3f} to {:.3f} s", timed.play, quoted(play.name), what,
+                                   timed.start, timed.end);
     if (play.loop > 0.0)
         text += fmt::format(", loops {:.3f} s{}", play.loop,
                             play.passes > 0 ? " " + counted(play.passes, "time") : std::string());
@@ -152,9 +167,22 @@ std::string sceneText(const std::string& file, const Scene& scene)
         text += fmt::format("  gain          {:+g} dB\n", scene.gain);
     if (!scene.textures.empty())
         text += fmt::format("  textures      {}\n", scene.textures.size());
-    text += fmt::format("  clips         {}\n  plays         {}\n  changes       {}\n", scene.clips.size(),
-                        scene.plays.size(), scene.changes.size());
-    appendList(text, scene.clips.size(), "clip", [&](std::size_t i) { return clipText(i, scene.clips[i], counts[i]); });
+    std::vector<std::size_t> clips;
+    for (std::size_t i = 0; i < scene.clips.size(); ++i)
+        if (!isLengthOfTextures(scene, i))
+            clips.push_back(i);
+    if (scene.textures.empty() || !clips.empty())
+        text += fmt::format("  clips         {}\n", clips.size());
+    text += fmt::format("  plays         {}\n  changes       {}\n", scene.plays.size(), scene.changes.size());
+    appendList(text, scene.textures.size(), "texture",
+               [&](std::size_t i)
+               {
+                   const Texture& texture = scene.textures[i];
+                   return fmt::format("  textures[{}]{}: {}, {}\n", i, quoted(texture.name),
+                                      counted(texture.nodes.size(), "speed"), counted(texture.tones.size(), "tone"));
+               });
+    appendList(text, clips.size(), "clip",
+               [&](std::size_t i) { return clipText(clips[i], scene.clips[clips[i]], counts[clips[i]]); });
     appendList(text, scene.plays.size(), "play", [&](std::size_t i) { return playText(timeline.plays[i], scene); });
     text.pop_back();
     return text;

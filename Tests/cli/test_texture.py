@@ -86,11 +86,34 @@ class Analyse(Texture):
         for text, says in (("", "has no line"), ("0,1\nx,2\n", "line 2: time: 'x' is not a number"),
                            ("0,1\n1\n", "line 2: speed: is missing"), ("0,1\n1,-2\n", "line 2: speed: must be"),
                            ("1,1\n1,2\n", "line 2: time: must be later"), ("0,1,1\n1,2\n", "line 2: force: is missing"),
-                           ("0,1\n1,inf\n", "line 2: speed"), ("0,0\n9,0\n", "at rest")):
+                           ("0,1\n1,inf\n", "line 2: speed"), ("0,0\n9,0\n", "at rest"),
+                           ("0,1e300\n6,1\n", "speed: must have numbers from 0 to 1e9")):
             with self.subTest(text):
                 self.put("bad.csv", text)
                 self.fails(1, [*analyse, "stroke.wav", "--speed", "bad.csv", "-o", "x.json"], says)
         self.assertNotIn("x.json", self.names())
+
+
+class Told(Texture):
+    def test_a_table_that_does_not_cover_the_recording_is_told(self):
+        for rows, says in (("0,1\n0.1,1\n", "hand.csv: warning: speed: is stated from 0.00 to 0.10 s, but the recording "
+                                            "lasts 6.00 s; the rest counts as the nearest value"),
+                           ("5,1\n6,1\n", "speed: is stated from 5.00 to 6.00 s"),
+                           ("0,1,1\n0.1,1,1\n", "force: is stated from 0.00 to 0.10 s")):
+            with self.subTest(rows):
+                self.put("hand.csv", rows)
+                done = self.run_command("texture", "analyse", "stroke.wav", "--speed", "hand.csv", "-o", "x.json", "-y")
+                self.assertEqual(done.returncode, 0)
+                self.assertIn(says, done.stderr.decode())
+
+    def test_info_tells_of_a_texture(self):
+        made = self.analysed()
+        told = self.report("info", "wood.texture.json")
+        self.assertEqual((told["kind"], told["name"], told["pitch"], len(told["nodes"])),
+                         ("texture", made["name"], made["pitch"], len(made["nodes"])))
+        self.assertIn("texture", self.succeeds("info", "wood.texture.json").splitlines()[0])
+        self.put("bad.json", '{"format": "pacini.texture", "version": 1}')
+        self.fails(1, ["info", "bad.json"], "bad.json: pitch: is missing")
 
 
 class Render(Texture):
@@ -147,7 +170,8 @@ class Render(Texture):
         render = ["texture", "render", "wood.texture.json", "-o", "x.wav"]
         for speed, says in (("fast", "--speed: 'fast' is not a point"), ("0:2", "from 0 to 1"), ("1:0 0:1", "earlier"),
                             ("", "--speed"), ("0:nan", "from 0 to 1"), ("0.5", "--duration: is missing"),
-                            ("0:0 1e300:1", "--duration: must be 0.001 to 86400 s")):
+                            ("0:0 1e300:1", "--speed: ends after 1e+300 s, but textures are rendered for 0.001 to 86400 s"),
+                            ("0:0 1e9:1", "--speed: ends after 1e+09 s")):
             with self.subTest(speed):
                 self.fails(2, [*render, "--speed", speed], says)
         self.fails(1, [*render, "--speed", "none.csv"], "none.csv: ")
@@ -172,6 +196,10 @@ class Scenes(Texture):
         self.succeeds("render", "rub.json", "-o", "rub.wav")
         play = self.report("info", "rub.json")["plays"][0]
         self.assertEqual((play["texture"], play["speed"], play["force"]), (0, 0.5, 1))
+        said = self.succeeds("info", "rub.json")
+        self.assertRegex(said, r"textures\[0\].*: 3 speeds, \d+ tones?\n")
+        self.assertRegex(said, r"plays\[0\]: textures\[0\]")
+        self.assertNotIn("bands", said)
         self.warns("render", "rub.json", "-o", "motor.wav", "--profile", "erm-coin",
                    says="rub.json: warning: plays[0] is a texture, which a motor cannot follow, so it is left out")
         said = self.warns("render", "rub.json", "-o", "motor.wav", "-y", "--profile", "erm-coin", "--measured",

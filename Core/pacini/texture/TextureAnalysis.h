@@ -6,6 +6,7 @@
 #include <pacini/filters/RationalDecimator.h>
 #include <pacini/foundation/DspBlock.h>
 #include <pacini/foundation/Fft.h>
+#include <pacini/foundation/NumberText.h>
 #include <pacini/foundation/Result.h>
 #include <pacini/foundation/Windows.h>
 #include <pacini/texture/AutoRegression.h>
@@ -22,6 +23,7 @@
 #include <numbers>
 #include <optional>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -44,6 +46,7 @@ struct TextureFit
     bool pitchAssumed = false; ///< neither given nor measured; likewise the exponents of the level
     bool speedLawAssumed = false;
     bool forceLawAssumed = false;
+    std::vector<std::string> warnings; ///< of the motion, such as a table that does not cover the recording
 };
 
 namespace detail
@@ -425,18 +428,22 @@ inline void addTones(const FoundTones& found, std::span<const double> speed, std
 /// are those of least squares over all frames, where there is enough spread, 1 and 0.5 (assumed) elsewhere. Tones that
 /// follow the speed are taken out before (findTones()). Errors:
 /// those of checkParameters(textureParameters); invalidData at `speed` or `force` for motions with numbers that are not
-/// finite or below 0, and for a recording that is too short, silent or never moves.
+/// finite, below 0 or above 1e9, for samples that are not finite, and for a recording that is too short, silent or
+/// never moves.
 [[nodiscard]] inline Result<TextureFit> analyseTexture(std::span<const float> samples, int sampleRate,
                                                        const TextureMotion& motion, const TextureParams& params)
 {
     if (auto allowed = checkParameters(textureParameters, params); !allowed)
         return allowed.error();
+    if (!std::all_of(samples.begin(), samples.end(), [](float sample) { return std::isfinite(sample); }))
+        return Error{ErrorCode::notFinite, "", "has samples that are not finite"};
+    constexpr double mostOfUnit = 1e9; // of full speed and full force, which are the highest of all
     const auto highest = [](const Curve& curve) -> std::optional<double>
     {
         double most = 0.0;
         for (const Breakpoint& point : curve)
         {
-            if (!std::isfinite(point.time) || !std::isfinite(point.value) || point.value < 0.0)
+            if (!std::isfinite(point.time) || !(point.value >= 0.0 && point.value <= mostOfUnit))
                 return std::nullopt;
             most = std::max(most, point.value);
         }
@@ -444,8 +451,14 @@ inline void addTones(const FoundTones& found, std::span<const double> speed, std
     };
     const auto fullSpeed = highest(motion.speed), fullForce = highest(motion.force);
     if (!fullSpeed || !fullForce)
-        return Error{ErrorCode::invalidData, fullSpeed ? "force" : "speed", "must have numbers from 0 on"};
+        return Error{ErrorCode::invalidData, fullSpeed ? "force" : "speed", "must have numbers from 0 to 1e9"};
     TextureFit fit;
+    const double duration = static_cast<double>(samples.size()) / sampleRate;
+    for (const auto& [curve, name] : {std::pair(&motion.speed, "speed"), std::pair(&motion.force, "force")})
+        if (curve->size() > 1 && !(curve->front().time <= 0.1 * duration && curve->back().time >= 0.9 * duration))
+            fit.warnings.push_back(std::string(name) + ": is stated from " + decimalText(curve->front().time, 2) +
+                                   " to " + decimalText(curve->back().time, 2) + " s, but the recording lasts " +
+                                   decimalText(duration, 2) + " s; the rest counts as the nearest value");
     Texture& texture = fit.texture;
     texture.fullSpeed = params.fullSpeed.value_or(*fullSpeed);
     texture.fullForce = params.fullForce.value_or(*fullForce);

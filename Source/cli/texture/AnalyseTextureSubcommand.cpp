@@ -117,6 +117,7 @@ Exit AnalyseTextureSubcommand::run(Console& console)
                               motion, params);
     if (!fit)
         return console.fail(fit.error().where.empty() ? input : speed, fit.error());
+    console.warnings(speed, fit->warnings);
     fit->texture.name = name.empty() ? std::filesystem::path(input).stem().string() : name;
     if (const auto written = writeFileAtomically(output, textureJson(fit->texture)); !written)
         return console.fail(output, written.error());

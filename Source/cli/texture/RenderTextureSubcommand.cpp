@@ -61,6 +61,14 @@ Error atOption(const char* option, const Error& error)
     return {error.code, option, error.message};
 }
 
+/// Of a speed that gives the length.
+Error tooLong(double seconds)
+{
+    return {
+        ErrorCode::invalidArgument, "",
+        fmt::format("ends after {:g} s, but textures are rendered for 0.001 to 86400 s; state a --duration", seconds)};
+}
+
 /// Divides a curve of a table by what counts as 1. Returns whether any of it is beyond that.
 bool scale(Curve& curve, double full)
 {
@@ -116,14 +124,19 @@ Exit RenderTextureSubcommand::run(Console& console)
     auto forces = curveOfText(force);
     if (!forces)
         return console.fail("", atOption("--force", forces.error()), Exit::usage);
-    if (!params.duration)
+    const bool isGiven = params.duration.has_value();
+    if (!isGiven)
         params.duration = motion->speed.back().time;
     if (!(*params.duration > 0.0))
         return console.fail(
             "", {ErrorCode::invalidArgument, "--duration", "is missing; a speed without points has no end of its own"},
             Exit::usage);
-    if (const auto allowed = checkParameters(textureRenderParameters, params); !allowed)
+    const auto allowed = checkParameters(textureRenderParameters, params);
+    if (!allowed && isGiven)
         return console.fail("", atOption("--duration", allowed.error()), Exit::usage);
+    if (!allowed)
+        return isTable ? console.fail(speed, tooLong(*params.duration))
+                       : console.fail("", atOption("--speed", tooLong(*params.duration)), Exit::usage);
     ReadWarnings warnings(console.isStrict());
     const auto texture = readTexture(input, &warnings);
     if (!texture)

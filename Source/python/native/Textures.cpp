@@ -69,6 +69,7 @@ std::pair<TextureHandle, nb::dict> analyse(const SoundArray& array, int rate, co
     about["pitch_assumed"] = fit.pitchAssumed;
     about["speed_law_assumed"] = fit.speedLawAssumed;
     about["force_law_assumed"] = fit.forceLawAssumed;
+    about["warnings"] = fit.warnings;
     return {held(std::move(fit.texture)), about};
 }
 

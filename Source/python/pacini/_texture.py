@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import warnings
 from typing import TYPE_CHECKING, Any, Optional, Union
 
 import numpy as np
@@ -97,9 +98,11 @@ class Texture(JsonDocument):
         moments = _moments(times, len(speeds), length)
         if len(forces) not in (0, len(speeds)):
             raise Error(f"must have as many values as the speed, {len(speeds)}", "force")
-        handle, _ = _native.analyse_texture(
+        handle, about = _native.analyse_texture(
             samples, int(rate), moments.tolist(), speeds.tolist(), forces.tolist(), name or "", options
         )
+        for doubt in about["warnings"]:
+            warnings.warn(doubt, stacklevel=2)
         return cls._of(handle)
 
     @classmethod
