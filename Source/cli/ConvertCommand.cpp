@@ -310,7 +310,7 @@ std::optional<ConvertSettings> ConvertCommand::settingsFor(Console& console, boo
             "has an unknown extension; use .json, .pacb or that of another format, or choose the format with --format");
     if (const auto fits = options.checkFor(*target); !fits)
     {
-        console.error(output, fits.error());
+        console.error("", fits.error());
         return std::nullopt;
     }
     if (!target->isOwn() && quantise > 0)

@@ -56,10 +56,11 @@ template <typename Names>
 }
 
 /// "; did you mean NAME?" when one of `names` is near, else nothing: more than a third of the letters, and more than
-/// one, are no slip of the fingers.
+/// one, are no slip of the fingers. Dashes in front of an option are no letters.
 [[nodiscard]] inline std::string meantText(std::string_view name, const std::vector<std::string>& names)
 {
-    const auto nearest = nearestOf(name, names, std::max<std::size_t>(1, name.size() / 3) + 1).first;
+    const std::size_t letters = name.size() - std::min(name.find_first_not_of('-'), name.size());
+    const auto nearest = nearestOf(name, names, std::max<std::size_t>(1, letters / 3) + 1).first;
     return nearest.empty() ? std::string() : fmt::format("; did you mean {}?", nearest);
 }
 

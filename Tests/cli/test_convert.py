@@ -177,7 +177,7 @@ class Convert(CommandTest):
                                              ("x.haptic", "--split", None, "one of ahap, android-xml"),
                                              ("x.ahap", "--quick", None, "one of hjif")):
             self.fails(2, ["convert", "clip.json", name, option] + ([value] if value else []),
-                       f"pacini: {name}: {option}: has no effect in {name[2:]}", instead)
+                       f"pacini: {option}: has no effect in {name[2:]}", instead)
         self.fails(2, ["convert", "clip.json", "x.haptic", "--profile", "lra-175", "--strength", "0"],
                    "--strength: has no effect in haptic")
         self.fails(2, ["convert", "clip.json", "x.wav", "--strength", "0"], "--strength needs --profile")

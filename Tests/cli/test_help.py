@@ -96,6 +96,8 @@ class Meant(CommandTest):
                 (["render", "clip.json", "--carriers", "pich"], "did you mean pitch?")):
             with self.subTest(" ".join(arguments)):
                 self.fails(2, arguments, *([says] if isinstance(says, str) else says))
+        # Half of the letters are no slip; dashes are no letters.
+        self.assertNotIn("did you mean", self.fails(2, ["live", "--gain", "3"], "unknown option --gain").stderr.decode())
         self.fails(1, ["render", "clip.json", "--profile", "l5-wristbnd"], "did you mean l5-wristband?")
         self.fails(1, ["measure", "simulate", "a.wav", "-o", "b.wav", "--profile", "l5wristband"], "did you mean")
 
