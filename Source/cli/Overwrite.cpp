@@ -19,6 +19,14 @@ void OverwriteOptions::declare(CLI::App& command)
         ->excludes(no);
 }
 
+std::string OverwriteOptions::kept(std::initializer_list<std::string> outputs) const
+{
+    for (const std::string& output : outputs)
+        if (keep && !output.empty() && isOccupied(output))
+            return output;
+    return {};
+}
+
 Replaceable OverwriteOptions::of(bool named) const noexcept
 {
     return replace ? Replaceable::any : named ? Replaceable::named : Replaceable::own;

@@ -12,21 +12,25 @@
 #include <CLI/CLI.hpp>
 
 #include <filesystem>
+#include <initializer_list>
 #include <string>
 
 namespace pacini::cli
 {
 
-/// -n and -y, declared once per command.
 /// The error of an output that is the input.
 inline constexpr const char* alsoInput = "is also the input; choose another output with -o";
 
+/// -n and -y, declared once per command.
 class OverwriteOptions
 {
 public:
     void declare(CLI::App& command);
 
     [[nodiscard]] bool keepsAll() const noexcept { return keep; }
+
+    /// The first of `outputs` (empty names aside) that exists and is kept; empty: none.
+    [[nodiscard]] std::string kept(std::initializer_list<std::string> outputs) const;
     [[nodiscard]] bool replacesAll() const noexcept { return replace; }
 
     /// For a file that the user named, or did not.

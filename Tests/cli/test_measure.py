@@ -294,6 +294,20 @@ class EndToEnd(MeasureTest):
         said = self.run_command("study", "check", "s", "--profile", "relative.json").stdout.decode()
         self.assertIn("(assuming 50 m/s2 at full drive, as the measured levels of the profile are relative)", said)
 
+    def test_existing_results_are_kept_on_request(self):
+        self.succeeds("measure", "sweep", "-o", "sweep.wav", "--duration", "2", "--levels", "-10")
+        self.succeeds("measure", "simulate", "sweep.wav", "-o", "rec.wav")
+        analysis = ["rec.wav", "--sweep", "sweep.json", "--full-scale", "5g"]
+        for output, *command in (("mine.json", "analyse", *analysis), ("report.html", "report", *analysis),
+                                 ("strap.wav", "compensate", "rec.wav", "--duration", "2")):
+            with self.subTest(command):
+                self.put(output, b"my own")
+                said = self.succeeds("measure", *command, "-o", output, "-n")
+                self.assertIn(f"{output} exists and was kept", said)
+                self.assertEqual((self.folder / output).read_bytes(), b"my own")
+                self.assertEqual(self.run_command("measure", *command, "-o", output, "-y").returncode, 0)
+                self.assertNotEqual((self.folder / output).read_bytes(), b"my own")
+
     def test_a_report_is_written_over_nothing_that_was_read(self):
         self.succeeds("measure", "sweep", "-o", "sweep.wav", "--duration", "2", "--levels", "-10")
         self.succeeds("measure", "simulate", "sweep.wav", "-o", "rec.wav")

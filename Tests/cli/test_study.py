@@ -728,6 +728,17 @@ class Mistakes(StudyTest):
         self.assertFalse((self.folder / "x").exists())
         self.assertIn("(sounds: none, or 2 to 4)", self.succeeds("study", "new", "--help"))
 
+    def test_tables_are_replaced_only_on_request(self):
+        self.new("words")
+        self.succeeds("study", "simulate", "mine", "-o", "simulated", "--runs", "10")
+        self.succeeds("study", "export", "simulated", "-o", "tables")
+        self.put("tables/answers.csv", b"mine")
+        self.fails(1, ["study", "export", "simulated", "-o", "tables"], "-y replaces its tables")
+        self.assertIn("was kept", self.succeeds("study", "export", "simulated", "-o", "tables", "-n"))
+        self.assertEqual((self.folder / "tables/answers.csv").read_bytes(), b"mine")
+        self.succeeds("study", "export", "simulated", "-o", "tables", "-y")
+        self.assertNotEqual((self.folder / "tables/answers.csv").read_bytes(), b"mine")
+
     def test_nothing_of_the_users_is_lost(self):
         self.new()
         self.fails(1, ["study", "new", "mine", "--template", "jnd"], "exists; -y replaces it")

@@ -3,6 +3,7 @@
 #include "cli/Command.h"
 #include "cli/InputFiles.h"
 #include "cli/Options.h"
+#include "cli/Overwrite.h"
 #include "cli/ProfileInput.h"
 #include "cli/measure/Recording.h"
 #include "cli/plot/ResponseFigure.h"
@@ -170,6 +171,7 @@ struct AnalyseSubcommand : Command
     std::string picture;
     std::string impulse;
     double distortionLimit = 10.0;
+    OverwriteOptions overwriting;
 };
 } // namespace
 
@@ -186,6 +188,7 @@ CLI::App* AnalyseSubcommand::declare(CLI::App& app)
               "Impulse responses to write (.wav), a channel for each recording, m/s\u00b2 at full drive", "OUT.wav");
     addPreset(*command, "--distortion-limit", distortionLimit, "Distortion whose drive level is reported, %",
               numberFrom(0.01, 100.0), "%");
+    overwriting.declare(*command);
     return command->footer(
         "Examples:\n  pacini measure analyse rec.wav --sweep sweep.json --full-scale 5g -o mine.json\n"
         "  pacini measure analyse rec-*.wav --sweep sweep.json --channels 1,2,3 -o response.csv --plot r.png\n"
@@ -211,6 +214,11 @@ Exit AnalyseSubcommand::run(Console& console)
                             Exit::usage);
     if (const auto wrong = overwrittenInput(options, {output, picture, impulse}))
         return console.fail(wrong->first, wrong->second, Exit::usage);
+    if (const std::string kept = overwriting.kept({output, picture, impulse}); !kept.empty())
+    {
+        console.note(printable(kept) + " exists and was kept");
+        return Exit::ok;
+    }
     Profile profile;
     profile.technology = Technology::vca;
     profile.name = output.empty() ? "" : std::filesystem::path(output).stem().string();
@@ -307,6 +315,7 @@ Result<std::size_t> AnalyseSubcommand::drawPicture(const AnalysedRecordings& ana
     content.title = !name.empty()    ? name
                     : output.empty() ? "Measured response"
                                      : std::filesystem::path(output).stem().string();
+    content.absolute = options.isCalibrated();
     content.subtitle = fmt::format("resonance {:.1f} Hz, Q {:.2f}", features.resonance.frequency, features.resonance.q);
     content.lowFrequency = features.felt.low;
     content.highFrequency = features.felt.high;
@@ -315,7 +324,6 @@ Result<std::size_t> AnalyseSubcommand::drawPicture(const AnalysedRecordings& ana
     {
         const auto& outliers = analysed.average.outliers;
         const bool out = std::any_of(outliers.begin(), outliers.end(),
-    content.absolute = options.isCalibrated();
                                      [i](const PlacementOutlier& outlier) { return outlier.index == i; });
         content.responses.push_back({out ? "left out" : "placements", analysed.recordings[i].measurement.response(),
                                      out ? plot::ResponseRole::outlier : plot::ResponseRole::placement});

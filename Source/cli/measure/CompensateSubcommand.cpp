@@ -50,6 +50,7 @@ struct CompensateSubcommand : Command
     double duration = 60.0, at = 20.0, tightness = 3.5, latency = 20.0, noise = 250.0, range = 5.0;
     std::optional<double> told, target;
     std::uint64_t seed = 1;
+    OverwriteOptions overwriting;
 };
 
 /// RMS of the change over the range of the bands, dB; without compensation for none.
@@ -96,6 +97,7 @@ CLI::App* CompensateSubcommand::declare(CLI::App& app)
               numberFrom(0.0, 1e6), "D");
     addPreset(*command, "--range", range, "Acceleration at which the sensor clips, g", numberFrom(0.1, 10000.0), "G");
     addPreset(*command, "--seed", seed, "Seed of the noise", countingNumber(), "N");
+    overwriting.declare(*command);
     return command->footer("Examples:\n  pacini measure compensate drive.wav\n"
                            "  pacini measure compensate drive.wav --tightness 5 --bands 24 -o strap.wav");
 }
@@ -111,6 +113,11 @@ Exit CompensateSubcommand::run(Console& console)
     if (!output.empty() && isSameFile(output, input))
         return console.fail(output, {ErrorCode::invalidArgument, "", "is the drive; name another output"}, Exit::usage);
 
+    if (const std::string kept = overwriting.kept({output}); !kept.empty())
+    {
+        console.note(printable(kept) + " exists and was kept");
+        return Exit::ok;
+    }
     constexpr double mostFrames = 4e7; // three channels of them are half a gigabyte
     if (!output.empty() && duration * sound.sampleRate > mostFrames)
         return console.fail(output,

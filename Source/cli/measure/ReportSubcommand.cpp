@@ -3,6 +3,7 @@
 #include "cli/Command.h"
 #include "cli/InputFiles.h"
 #include "cli/Options.h"
+#include "cli/Overwrite.h"
 #include "cli/ProfileInput.h"
 #include "cli/measure/Recording.h"
 #include "cli/plot/ResponseFigure.h"
@@ -187,6 +188,7 @@ struct ReportSubcommand : Command
     std::vector<std::string> worn;
     std::string output, profile, name;
     std::optional<double> volts, mass;
+    OverwriteOptions overwriting;
 };
 } // namespace
 
@@ -202,6 +204,7 @@ CLI::App* ReportSubcommand::declare(CLI::App& app)
               "RECORDING");
     addOption(*command, "--mass", mass, "The mass of --worn, g, for the text of the report", numberFrom(0.0, 1e6), "G");
     addOption(*command, "--name", name, "Name of the actuator in the report", "NAME");
+    overwriting.declare(*command);
     return command->footer(
         "Examples:\n  pacini measure report rec.wav --sweep sweep.json --full-scale 5g -o report.html\n"
         "  pacini measure report rec.wav --sweep sweep.json --full-scale 5g --volts 2.8 --worn "
@@ -279,6 +282,11 @@ Exit ReportSubcommand::run(Console& console)
     if (mass && worn.empty())
         return console.fail("", {ErrorCode::invalidArgument, "--mass", "needs --worn, the recordings with that mass"},
                             Exit::usage);
+    if (const std::string kept = overwriting.kept({output}); !kept.empty())
+    {
+        console.note(printable(kept) + " exists and was kept");
+        return Exit::ok;
+    }
     std::optional<Profile> actuator;
     if (!profile.empty())
     {

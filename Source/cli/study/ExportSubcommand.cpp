@@ -1,6 +1,7 @@
 #include "cli/Command.h"
 #include "cli/Counted.h"
 #include "cli/Options.h"
+#include "cli/Overwrite.h"
 #include "cli/study/OpenStudy.h"
 #include "io/AtomicFile.h"
 #include "study/StudyExport.h"
@@ -24,6 +25,7 @@ struct ExportSubcommand : Command
             app, "export", "Write all answers as tables for other programs (CSV, and folders in the layout of BIDS)",
             named);
         addOption(*command, "-o,--output", output, "New folder for the tables", "DIR")->required();
+        overwriting.declare(*command);
         return command->footer(
             "answers.csv has a line for each answer; 'study report' reads ratings.csv. Below bids every "
             "participant\nhas a folder with sub-P001_task-NAME_beh.tsv, as the Brain Imaging Data Structure specifies "
@@ -36,8 +38,15 @@ struct ExportSubcommand : Command
         if (!results)
             return Exit::failed;
         std::error_code failed;
-        if (fs::exists(output, failed) && !fs::is_empty(output, failed))
-            return console.fail(output, {ErrorCode::io, "", "exists and is not empty; name a new folder"});
+        const bool isThere = fs::exists(output, failed) && !fs::is_empty(output, failed);
+        if (isThere && overwriting.keepsAll())
+        {
+            console.note(printable(output) + " exists and was kept");
+            return Exit::ok;
+        }
+        if (isThere && !overwriting.replacesAll())
+            return console.fail(
+                output, {ErrorCode::io, "", "exists and is not empty; -y replaces its tables, or name a new folder"});
         const auto files = study::exportedFiles(*results);
         for (const auto& [name, text] : files)
         {
@@ -55,6 +64,7 @@ struct ExportSubcommand : Command
     }
 
     std::string named, output;
+    OverwriteOptions overwriting;
 };
 } // namespace
 
