@@ -110,8 +110,8 @@ class Films(FilmTest):
 
     def test_a_recording_of_a_browser_whose_parts_are_damaged_says_so(self):
         with open(self.folder / "a.webm", "wb") as recorded:  # as MediaRecorder has it, without a duration
-            subprocess.run(["ffmpeg", "-nostdin", "-v", "error", "-i", "sound.wav", "-c:a", "libopus", "-f", "webm", "-"],
-                           cwd=self.folder, stdout=recorded, check=True, timeout=120)
+            subprocess.run(["ffmpeg", "-nostdin", "-v", "error", "-i", "sound.wav", "-c:a", "libopus", "-f", "webm",
+                            "-"], cwd=self.folder, stdout=recorded, check=True, timeout=120)
         content = (self.folder / "a.webm").read_bytes()
         self.assertTimes(self.events("a.webm"), HITS, 0.008)
         self.assertEqual(self.said, "")
@@ -243,7 +243,9 @@ class Films(FilmTest):
             rate = {"libspeex": "16000", "libopus": "48000"}.get(codec, "44100")
             self.ffmpeg("-i", "sound.wav", "-c:a", codec, "-ar", rate, name)
             self.assertTimes(self.events(name), HITS, 0.09)  # MP3, WMA and IMA do not say how they are primed
-            self.assertEqual(self.said, "", name)
+            untold = codec in ("libmp3lame", "mp2") and name != "p.flv"
+            word = "^[^\n]* does not tell how its encoder was primed[^\n]*\n$"
+            self.assertRegex(self.said, word if untold else "^$", name)
             self.assertLess(abs(self.clip_read["duration"] - 4.0), 0.1, name)
             content = (self.folder / name).read_bytes()
             self.put("cut" + name, content[:len(content) * 6 // 10])
