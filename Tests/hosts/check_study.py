@@ -26,7 +26,7 @@ except ImportError as error:
 needs("Xvfb", "xdotool", "jackd", "jack_lsp", "jack_rec")
 
 PERSONS = max(3, int(os.environ.get("PACINI_STUDY_PERSONS", "3")) // 3 * 3)
-CONTINUE = 478, 414  # where the button of an unfinished session is, in the window as it opens
+CONTINUE = 479, 448  # where the button of an unfinished session is, in the window as it opens
 
 
 def make_study(pacini, folder):
