@@ -524,8 +524,13 @@ void FilmSound::checkMatroska(std::FILE* file, const std::string& codec)
     constexpr std::uint64_t reach = 1 << 20, gainPlace = 16;
     constexpr std::string_view name = "OpusHead";
     ByteWindow window(file);
-    const auto place = window.find(name, 0, std::min(window.size(), reach));
+    const auto last = std::min(window.size(), reach);
+    auto place = window.find(name, 0, last);
+    // ffmpeg does not mind the name; the description of one or two channels has 19 bytes.
+    constexpr std::string_view description = "\x63\xA2\x93";
     if (!window.has(place, name))
+        place = window.find(description, 0, last) + description.size();
+    if (place >= last)
         return;
     if (auto loudness = opusGainWarning(static_cast<std::int16_t>(window.number(place + gainPlace, 2, false))))
         warnings.push_back(std::move(*loudness));

@@ -107,6 +107,11 @@ class Films(FilmTest):
                 self.events("b" + name)
                 self.assertIn(says, self.said)
                 self.assertEqual(self.said == "", says == "", self.said)
+            if mark == b"OpusHead":  # whose name does not count
+                content = content.replace(mark, b"OpusHeat")
+                self.put("b" + name, content[:at] + struct.pack(order, -60 * 256) + content[at + 2:])
+                self.events("b" + name)
+                self.assertIn("makes it 60 dB softer", self.said)
 
     def test_a_recording_of_a_browser_whose_parts_are_damaged_says_so(self):
         with open(self.folder / "a.webm", "wb") as recorded:  # as MediaRecorder has it, without a duration
