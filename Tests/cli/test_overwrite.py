@@ -74,7 +74,7 @@ class Recordings(Overwrite):
         (self.folder / "sub").mkdir()
         for name in ("a.json", "./a.json", str(self.folder / "a.json"), "sub/../a.json", "link.json"):
             for more in ([], ["-y"]):
-                self.fails(1, ["convert", "a.json", "-o", name, "--format", "packed", *more], "input and output")
+                self.fails(1, ["convert", "a.json", "-o", name, "--format", "packed", *more], "is also the input")
                 self.assertEqual(self.bytes_of("a.json"), clip)
         self.succeeds("convert", "a.json", "a.pacb")
         self.fails(1, ["convert", "a.json", "a.pacb", "-o", ".", "--format", "packed", "-y"],

@@ -113,7 +113,7 @@ class Told(Texture):
                          ("texture", made["name"], made["pitch"], len(made["nodes"])))
         self.assertIn("texture", self.succeeds("info", "wood.texture.json").splitlines()[0])
         self.put("bad.json", '{"format": "pacini.texture", "version": 1}')
-        self.fails(1, ["info", "bad.json"], "bad.json: pitch: is missing")
+        self.fails(1, ["info", "bad.json"], 'bad.json: format: is "pacini.texture"')
 
 
 class Render(Texture):

@@ -381,9 +381,8 @@ class Arrays(FolderTest):
         self.refuses("strength", "invalidArgument", clip.lint, "wav16", strength=0.5)
         self.refuses("strength", "invalidArgument", clip.to_bytes, "wav16", strength=0.5)
         self.refuses("strength", "invalidArgument", clip.save, self.folder / "x.haptic", strength=0.5)
-        self.refuses(
-            "low_limit", "invalidArgument", pacini.encode, knocks(0.3), RATE, method="thesis", low_limit=500, high_limit=100
-        )
+        nothing_left = {"method": "thesis", "low_limit": 500, "high_limit": 100}
+        self.refuses("low_limit", "invalidArgument", pacini.encode, knocks(0.3), RATE, **nothing_left)
         self.refuses("content", "invalidArgument", pacini.render, "clip.json")
         report = pacini.explain(clip, profile="lra-175")
         self.assertTrue(report.adaptations)

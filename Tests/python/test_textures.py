@@ -101,6 +101,15 @@ class Textures(FolderTest):
         self.assertEqual(rms(made[: RATE - 80]), 0.0)
         self.assertGreater(rms(made[RATE + 80 : -80]), 0.03)
 
+    def test_tables_that_do_not_cover_the_recording_and_samples_that_are_none_are_told(self):
+        sound = np.random.default_rng(1).standard_normal(16000) * 0.1
+        with self.assertWarnsRegex(UserWarning, "speed: is stated from 0.00 to 0.10 s, but the recording lasts 2.00 s"):
+            pacini.Texture.of_recording(sound, 8000, speed=[1, 0.5], times=[0, 0.1])
+        with self.assertRaisesRegex(pacini.Error, "speed: must have numbers from 0 to 1e9"):
+            pacini.Texture.of_recording(sound, 8000, speed=[1e300, 1], times=[0, 2])
+        with self.assertRaisesRegex(pacini.Error, "has samples that are not finite"):
+            pacini.Texture.of_recording(np.full(16000, np.nan), 8000)
+
     def test_what_is_wrong_is_told_with_its_place(self):
         for call, where in (
             (lambda: self.texture.render(0.5), "duration"),

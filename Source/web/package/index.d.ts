@@ -138,7 +138,7 @@ export interface EncodeOptions extends Stoppable {
   sensitivity?: number
   /** Amount of sound above the range of touch that is felt (hi-hats, rain, ticks); 0: none (0 to 1) [1] */
   audible?: number
-  /** Role of that sound: beside the low part, which stays as it is, or instead of it where most of the sound lies above touch [beside] */
+  /** How that sound is added: beside the low part, which stays as it is, or instead of it where most of the sound lies above touch [beside] */
   heard?: 'beside' | 'instead'
   /** Amount of speech that is felt; below 1, what sounds like speech is turned down above 75 Hz (0 to 1) [1] */
   speech?: number
@@ -148,7 +148,7 @@ export interface EncodeOptions extends Stoppable {
   minimumGap?: number
   /** Level difference to louder neighbours up to which an event is not masked (0 to 120 dB) [8] */
   maskMargin?: number
-  /** Rise of the detection threshold for each dB beyond that margin, as a fraction of the threshold (0 to 1 per dB) [0.06] */
+  /** Rise of the detection threshold for each dB beyond the mask margin, as a fraction of the threshold (0 to 1 per dB) [0.06] */
   maskSlope?: number
   /** Decay of masking with the time between two events (20 to 1000 dB/s) [20] */
   maskRecovery?: number

@@ -9,7 +9,7 @@ export interface TranslatorParameters {
   intensity?: number
   /** Level of sound above 320 Hz, played as a tone of 200 Hz as far as `audible` is below 1; the lowest value switches it off (-60 to 12 dB) [-6] */
   brightness?: number
-  /** Amount of sound above the range of touch that is felt beside the low part (hi-hats, rain, ticks); 0: none (0 to 1) [1] */
+  /** Amount of sound above the range of touch that is felt in addition to the low part (hi-hats, rain, ticks); 0: none (0 to 1) [1] */
   audible?: number
   /** Amount of speech that is felt; below 1, what sounds like speech is turned down above 75 Hz (0 to 1) [1] */
   speech?: number
@@ -31,15 +31,15 @@ export interface TranslatorParameters {
   gateRelease?: number
   /** Level of bands below 100 Hz (-60 to 24 dB) [0] */
   rumble?: number
-  /** Mute these [off] */
+  /** Mute the bands below 100 Hz [off] */
   rumbleMuted?: boolean
   /** Level of the other bands (-60 to 24 dB) [0] */
   texture?: number
-  /** Mute these [off] */
+  /** Mute the other bands [off] */
   textureMuted?: boolean
   /** Level of the pulses of events (-60 to 24 dB) [0] */
   transients?: number
-  /** Mute these [off] */
+  /** Mute the pulses of events [off] */
   transientsMuted?: boolean
   /** Pass the input through, delayed by the latency of the translator [off] */
   bypass?: boolean
