@@ -1,5 +1,6 @@
 #include "cli/RenderJob.h"
 
+#include "cli/ProfileInput.h"
 #include "cli/Task.h"
 #include "io/AudioReader.h"
 #include "io/FileExtension.h"

@@ -299,9 +299,9 @@ void checkNoFilmIsLostInSilence(const KnownSound& sound, const std::filesystem::
         return;
     const auto channels = static_cast<std::size_t>(audio->channels);
     const auto frames = audio->samples.size() / channels;
-    const auto at = [](std::uint64_t count, int rate)
+    const auto at = [](std::uint64_t count, int perSecond)
     {
-        return static_cast<double>(count) / rate;
+        return static_cast<double>(count) / perSecond;
     };
     const double least = at(sound.frames - sound.slack, sound.rate);
     // Another rate is no loss where all samples are there, and none where all of the time is.
