@@ -33,7 +33,7 @@ def as_sound(samples: object, axis: int, where: str = "sound") -> FloatArray:
     try:
         array = np.asarray(samples)
     except (TypeError, ValueError):  # rows of different lengths
-        array = np.empty(0, object)
+        array = np.asarray(None)
     if array.dtype.kind not in "fiu":
         raise ArgumentError("must be a file or an array of float32 or float64", where)
     if array.dtype not in (np.float32, np.float64) or not array.dtype.isnative:
