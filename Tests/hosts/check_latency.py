@@ -19,7 +19,7 @@ from host_test import RATE, check, failures, needs, until
 needs("Xvfb", "xdotool", "jackd", "jack_lsp", "jack_connect", "jack_disconnect", sys.argv[3])
 
 DELAY = 333  # frames
-MEASURE_PAGE, MEASURE = (221, 478), (221, 306)  # buttons, in the window as it opens
+MEASURE_PAGE, MEASURE = (316, 560), (260, 422)  # buttons, in the window as it opens
 
 
 def measured(study):
