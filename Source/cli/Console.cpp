@@ -80,6 +80,11 @@ void Console::wrote(const std::filesystem::path& path, std::string_view details)
     note(fmt::format("wrote {}{}{}", printable(path.string()), details.empty() ? "" : ": ", details));
 }
 
+void Console::kept(const std::filesystem::path& path)
+{
+    note(printable(path.string()) + " exists and was kept");
+}
+
 void Console::error(std::string_view file, const Error& error)
 {
     if (const std::lock_guard lock(mutex); report)

@@ -68,6 +68,9 @@ public:
     /// Notes that the file at `path` was written, and `details` of it.
     void wrote(const std::filesystem::path& path, std::string_view details = "");
 
+    /// Notes that the file at `path` exists and was kept.
+    void kept(const std::filesystem::path& path);
+
     /// `pacini: FILE: where: what` on stderr, always one line; `file` may be empty.
     void error(std::string_view file, const Error& error);
 

@@ -114,7 +114,7 @@ void report(Console& console, const std::vector<ConvertTask>& tasks, bool severa
     if (several)
         console.note(summary(tasks));
     else if (!tasks.empty() && tasks.front().skipped)
-        console.note(fmt::format("{} exists and was kept", printable(tasks.front().output.string())));
+        console.kept(tasks.front().output);
 }
 
 /// `pacini convert`: clips, or profiles, of one format become another.
@@ -266,7 +266,7 @@ Exit ConvertCommand::convertProfile(Console& console)
     if (overwriting.keepsAll() && isOccupied(output))
     {
         console.addToReport(fileList(nlohmann::ordered_json::array(), false));
-        console.note(fmt::format("{} exists and was kept", printable(output)));
+        console.kept(output);
         return Exit::ok;
     }
     const auto textOf = [&]() -> std::string

@@ -117,7 +117,7 @@ struct MergeSubcommand : Command
             merged.shards = made.shards;
         if (overwriting.keepsAll() && isOccupied(output))
         {
-            console.note(fmt::format("{} exists and was kept", printable(output)));
+            console.kept(output);
             return Exit::ok;
         }
         // The user named it; only what is no manifest at all is worth a word.

@@ -229,7 +229,7 @@ Exit PlotCommand::run(Console& console)
         return console.fail(input, {ErrorCode::invalidArgument, "", alsoInput});
     if (overwriting.keepsAll() && isOccupied(*target))
     {
-        console.note(fmt::format("{} exists and was kept", printable(target->string())));
+        console.kept(*target);
         return Exit::ok;
     }
 

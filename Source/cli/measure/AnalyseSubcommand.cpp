@@ -216,7 +216,7 @@ Exit AnalyseSubcommand::run(Console& console)
         return console.fail(wrong->first, wrong->second, Exit::usage);
     if (const std::string kept = overwriting.kept({output, picture, impulse}); !kept.empty())
     {
-        console.note(printable(kept) + " exists and was kept");
+        console.kept(kept);
         return Exit::ok;
     }
     Profile profile;

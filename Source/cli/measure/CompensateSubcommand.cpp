@@ -115,7 +115,7 @@ Exit CompensateSubcommand::run(Console& console)
 
     if (const std::string kept = overwriting.kept({output}); !kept.empty())
     {
-        console.note(printable(kept) + " exists and was kept");
+        console.kept(kept);
         return Exit::ok;
     }
     constexpr double mostFrames = 4e7; // three channels of them are half a gigabyte

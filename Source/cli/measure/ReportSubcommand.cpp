@@ -284,7 +284,7 @@ Exit ReportSubcommand::run(Console& console)
                             Exit::usage);
     if (const std::string kept = overwriting.kept({output}); !kept.empty())
     {
-        console.note(printable(kept) + " exists and was kept");
+        console.kept(kept);
         return Exit::ok;
     }
     std::optional<Profile> actuator;

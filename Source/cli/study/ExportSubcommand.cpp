@@ -41,7 +41,7 @@ struct ExportSubcommand : Command
         const bool isThere = fs::exists(output, failed) && !fs::is_empty(output, failed);
         if (isThere && overwriting.keepsAll())
         {
-            console.note(printable(output) + " exists and was kept");
+            console.kept(output);
             return Exit::ok;
         }
         if (isThere && !overwriting.replacesAll())

@@ -88,7 +88,7 @@ struct NewSubcommand : Command
         std::error_code unknown;
         if (overwriting.keepsAll() && isOccupied(file))
         {
-            console.note(fmt::format("{} exists and was kept", printable(file.string())));
+            console.kept(file);
             return Exit::ok;
         }
         if (isOccupied(file) && !overwriting.replacesAll())

@@ -51,7 +51,7 @@ struct ProfileSubcommand : Command
             return console.fail(named, personal.error());
         if (overwriting.keepsAll() && isOccupied(output))
         {
-            console.note(fmt::format("{} exists and was kept", printable(output)));
+            console.kept(output);
             return Exit::ok;
         }
         const auto written = writeProfile(output, *personal);

@@ -41,7 +41,7 @@ struct ToneSubcommand : Command
     {
         if (overwriting.keepsAll() && isOccupied(output))
         {
-            console.note(fmt::format("{} exists and was kept", printable(output)));
+            console.kept(output);
             return Exit::ok;
         }
         if (isOccupied(output) && !overwriting.replacesAll())

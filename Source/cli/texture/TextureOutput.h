@@ -23,7 +23,7 @@ namespace pacini::cli
             return console.fail(input, {ErrorCode::invalidArgument, "", alsoInput});
     if (overwriting.keepsAll() && isOccupied(output))
     {
-        console.note(printable(output) + " exists and was kept");
+        console.kept(output);
         return Exit::ok;
     }
     if (isStandardOutput(output))
