@@ -98,7 +98,7 @@ Exit LatencySubcommand::writeProbe(Console& console, const OpenedStudy& opened)
 {
     if (overwriting.keepsAll() && isOccupied(probeFile))
     {
-        console.note(fmt::format("{} exists and was kept", printable(probeFile)));
+        console.kept(probeFile);
         return Exit::ok;
     }
     std::vector<float> burst = study::latencyBurst(probe);
@@ -114,6 +114,8 @@ Exit LatencySubcommand::writeProbe(Console& console, const OpenedStudy& opened)
     writing.sampleRate = probe.sampleRate;
     writing.channels = 2;
     writing.encoding = SampleEncoding::pcm24;
+    const auto seconds = static_cast<int>(std::ceil(probe.duration));
+    writing.expectedFrames = burst.size() * static_cast<std::uint64_t>(seconds);
     const auto existing =
         mayReplace(probeFile, originOf(opened.file, probeFile, Fingerprint().text()), overwriting.of(true));
     if (!existing)
@@ -125,7 +127,6 @@ Exit LatencySubcommand::writeProbe(Console& console, const OpenedStudy& opened)
     std::vector<float> both;
     for (const float sample : burst)
         both.insert(both.end(), {sample, sample});
-    const auto seconds = static_cast<int>(std::ceil(probe.duration));
     for (int second = 0; second < seconds; ++second)
         if (auto written = writer->write(both); !written)
             return console.fail(probeFile, written.error());
