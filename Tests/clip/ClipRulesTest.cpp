@@ -67,28 +67,28 @@ TEST_CASE("Every number of a clip may reach the ends of its range and go no furt
         std::string where;
         std::function<double&(Clip&)> number;
         double low, high;
-        std::string range;
+        std::string highest; ///< in the message; empty: it is about another rule
     };
     const auto inf = std::numeric_limits<double>::infinity();
     const std::vector<Case> cases = {
-        {"source.sampleRate", [](Clip& c) -> double& { return c.source.sampleRate; }, 0.0, 1e9, "1000000000.000000"},
-        {"envelope[1].amplitude", [](Clip& c) -> double& { return c.envelope[1].value; }, 0.0, 1000.0, "1000.000000"},
-        {"centroid[0].frequency", [](Clip& c) -> double& { return c.centroid[0].value; }, 0.0, 4e5, "400000.000000"},
+        {"source.sampleRate", [](Clip& c) -> double& { return c.source.sampleRate; }, 0.0, 1e9, "1000000000"},
+        {"envelope[1].amplitude", [](Clip& c) -> double& { return c.envelope[1].value; }, 0.0, 1000.0, "1000"},
+        {"centroid[0].frequency", [](Clip& c) -> double& { return c.centroid[0].value; }, 0.0, 4e5, "400000"},
         {"bands[0].amplitude[0].amplitude", [](Clip& c) -> double& { return c.bands[0].amplitude[0].value; }, 0.0,
-         1000.0, "1000.000000"},
+         1000.0, "1000"},
         {"bands[0].pitch[0].frequency", [](Clip& c) -> double& { return c.bands[0].pitch[0].value; }, 1e-3, 4e5,
-         "400000.000000"},
+         "400000"},
         {"bands[1].highFrequency", [](Clip& c) -> double& { return c.bands[1].highFrequency; }, 150.0, 4e5,
-         "400000.000000"},
-        {"bands[0].lowFrequency", [](Clip& c) -> double& { return c.bands[0].lowFrequency; }, 0.0, 75.0, "75"},
+         "400000"},
+        {"bands[0].lowFrequency", [](Clip& c) -> double& { return c.bands[0].lowFrequency; }, 0.0, 75.0, ""},
         {"transients[0].amplitude", [](Clip& c) -> double& { return c.transients[0].amplitude; }, 0.0, 1000.0,
-         "1000.000000"},
-        {"transients[1].sharpness", [](Clip& c) -> double& { return c.transients[1].sharpness; }, 0.0, 1.0, "1.000000"},
-        {"noise[0].lowFrequency", [](Clip& c) -> double& { return c.noise[0].lowFrequency; }, 0.0, 20.0, "20"},
+         "1000"},
+        {"transients[1].sharpness", [](Clip& c) -> double& { return c.transients[1].sharpness; }, 0.0, 1.0, "1"},
+        {"noise[0].lowFrequency", [](Clip& c) -> double& { return c.noise[0].lowFrequency; }, 0.0, 20.0, ""},
         {"noise[0].highFrequency", [](Clip& c) -> double& { return c.noise[0].highFrequency; }, 10.0, 4e5,
-         "400000.000000"},
+         "400000"},
         {"noise[0].amplitude[0].amplitude", [](Clip& c) -> double& { return c.noise[0].amplitude[0].value; }, 0.0,
-         1000.0, "1000.000000"},
+         1000.0, "1000"},
     };
     for (const Case& test : cases)
     {
@@ -104,14 +104,14 @@ TEST_CASE("Every number of a clip may reach the ends of its range and go no furt
         CHECK_FALSE(with(test.high + step).empty());
         CHECK(with(inf, ErrorCode::notFinite) == test.where + ": is not a finite number");
         CHECK(with(std::nan(""), ErrorCode::notFinite) == test.where + ": is not a finite number");
-        if (test.range.find('.') != std::string::npos && test.low == 0.0)
-            CHECK(with(test.high + step) == test.where + ": is outside 0.000000 to " + test.range);
+        if (!test.highest.empty() && test.low == 0.0)
+            CHECK(with(test.high + step) == test.where + ": is outside 0 to " + test.highest);
     }
     CHECK(ruleBroken([](Clip& c) { c.duration = 86400.0; }).empty());
-    CHECK(ruleBroken([](Clip& c) { c.duration = 86400.001; }) == "duration: is outside 0.000000 to 86400.000000");
-    CHECK(ruleBroken([](Clip& c) { c.duration = -1e-9; }) == "duration: is outside 0.000000 to 86400.000000");
+    CHECK(ruleBroken([](Clip& c) { c.duration = 86400.001; }) == "duration: is outside 0 to 86400");
+    CHECK(ruleBroken([](Clip& c) { c.duration = -1e-9; }) == "duration: is outside 0 to 86400");
     CHECK(ruleBroken([](Clip& c) { c.bands[0].pitch[0].value = 0.0009; }) ==
-          "bands[0].pitch[0].frequency: is outside 0.001000 to 400000.000000");
+          "bands[0].pitch[0].frequency: is outside 0.001 to 400000");
     CHECK(ruleBroken([](Clip& c) { c.source.channels = 0; }).empty());
     CHECK(ruleBroken([](Clip& c) { c.source.channels = -1; }) == "source.channels: is negative");
     CHECK(ruleBroken([](Clip& c) { c.bands[0].lowFrequency = 76.0; }) ==
@@ -120,7 +120,7 @@ TEST_CASE("Every number of a clip may reach the ends of its range and go no furt
           "bands[0]: needs lowFrequency <= centreFrequency <= highFrequency");
     CHECK(ruleBroken([](Clip& c) { c.bands[0].lowFrequency = c.bands[0].highFrequency = 75.0; }).empty());
     CHECK(ruleBroken([](Clip& c) { c.noise[0].highFrequency = 9.0; }) ==
-          "noise[0].highFrequency: is outside 10.000000 to 400000.000000");
+          "noise[0].highFrequency: is outside 10 to 400000");
 }
 
 TEST_CASE("Times of a clip are in order and end with it, give or take a microsecond", "[clip]")
@@ -150,9 +150,9 @@ TEST_CASE("Times of a clip are in order and end with it, give or take a microsec
         CHECK(with(1.0).empty());
         CHECK(with(1.0 + 0.9e-6).empty());
         CHECK(with(1.0 + 1.1e-6) ==
-              test.where + (test.curve ? ": is later than the clip's duration" : ": is outside 0.000000 to 1.000001"));
+              test.where + (test.curve ? ": is later than the clip's duration" : ": is outside 0 to 1.000001"));
         CHECK(with(-1e-9) ==
-              test.where + (test.curve ? ": is not a finite time of 0 or later" : ": is outside 0.000000 to 1.000001"));
+              test.where + (test.curve ? ": is not a finite time of 0 or later" : ": is outside 0 to 1.000001"));
         CHECK(with(std::nan(""), ErrorCode::notFinite) ==
               test.where + (test.curve ? ": is not a finite time of 0 or later" : ": is not a finite number"));
     }

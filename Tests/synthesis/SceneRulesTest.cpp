@@ -162,15 +162,15 @@ TEST_CASE("A scene keeps its rules to the last value that each of them allows", 
 
 TEST_CASE("A scene says in plain words which rule it breaks, and where", "[scene]")
 {
-    const std::string outsideADay = "is outside 0.000000 to 86400.000000";
+    const std::string outsideADay = "is outside 0 to 86400";
     const double late = std::nextafter(86400.0, 1e6);
     CHECK(broken([&](Scene& s) { s.duration = late; }) == "duration: " + outsideADay);
     CHECK(broken([](Scene& s) { s.duration = -1e-9; }) == "duration: " + outsideADay);
     CHECK(broken([](Scene& s) { s.gain = 60.1; }) == "gain: must be -1000 to 60 dB");
     CHECK(broken([](Scene& s) { s.actuators = 0; }) == "actuators: must be 1 to 16");
     CHECK(broken([](Scene& s) { s.actuators = 17; }) == "actuators: must be 1 to 16");
-    CHECK(broken([](Scene& s) { s.panDelay = -0.001; }) == "panDelay: is outside 0.000000 to 0.100000");
-    CHECK(broken([](Scene& s) { s.panDelay = 0.101; }) == "panDelay: is outside 0.000000 to 0.100000");
+    CHECK(broken([](Scene& s) { s.panDelay = -0.001; }) == "panDelay: is outside 0 to 0.1");
+    CHECK(broken([](Scene& s) { s.panDelay = 0.101; }) == "panDelay: is outside 0 to 0.1");
     CHECK(broken([](Scene& s) { s.plays.resize(10001); }) == "plays: has more than 10000 plays");
     CHECK(codeOf([](Scene& s) { s.plays.resize(10001); }) == ErrorCode::tooLarge);
     CHECK(broken([](Scene& s) { s.clips[1].duration = notANumber; }) == "clips[1].duration: is not a finite number");

@@ -3,6 +3,7 @@
 // A haptic clip: a vibration as a few named curves and events. A plain value; validate() states the rules.
 
 #include <pacini/clip/Curve.h>
+#include <pacini/foundation/NumberText.h>
 #include <pacini/foundation/Result.h>
 
 #include <cmath>
@@ -139,7 +140,7 @@ inline Result<void> checkNumber(double value, double low, double high, const std
     if (!std::isfinite(value))
         return brokenRule(where, "is not a finite number", ErrorCode::notFinite);
     if (value < low || value > high)
-        return brokenRule(where, "is outside " + std::to_string(low) + " to " + std::to_string(high));
+        return brokenRule(where, "is outside " + shortDecimalText(low, 6) + " to " + shortDecimalText(high, 6));
     return {};
 }
 
