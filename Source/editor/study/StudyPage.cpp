@@ -504,7 +504,7 @@ void StudyPage::buildComfort()
         &addButton(tr("Comfortable"),
                    [this]
                    {
-                       (void)running->session().note("comfortable at " + std::to_string(running->touchTrim()) + " dB");
+                       (void)running->session().note("comfortable at " + fmt::format("{:g} dB", running->touchTrim()));
                        ++comfortNext;
                        show(State::comfort);
                    });
