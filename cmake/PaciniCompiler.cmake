@@ -16,8 +16,9 @@ if(CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang" AND NOT MSVC)
 endif()
 
 if(WIN32)
-    # Of <windows.h> no more than is needed: some of its macros are names of the C++ library.
-    add_compile_definitions($<$<COMPILE_LANGUAGE:CXX>:NOMINMAX> $<$<COMPILE_LANGUAGE:CXX>:WIN32_LEAN_AND_MEAN>)
+    # Of <windows.h> no more than is needed: some of its macros are names of the C++ library. As flags, since JUCE writes the
+    # definitions of its targets down, which must not depend on the language.
+    string(APPEND CMAKE_CXX_FLAGS " -DNOMINMAX -DWIN32_LEAN_AND_MEAN")
     if(MSVC)
         add_compile_options(/utf-8 /bigobj)
     endif()

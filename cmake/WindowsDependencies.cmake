@@ -34,7 +34,15 @@ find_package(Threads REQUIRED)
 set(PACINI_SNDFILE_DLL "${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/sndfile.dll")
 file(MAKE_DIRECTORY "${CMAKE_RUNTIME_OUTPUT_DIRECTORY}")
 file(COPY_FILE "${PACINI_WINDOWS_SOURCES}/_soundfile_data/libsndfile_x64.dll" "${PACINI_SNDFILE_DLL}" ONLY_IF_DIFFERENT)
-target_link_libraries(PkgConfig::sndfile INTERFACE "${PACINI_SNDFILE_DLL}")
+execute_process(COMMAND "${CMAKE_OBJDUMP}" -p "${PACINI_SNDFILE_DLL}" OUTPUT_VARIABLE functions COMMAND_ERROR_IS_FATAL ANY)
+string(REGEX MATCHALL " sf_[a-z_]+" functions "${functions}")
+list(JOIN functions "\n" functions)
+file(CONFIGURE OUTPUT "${CMAKE_BINARY_DIR}/sndfile.def" CONTENT "LIBRARY sndfile.dll\nEXPORTS\n${functions}\n")
+execute_process(COMMAND "${CMAKE_DLLTOOL}" -d sndfile.def --output-delaylib sndfile-later.a # names are part of it
+    WORKING_DIRECTORY "${CMAKE_BINARY_DIR}" COMMAND_ERROR_IS_FATAL ANY)
+# A plugin looks for it itself, Source/plugin/windows/SoundLibrary.cpp.
+target_link_libraries(PkgConfig::sndfile
+    INTERFACE "$<IF:$<BOOL:$<TARGET_PROPERTY:PACINI_FINDS_SNDFILE>>,${CMAKE_BINARY_DIR}/sndfile-later.a,${PACINI_SNDFILE_DLL}>")
 set(runtime "${PROJECT_SOURCE_DIR}/Source/cli/windows/vcruntime140")
 add_library(vcruntime140 SHARED "${runtime}.c" "${runtime}.def")
 set_target_properties(vcruntime140 PROPERTIES PREFIX "" OUTPUT_NAME VCRUNTIME140)

