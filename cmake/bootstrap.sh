@@ -258,10 +258,12 @@ build_web() {
     cmake --build build/web --parallel "$(jobs)"
 }
 
-# The command and libpacini for Windows, or with ON plugin and editor too, an installer and a zip.
-build_windows() { # ON or OFF
+# All that people run and libpacini for Windows, an installer and a zip; or the command and libpacini alone.
+build_windows() { # all or command
+    local targets=pacini_windows_package plugin=ON
+    [ "$1" = all ] || { targets="pacini pacini-bench pacini_library pacini_library_static vcruntime140" && plugin=OFF; }
     say "Building for Windows"
-    build windows pacini_windows_package "-DPACINI_BUILD_PLUGIN=$1"
+    build windows "$targets" "-DPACINI_BUILD_PLUGIN=$plugin"
 }
 
 # Whether everything that builds and tests the web is there already.
@@ -357,7 +359,7 @@ windows)
     install_packages "${build_packages[@]}" juce-modules-source fonts-roboto-unhinted "${windows_packages[@]}"
     install_windows_sources
     need_room 2500
-    build_windows ON
+    build_windows all
     say "The command and libpacini are in build/windows/bin, plugin, standalone program and editor in build/windows/plugins," \
         "the installer and the zip of all in build/windows/package"
     ;;
@@ -371,7 +373,7 @@ release)
     need_room 3000
     build_programs pacini-bench pacini_library pacini_library_static pacini_texts
     build_web
-    build_windows ON
+    build_windows all
     say "Packing"
     build/python-venv/bin/python -B cmake/make_release.py build/release-packages
     say "The packages are in build/release-packages, with SHA256SUMS and a list of what is in them"
@@ -423,7 +425,7 @@ slow-tests)
     if wanted windows || wanted plugins; then
         # What an earlier run has built is not tested in its place.
         (install_windows_sources && install_windows_test_module &&
-            build_windows "$(wanted plugins && echo ON || echo OFF)") ||
+            build_windows "$(wanted plugins && echo all || echo command)") ||
             { say "Windows cannot be built for: its tests will be SKIPPED" && rm -rf build/windows/{bin,plugins}; }
     fi
     turn=$([ -z "${2:-}" ] || git rev-list --count HEAD)

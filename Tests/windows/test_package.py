@@ -110,8 +110,8 @@ class Package(unittest.TestCase):
                 self.assertEqual((folder / name).read_bytes(), (PACKAGE / name).read_bytes())
             document = json.loads(listed.read_text(encoding="utf-8"))
         names = {part["name"]: part.get("versionInfo") for part in document["packages"]}
-        for start in ("libsndfile with libFLAC", "mingw-w64's runtime", "libzip", "zlib", "NSIS", "JUCE", "libpng",
-                      "libjpeg-turbo"):
+        for start in ("libsndfile with libFLAC", "mingw-w64's runtime", "libzip", "zlib", "NSIS", "JUCE's modules",
+                      "libpng", "libjpeg-turbo"):
             found = [bool(version) for name, version in names.items() if name.startswith(start)]
             self.assertEqual(found, [True], start)
 
