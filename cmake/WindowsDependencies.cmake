@@ -40,7 +40,7 @@ list(JOIN functions "\n" functions)
 file(CONFIGURE OUTPUT "${CMAKE_BINARY_DIR}/sndfile.def" CONTENT "LIBRARY sndfile.dll\nEXPORTS\n${functions}\n")
 execute_process(COMMAND "${CMAKE_DLLTOOL}" -d sndfile.def --output-delaylib sndfile-later.a # names are part of it
     WORKING_DIRECTORY "${CMAKE_BINARY_DIR}" COMMAND_ERROR_IS_FATAL ANY)
-# A plugin looks for it itself, Source/plugin/windows/SoundLibrary.cpp.
+# A plugin looks for it itself, Source/plugin/mingw/SoundLibrary.cpp.
 target_link_libraries(PkgConfig::sndfile
     INTERFACE "$<IF:$<BOOL:$<TARGET_PROPERTY:PACINI_FINDS_SNDFILE>>,${CMAKE_BINARY_DIR}/sndfile-later.a,${PACINI_SNDFILE_DLL}>")
 set(runtime "${PROJECT_SOURCE_DIR}/Source/cli/windows/vcruntime140")

@@ -44,6 +44,7 @@ SOURCE = {
     "plugin/engine": ({"io", "document", "devices", "plugin/engine"}, NO_WINDOWS),
     "plugin/window": ({"io", "study", "document", "devices", "editor", "plugin/engine", "plugin/window"}, ()),
     "plugin/clap": ({"io", "study", "document", "devices", "editor", "plugin/engine", "plugin/window", "plugin/clap"}, ()),
+    "plugin/mingw": ({"plugin/mingw"}, NO_JUCE),
     "editor": ({"io", "study", "document", "devices", "editor"}, ()),
     "app": ({"io", "study", "document", "devices", "phone", "editor", "plugin/engine", "plugin/window", "app"}, ()),
 }

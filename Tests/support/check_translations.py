@@ -83,7 +83,7 @@ LITERALS = {
         "IPAGothic", "TakaoPGothic", "VL PGothic", "/usr/share/fonts/opentype/noto/NotoSansCJK-", "DualSense",
         "Joy-Con", "LRA 175 Hz", "LRA 235 Hz", "L5 wristband", "L5 test jig", "Coin ERM", "iPhone (Taptic)", "English", "A Framework for Audio-Tactile Signal Translation"],
     "names of threads, folders, settings and functions of libraries": [
-        "XESetWireToError", "spd-say", "text", "exe", "study", "report", "pacini: ", "folder", "Pacini capture", "Pacini joysticks", "js", "/dev/input", "/dev/snd/seq", "joycon-hd-rumble", "erm-coin", "Pacini set-up", "Pacini clips", "Application Support", "~/.config", "quiet", "primary", "origin", "dark", "true", "GTK_THEME", "gtk-theme-name",
+        "XESetWireToError", "sf_strerror", "spd-say", "text", "exe", "study", "report", "pacini: ", "folder", "Pacini capture", "Pacini joysticks", "js", "/dev/input", "/dev/snd/seq", "joycon-hd-rumble", "erm-coin", "Pacini set-up", "Pacini clips", "Application Support", "~/.config", "quiet", "primary", "origin", "dark", "true", "GTK_THEME", "gtk-theme-name",
         "gtk-application-prefer-dark-theme", "max ", "fs ", "devices",
         "state", "recovery", "profiles", "Resources/demo", "share/pacini/demo", "pacini", "json", "wav", "pacb",
         "files", "clip", "Presets", "scale", ".sound-", "md", "demo", "pacini-demo", "flac", "plain drive",

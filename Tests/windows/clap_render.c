@@ -1,5 +1,5 @@
-/* Plays a sound through the CLAP plugin of Windows or of this machine, as a host without a window does, and writes what its
-   haptic port puts out. Samples are raw 32-bit floats of one channel at 48 kHz.
+/* Plays a sound through the CLAP plugin of Windows or of this machine, as a host without a window does, and writes what
+   its haptic port puts out. Samples are raw 32-bit floats of one channel at 48 kHz.
 
    clap_render PLUGIN IN OUT [SECONDS]   SECONDS: how long its window is shown afterwards, within one of the host's */
 
@@ -15,37 +15,41 @@
 #include <dlfcn.h>
 #endif
 
-enum { most = 64, block = 480 };
+enum
+{
+    most = 64,
+    block = 480
+};
 
 static const void* extension(const clap_host_t* host, const char* id)
 {
-    (void) host;
-    (void) id;
+    (void)host;
+    (void)id;
     return NULL;
 }
 
 static void ignore(const clap_host_t* host)
 {
-    (void) host;
+    (void)host;
 }
 
 static uint32_t none(const clap_input_events_t* list)
 {
-    (void) list;
+    (void)list;
     return 0;
 }
 
 static const clap_event_header_t* nothing(const clap_input_events_t* list, uint32_t index)
 {
-    (void) list;
-    (void) index;
+    (void)list;
+    (void)index;
     return NULL;
 }
 
 static bool take(const clap_output_events_t* list, const clap_event_header_t* event)
 {
-    (void) list;
-    (void) event;
+    (void)list;
+    (void)event;
     return true;
 }
 
@@ -56,12 +60,12 @@ static const clap_plugin_entry_t* load(const char* path)
     HMODULE module = LoadLibraryA(path);
     if (!module)
         fprintf(stderr, "clap_render: %s: cannot be loaded: %lu\n", path, GetLastError());
-    return module ? (const clap_plugin_entry_t*) (void*) GetProcAddress(module, "clap_entry") : NULL;
+    return module ? (const clap_plugin_entry_t*)(void*)GetProcAddress(module, "clap_entry") : NULL;
 #else
     void* module = dlopen(path, RTLD_NOW | RTLD_LOCAL);
     if (!module)
         fprintf(stderr, "clap_render: %s\n", dlerror());
-    return module ? (const clap_plugin_entry_t*) dlsym(module, "clap_entry") : NULL;
+    return module ? (const clap_plugin_entry_t*)dlsym(module, "clap_entry") : NULL;
 #endif
 }
 
@@ -97,7 +101,7 @@ static void turn(DWORD milliseconds)
 {
     const DWORD until = GetTickCount() + milliseconds;
     MSG message;
-    while ((LONG) (until - GetTickCount()) > 0)
+    while ((LONG)(until - GetTickCount()) > 0)
     {
         while (PeekMessageA(&message, NULL, 0, 0, PM_REMOVE))
         {
@@ -116,7 +120,7 @@ static int show(const clap_plugin_t* plugin, double seconds)
         return fail("has no window for Windows");
     if (!gui->create(plugin, CLAP_WINDOW_API_WIN32, false) || !gui->get_size(plugin, &width, &height))
         return fail("makes no window");
-    RECT outside = {0, 0, (LONG) width, (LONG) height};
+    RECT outside = {0, 0, (LONG)width, (LONG)height};
     AdjustWindowRect(&outside, WS_OVERLAPPEDWINDOW, FALSE);
     HWND window = CreateWindowA("STATIC", "Host", WS_OVERLAPPEDWINDOW | WS_VISIBLE, 0, 0, outside.right - outside.left,
                                 outside.bottom - outside.top, NULL, NULL, GetModuleHandleA(NULL), NULL);
@@ -127,7 +131,7 @@ static int show(const clap_plugin_t* plugin, double seconds)
         return fail("does not show its window");
     printf("%u %u\n", width, height);
     fflush(stdout);
-    turn((DWORD) (1000.0 * seconds));
+    turn((DWORD)(1000.0 * seconds));
     gui->destroy(plugin);
     DestroyWindow(window);
     return 0;
@@ -172,12 +176,12 @@ int main(int argc, char** argv)
     size_t frames;
     while ((frames = fread(sound, sizeof(float), block, in)) > 0)
     {
-        const clap_process_t process = {time,       (uint32_t) frames, NULL,      inputs,    outputs,
-                                        inputCount, outputCount,       &inEvents, &outEvents};
+        const clap_process_t process = {time,       (uint32_t)frames, NULL,      inputs,    outputs,
+                                        inputCount, outputCount,      &inEvents, &outEvents};
         if (plugin->process(plugin, &process) == CLAP_PROCESS_ERROR)
             return fail("does not process");
         fwrite(outputs[haptic].data32[0], sizeof(float), frames, out);
-        time += (int64_t) frames;
+        time += (int64_t)frames;
     }
     if (fclose(out) != 0)
         return fail("cannot write");

@@ -27,7 +27,7 @@ int main(int argc, char** argv)
     HMODULE library = argc == 3 ? LoadLibraryA(argv[1]) : NULL;
     if (!library)
         return 2;
-    long long (*frames)(const char*) = (long long (*)(const char*))(void*) GetProcAddress(library, "frames");
+    long long (*frames)(const char*) = (long long (*)(const char*))(void*)GetProcAddress(library, "frames");
     const long long found = frames(argv[2]);
     printf("%lld\n", found);
     return found < 0;

@@ -94,7 +94,7 @@ class Plugins(InWine):
         reader = self.folder / "reads.o"
         subprocess.run(["x86_64-w64-mingw32-gcc-posix", "-DPLUGIN", "-c", f"-I{wine.BUILD / 'dependencies'}",
                         HERE / "reads_sound.c", "-o", reader], check=True)
-        compiled([reader, SOURCE / "Source/plugin/windows/SoundLibrary.cpp", wine.BUILD / "sndfile-later.a"], plugin, "-shared")
+        compiled([reader, SOURCE / "Source/plugin/mingw/SoundLibrary.cpp", wine.BUILD / "sndfile-later.a"], plugin, "-shared")
         done = wine.run(host, wine.as_windows(plugin), wine.as_windows(SOUND))
         self.assertEqual((done.returncode, done.stdout.strip()), (1, b"-1"))
         self.assertEqual(done.stderr.strip(), b"sndfile.dll is missing in the folder of the plugin: install Pacini again")

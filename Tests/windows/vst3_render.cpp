@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Plays a sound through the VST3 of Windows or of this machine, as a host without a window does, and writes what its last
-// bus puts out. Samples are raw 32-bit floats of one channel at 48 kHz. Built with the headers that JUCE brings.
+// Plays a sound through the VST3 of Windows or of this machine, as a host without a window does, and writes what its
+// last bus puts out. Samples are raw 32-bit floats of one channel at 48 kHz. Built with the headers that JUCE brings.
 //
 // vst3_render MODULE IN OUT
 

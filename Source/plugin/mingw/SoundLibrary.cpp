@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How the plugin finds sndfile.dll: in its own folder, where Windows does not look for what a plugin needs, when the first
-// sound is read. Without it the plugin works, and reading a sound is an error that names the file.
-
-#include <windows.h>
+// How the plugin finds sndfile.dll: in its own folder, where Windows does not look for what a plugin needs, when the
+// first sound is read. Without it the plugin works, and reading a sound is an error that names the file.
 
 #include <delayimp.h>
+#include <windows.h>
 
 #include <string>
 #include <string_view>
