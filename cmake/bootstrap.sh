@@ -126,59 +126,49 @@ need_room() { # MB of the folder build when all is done
         fail "building needs about $needed MB in $PWD, but only $free MB are free"
 }
 
-# Python modules, in a place of their own.
-install_modules() { # folder, what is skipped without them, modules
-    local venv=$1 skipped=$2 modules=("${@:3}")
-    [ "$(cat "$venv/modules" 2>/dev/null)" != "${modules[*]}" ] || return 0
-    say "Installing ${modules[*]} in $venv"
-    if python3 -m venv "$venv" && "$venv/bin/python" -m pip install -q --disable-pip-version-check "${modules[@]}"; then
-        printf '%s' "${modules[*]}" >"$venv/modules"
+# Modules of a language, in a place of their own; which ones they are is recorded in a file there.
+install_modules() { # installer, record, what is skipped without them, modules
+    local record=$2 skipped=$3 modules=("${@:4}")
+    [ "$(cat "$record" 2>/dev/null)" != "${modules[*]}" ] || return 0
+    say "Installing ${modules[*]} in ${record%/*}"
+    if "$1" "${record%/*}" "${modules[@]}"; then
+        printf '%s' "${modules[*]}" >"$record"
     else
         printf 'bootstrap: these modules cannot be installed; %s will be SKIPPED\n' "$skipped" >&2
     fi
 }
 
+with_pip() { # folder, modules
+    python3 -m venv "$1" && "$1/bin/python" -m pip install -q --disable-pip-version-check "${@:2}"
+}
+
+with_npm() { # folder, modules
+    mkdir -p "$1" && npm install --silent --no-save --no-audit --no-fund --ignore-scripts --prefix "$1" "${@:2}"
+}
+
 install_host_modules() {
-    install_modules build/hosts-venv "the tests in DawDreamer and Pedalboard" "${host_modules[@]}"
+    install_modules with_pip build/hosts-venv/modules "the tests in DawDreamer and Pedalboard" "${host_modules[@]}"
 }
 
 install_python_modules() {
-    install_modules build/python-venv "the package for Python" "${python_modules[@]}"
+    install_modules with_pip build/python-venv/modules "the package for Python" "${python_modules[@]}"
 }
 
 # Many sounds on many machines: large, and not there for every Python.
 install_slow_python_modules() {
     [ -e build/python-venv/modules ] || return 0
-    [ "$(cat build/python-venv/slow-modules 2>/dev/null)" != "${slow_python_modules[*]}" ] || return 0
-    say "Installing ${slow_python_modules[*]} in build/python-venv"
-    if build/python-venv/bin/python -m pip install -q --disable-pip-version-check "${slow_python_modules[@]}"; then
-        printf '%s' "${slow_python_modules[*]}" >build/python-venv/slow-modules
-    else
-        printf 'bootstrap: these modules cannot be installed; the tests with Ray, mixed models and lists of licences will be SKIPPED\n' >&2
-    fi
-}
-
-# Modules for Node.js, in a place of their own.
-install_npm_modules() { # folder, what is skipped without them, modules
-    local folder=$1 skipped=$2 modules=("${@:3}")
-    [ "$(cat "$folder/modules" 2>/dev/null)" != "${modules[*]}" ] || return 0
-    say "Installing ${modules[*]} in $folder"
-    mkdir -p "$folder"
-    if npm install --silent --no-save --no-audit --no-fund --ignore-scripts --prefix "$folder" "${modules[@]}"; then
-        printf '%s' "${modules[*]}" >"$folder/modules"
-    else
-        printf 'bootstrap: these modules cannot be installed; %s will be SKIPPED\n' "$skipped" >&2
-    fi
+    install_modules with_pip build/python-venv/slow-modules "the tests with Ray, mixed models and lists of licences" \
+        "${slow_python_modules[@]}"
 }
 
 # What the binding for Node.js needs: its binary comes within the package.
 install_node_modules() {
-    install_npm_modules build/bindings-node "the test of the binding for Node.js" "${node_modules[@]}"
+    install_modules with_npm build/bindings-node/modules "the test of the binding for Node.js" "${node_modules[@]}"
 }
 
 # The browser's remote control, what finds barriers for people, and the reader of workflows.
 install_web_modules() {
-    install_npm_modules build/web-node "the test of the web page" "${web_modules[@]}"
+    install_modules with_npm build/web-node/modules "the test of the web page" "${web_modules[@]}"
 }
 
 # What is compiled for Windows besides Pacini, in build/windows-sources.
@@ -421,7 +411,7 @@ slow-tests)
     wanted() { [[ "|$others|" != *"|$1|"* ]]; }
     # Small programs for Windows are among those for other machines.
     ! wanted windows && ! wanted plugins && ! wanted machines || install_packages "${windows_packages[@]}"
-    ! wanted machines || install_modules build/zig-venv "the test of what compiles for macOS" "$macos_module"
+    ! wanted machines || install_modules with_pip build/zig-venv/modules "the test of what compiles for macOS" "$macos_module"
     if wanted windows || wanted plugins; then
         # What an earlier run has built is not tested in its place.
         (install_windows_sources && install_windows_test_module &&
