@@ -81,17 +81,17 @@ namespace
 std::atomic<int> interruptingSignal{0};
 static_assert(std::atomic<int>::is_always_lock_free);
 
+extern "C" void noteInterruptingSignal(int signal)
+{
+    interruptingSignal.store(signal);
+}
+
 #if defined(_WIN32)
 
 constexpr int interrupting[] = {SIGINT, SIGTERM};
 using Action = void (*)(int);
 
 // Windows puts the usual action back by itself, and so a second signal ends the program.
-extern "C" void noteInterruptingSignal(int signal)
-{
-    interruptingSignal.store(signal);
-}
-
 Action take(int number) noexcept
 {
     const Action former = ::signal(number, noteInterruptingSignal);
@@ -110,11 +110,6 @@ void giveBack(int number, Action former) noexcept
 
 constexpr int interrupting[] = {SIGINT, SIGTERM, SIGHUP};
 using Action = struct sigaction;
-
-extern "C" void noteInterruptingSignal(int signal)
-{
-    interruptingSignal.store(signal);
-}
 
 Action take(int number) noexcept
 {
