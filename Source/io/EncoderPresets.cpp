@@ -14,36 +14,36 @@ namespace
 {
 std::vector<EncoderPreset> madePresets()
 {
-    std::vector<EncoderPreset> all = {
-        {"Effects", "Good for most sounds", {}},
-        {"Fine detail", "More bands and points", {}},
-        {"Small file", "Few bands and points", {}},
-        {"Transients first", "Finds weak and close hits", {}},
-        {"Steady texture", "Only clear hits become events", {}},
-        {"Low rumble", "20 to 300 Hz, for large actuators", {}},
-        {"As recorded", "Ignores sound above the range of touch", {}},
-        {"Music", "The beat first, less of hats and voices", {}},
-        {"Everything heard", "Loudness leads where most of a sound lies above touch", {}},
-        {"Voice off", "As effects, with less of speech", {}},
+    std::vector<EncoderPreset> all;
+    // The parameters of a new one, until the next is added.
+    const auto add = [&](const char* name, const char* description) -> EncoderParams&
+    {
+        return all.emplace_back(EncoderPreset{name, description, {}}).params;
     };
-    all[1].params.bands = 24;
-    all[1].params.breakpoints = 60.0;
-    all[1].params.quantise = 8;
-    all[2].params.bands = 6;
-    all[2].params.breakpoints = 8.0;
-    all[2].params.quantise = 5;
-    all[3].params.bands = 8;
-    all[3].params.onsets.sensitivity = 2.0;
-    all[4].params.onsets.sensitivity = 0.5;
-    all[4].params.breakpoints = 30.0;
-    all[5].params.bands = 8;
-    all[5].params.lowFrequency = 20.0;
-    all[5].params.highFrequency = 300.0;
-    all[5].params.audible = 0.0;
-    all[6].params.audible = 0.0;
-    all[7].params.audible = 0.5;
-    all[8].params.heard = HeardRole::instead;
-    all[9].params.speech = 0.0;
+    add("Effects", "Good for most sounds");
+    auto* params = &add("Fine detail", "More bands and points");
+    params->bands = 24;
+    params->breakpoints = 60.0;
+    params->quantise = 8;
+    params = &add("Small file", "Few bands and points");
+    params->bands = 6;
+    params->breakpoints = 8.0;
+    params->quantise = 5;
+    params = &add("Transients first", "Finds weak and close hits");
+    params->bands = 8;
+    params->onsets.sensitivity = 2.0;
+    params = &add("Steady texture", "Only clear hits become events");
+    params->onsets.sensitivity = 0.5;
+    params->breakpoints = 30.0;
+    params = &add("Low rumble", "20 to 300 Hz, for large actuators");
+    params->bands = 8;
+    params->lowFrequency = 20.0;
+    params->highFrequency = 300.0;
+    params->audible = 0.0;
+    add("As recorded", "Ignores sound above the range of touch").audible = 0.0;
+    add("Music", "The beat first, less of hats and voices").audible = 0.5;
+    add("Everything heard", "Loudness leads where most of a sound lies above touch").heard = HeardRole::instead;
+    add("Voice off", "As effects, with less of speech").speech = 0.0;
     return all;
 }
 
