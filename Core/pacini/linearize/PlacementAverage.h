@@ -103,6 +103,44 @@ struct Concentration
     const double high = values[best + count - 1];
     return {0.5 * (low + high), 1.4826 * 0.5 * (high - low)};
 }
+
+/// How far each response lies from the median of all, dB: its level, and its shape at that level.
+struct PlacementDifferences
+{
+    std::vector<double> offsets;
+    std::vector<double> shapes;
+};
+
+[[nodiscard]] inline PlacementDifferences differencesOf(std::span<const FrequencyResponse> placements,
+                                                        const std::vector<std::size_t>& compared)
+{
+    const std::size_t n = placements.size();
+    PlacementDifferences found{std::vector<double>(n), std::vector<double>(n)};
+    auto& [offsets, shapes] = found;
+    std::vector<double> column(n);
+    std::vector<double> distance(compared.size());
+    // Twice: the first medians still mix levels.
+    for (int pass = 0; pass < 2; ++pass)
+    {
+        std::vector<double> middle;
+        for (const std::size_t k : compared)
+        {
+            for (std::size_t i = 0; i < n; ++i)
+                column[i] = placements[i].level[k] - offsets[i];
+            middle.push_back(medianOf(column));
+        }
+        for (std::size_t i = 0; i < n; ++i)
+        {
+            for (std::size_t k = 0; k < compared.size(); ++k)
+                distance[k] = placements[i].level[compared[k]] - middle[k];
+            offsets[i] = medianOf(distance);
+            for (double& d : distance)
+                d = std::abs(d - offsets[i]);
+            shapes[i] = medianOf(distance);
+        }
+    }
+    return found;
+}
 } // namespace detail
 
 /// The robust average of 1 to 1000 responses at the same frequencies, in dB. Levels are aligned by the median distance
@@ -137,31 +175,7 @@ struct Concentration
         return Error{ErrorCode::invalidArgument, "lowFrequency", "leaves no frequency to compare the responses at"};
 
     const std::size_t n = placements.size();
-    std::vector<double> offsets(n, 0.0);
-    std::vector<double> shapes(n, 0.0);
-    std::vector<double> column(n);
-    std::vector<double> distance(compared.size());
-    // Twice: the first medians still mix levels.
-    for (int pass = 0; pass < 2; ++pass)
-    {
-        std::vector<double> middle;
-        for (const std::size_t k : compared)
-        {
-            for (std::size_t i = 0; i < n; ++i)
-                column[i] = placements[i].level[k] - offsets[i];
-            middle.push_back(detail::medianOf(column));
-        }
-        for (std::size_t i = 0; i < n; ++i)
-        {
-            for (std::size_t k = 0; k < compared.size(); ++k)
-                distance[k] = placements[i].level[compared[k]] - middle[k];
-            offsets[i] = detail::medianOf(distance);
-            for (double& d : distance)
-                d = std::abs(d - offsets[i]);
-            shapes[i] = detail::medianOf(distance);
-        }
-    }
-
+    const auto [offsets, shapes] = detail::differencesOf(placements, compared);
     const auto usual = detail::shortestHalf(offsets);
     const double limit = std::max(params.offsetLimit, 2.5 * usual.deviation);
     std::vector<std::size_t> members;

@@ -19,6 +19,7 @@
 #include <cstddef>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace pacini
@@ -83,17 +84,10 @@ namespace pacini
     return (static_cast<double>(best) + fraction - static_cast<double>(response.origin)) / response.sampleRate;
 }
 
-/// Analyses what 1 to 3 channels recorded of makeSweepSignal(params): an accelerometer's axes in any orientation, or a
-/// microphone. `recordingRate` is a whole number of Hz, which may differ from that of the playback. The recording may
-/// start and end whenever, as long as every sweep is in it.
-///
-/// Errors: those of the parameters (`sweep.` or `measurement.` before their path) and of checkRecording();
-/// invalidArgument at `sampleRate` for one that cannot hold the sweep, invalidData there for a recording that was made
-/// at another rate than it is said to be; invalidData at `channels` without any sweep in it; truncated at `sweeps[k]`
-/// for one that is not in the recording as a whole; invalidData at `clock` for a drift beyond measurement.driftLimit.
-[[nodiscard]] inline Result<SweepMeasurement> analyseSweeps(std::span<const std::vector<float>> channels,
-                                                            double recordingRate, const SweepParams& params,
-                                                            const MeasurementParams& measurement = {})
+/// The lowest and the highest frequency of which recordings tell the response, Hz. Errors: see analyseSweeps().
+[[nodiscard]] inline Result<std::pair<double, double>> measuredRange(std::span<const std::vector<float>> channels,
+                                                                     double recordingRate, const SweepParams& params,
+                                                                     const MeasurementParams& measurement)
 {
     const auto within = [](Error error, const char* prefix)
     {
@@ -115,6 +109,50 @@ namespace pacini
     if (!(high > 1.05 * low))
         return Error{ErrorCode::invalidArgument, "measurement.lowFrequency",
                      "leaves no frequency of the sweep's range"};
+    return std::pair(low, high);
+}
+
+/// Notes the drift of the clocks and the frames that were lost. Errors: invalidData at `clock`.
+[[nodiscard]] inline Result<void> warnOfTiming(const SweepTiming& timing, const MeasurementParams& measurement,
+                                               double recordingRate, SweepMeasurement& result)
+{
+    if (timing.driftKnown)
+    {
+        result.driftPpm = 1e6 * timing.drift;
+        const double ppm = std::abs(*result.driftPpm);
+        const std::string text = std::to_string(std::lround(*result.driftPpm)) + " ppm";
+        if (ppm > measurement.driftLimit)
+            return Error{ErrorCode::invalidData, "clock",
+                         "player and recorder differ by " + text +
+                             "; use one device for both, or correct its sample rate"};
+        if (ppm > measurement.driftWarning)
+            result.warnings.push_back({MeasurementDefect::clockDrift, "clock",
+                                       "player and recorder differ by " + text + "; the result is corrected for it"});
+    }
+    for (const DelayStep& step : timing.steps)
+        result.warnings.push_back({MeasurementDefect::droppedFrames, secondsText(timing.arrival(step.time)),
+                                   std::to_string(std::lround(std::abs(step.seconds) * recordingRate)) + " frames " +
+                                       (step.seconds < 0.0 ? "are missing" : "too many") +
+                                       " about here; use larger buffers and measure again"});
+    return {};
+}
+
+/// Analyses what 1 to 3 channels recorded of makeSweepSignal(params): an accelerometer's axes in any orientation, or a
+/// microphone. `recordingRate` is a whole number of Hz, which may differ from that of the playback. The recording may
+/// start and end whenever, as long as every sweep is in it.
+///
+/// Errors: those of the parameters (`sweep.` or `measurement.` before their path) and of checkRecording();
+/// invalidArgument at `sampleRate` for one that cannot hold the sweep, invalidData there for a recording that was made
+/// at another rate than it is said to be; invalidData at `channels` without any sweep in it; truncated at `sweeps[k]`
+/// for one that is not in the recording as a whole; invalidData at `clock` for a drift beyond measurement.driftLimit.
+[[nodiscard]] inline Result<SweepMeasurement> analyseSweeps(std::span<const std::vector<float>> channels,
+                                                            double recordingRate, const SweepParams& params,
+                                                            const MeasurementParams& measurement = {})
+{
+    const auto range = measuredRange(channels, recordingRate, params, measurement);
+    if (!range)
+        return range.error();
+    const auto [low, high] = *range;
     const double recordedSeconds = static_cast<double>(channels.front().size()) / recordingRate;
     const SweepSchedule schedule = makeSweepSchedule(params);
     const double needed = static_cast<double>(schedule.sweeps.back().startFrame - schedule.sweeps.front().startFrame) /
@@ -159,24 +197,8 @@ namespace pacini
                              " to " + secondsText(timing.arrival(start + params.duration)) + ", the recording " +
                              secondsText(recordedSeconds)};
     }
-    if (timing.driftKnown)
-    {
-        result.driftPpm = 1e6 * timing.drift;
-        const double ppm = std::abs(*result.driftPpm);
-        const std::string text = std::to_string(std::lround(*result.driftPpm)) + " ppm";
-        if (ppm > measurement.driftLimit)
-            return Error{ErrorCode::invalidData, "clock",
-                         "player and recorder differ by " + text +
-                             "; use one device for both, or correct its sample rate"};
-        if (ppm > measurement.driftWarning)
-            result.warnings.push_back({MeasurementDefect::clockDrift, "clock",
-                                       "player and recorder differ by " + text + "; the result is corrected for it"});
-    }
-    for (const DelayStep& step : timing.steps)
-        result.warnings.push_back({MeasurementDefect::droppedFrames, secondsText(timing.arrival(step.time)),
-                                   std::to_string(std::lround(std::abs(step.seconds) * recordingRate)) + " frames " +
-                                       (step.seconds < 0.0 ? "are missing" : "too many") +
-                                       " about here; use larger buffers and measure again"});
+    if (auto bearable = warnOfTiming(timing, measurement, recordingRate, result); !bearable)
+        return bearable.error();
 
     const double highest = std::min(measurement.harmonics * params.highFrequency, 0.45 * recordingRate);
     const auto recording = reduceRate(channels, rate, highest, 2.12, scale);
