@@ -116,6 +116,40 @@ Curve weightedAmplitude(const Band& band, const Ratio& ratio)
         weighted.push_back({t, amplitude.at(t) * ratio(band.pitch.empty() ? band.centreFrequency : pitch.at(t))});
     return weighted;
 }
+
+/// The envelope of a clip whose bands were `before`, times what their sum of powers was weighted by; `factor` until one
+/// sounds.
+inline Curve weightedEnvelope(const Clip& clip, const std::vector<Band>& before, double factor)
+{
+    std::vector<double> times = joinedTimes(clip.envelope, {});
+    for (const Band& band : clip.bands)
+        for (const Breakpoint& point : band.amplitude)
+            times.push_back(point.time);
+    std::sort(times.begin(), times.end());
+    times.erase(std::unique(times.begin(), times.end()), times.end());
+    std::vector<CurveReader> old, now;
+    for (std::size_t k = 0; k < before.size(); ++k)
+    {
+        old.emplace_back(before[k].amplitude);
+        now.emplace_back(clip.bands[k].amplitude);
+    }
+    CurveReader envelope(clip.envelope);
+    Curve levelled;
+    for (const double t : times)
+    {
+        double power = 0.0, wanted = 0.0;
+        for (std::size_t k = 0; k < before.size(); ++k)
+        {
+            const double x = old[k].at(t), y = now[k].at(t);
+            power += x * x;
+            wanted += y * y;
+        }
+        if (power > 0.0)
+            factor = std::sqrt(wanted / power);
+        levelled.push_back({t, envelope.at(t) * factor});
+    }
+    return levelled;
+}
 } // namespace detail
 
 /// Makes a valid clip that was designed on `from` feel alike on `to`, each played with `params` (M. Weber, "A Framework
@@ -151,37 +185,8 @@ Curve weightedAmplitude(const Band& band, const Ratio& ratio)
         band.amplitude = detail::weightedAmplitude(band, ratio);
     }
     if (!made.envelope.empty())
-    {
-        std::vector<double> times = detail::joinedTimes(made.envelope, {});
-        for (const Band& band : made.bands)
-            for (const Breakpoint& point : band.amplitude)
-                times.push_back(point.time);
-        std::sort(times.begin(), times.end());
-        times.erase(std::unique(times.begin(), times.end()), times.end());
-        std::vector<CurveReader> old, now;
-        for (std::size_t k = 0; k < before.size(); ++k)
-        {
-            old.emplace_back(before[k].amplitude);
-            now.emplace_back(made.bands[k].amplitude);
-        }
-        CurveReader envelope(made.envelope);
-        Curve levelled;
-        double factor = here.atResonance() > 0.0 ? ratio(from.resonance.frequency) : 1.0;
-        for (const double t : times)
-        {
-            double power = 0.0, wanted = 0.0;
-            for (std::size_t k = 0; k < before.size(); ++k)
-            {
-                const double x = old[k].at(t), y = now[k].at(t);
-                power += x * x;
-                wanted += y * y;
-            }
-            if (power > 0.0)
-                factor = std::sqrt(wanted / power);
-            levelled.push_back({t, envelope.at(t) * factor});
-        }
-        made.envelope = std::move(levelled);
-    }
+        made.envelope =
+            detail::weightedEnvelope(made, before, here.atResonance() > 0.0 ? ratio(from.resonance.frequency) : 1.0);
     const double events = there.atResonance() / std::max(here.atResonance(), 1e-9);
     for (Transient& event : made.transients)
         event.amplitude *= events;
