@@ -239,6 +239,43 @@ std::string trackText(std::size_t number, const Json& stream)
             text += (text.empty() ? "" : ", ") + part.substr(0, 60);
     return fmt::format("{}{}", number, text.empty() ? "" : " (" + wellFormedUtf8(text) + ")");
 }
+
+/// Starts a program that is given what came through a pipe, from its begin. Errors: invalidData; io.
+Result<std::unique_ptr<ChildProgram>> started(const char* name, const std::vector<std::string>& words, std::FILE* pipe)
+{
+    if (pipe != nullptr && !seekStream(pipe, 0, SEEK_SET))
+        return invalid("is a film, which cannot be read from a pipe here; save it to a file first");
+    auto program = ChildProgram::start(name, words, pipe);
+    if (program && *program == nullptr)
+        return notInstalled(name);
+    return program;
+}
+
+/// What ffprobe tells of a film. Errors: invalidData; io.
+Result<Json> probed(const std::string& name, std::FILE* pipe)
+{
+    constexpr const char* entries =
+        "stream=index,codec_type,codec_name,sample_rate,channels,channel_layout,start_time,duration:"
+        "stream_disposition=default,attached_pic:stream_tags:format=format_name,duration:"
+        "chapter=start_time:chapter_tags=title";
+    auto words = safely("level+error");
+    for (const char* word : {"-of", "json", "-show_chapters", "-show_entries", entries})
+        words.emplace_back(word);
+    words.push_back(name);
+    const auto program = started("ffprobe", words, pipe);
+    if (!program)
+        return program.error();
+    const std::string printed = allOutput(**program, std::size_t(1) << 24);
+    const auto ending = (*program)->wait();
+    Json found = Json::parse(printed, nullptr, false);
+    if (!ending.succeeded || !found.is_object())
+    {
+        const std::string why = complaintOf(ending.complaint, name);
+        return invalid(fmt::format("cannot be read by ffmpeg ({}); get a complete copy",
+                                   why.empty() ? "it did not say why" : why));
+    }
+    return found;
+}
 } // namespace
 
 bool isFilm(std::FILE* opened, std::uint64_t begin)
@@ -258,14 +295,22 @@ bool isFilm(std::FILE* opened, std::uint64_t begin)
            at(0, "\xFF\xF9"sv) || at(0, "\x0B\x77"sv) || at(0, "\0\0\1\xBA"sv) || isTransportStream(file, begin);
 }
 
+/// What ffprobe tells of a film, and what of it is read.
+struct FilmSound::Probe
+{
+    Json found;
+    const Json* track = nullptr;   ///< the one that is read
+    std::optional<double> picture; ///< s at which the first one begins
+    std::string kind, codec;
+    double zero = 0.0; ///< s of the film that are time 0 of the sound
+};
+
 Result<FilmSound> FilmSound::open(const fs::path& path, std::FILE* file, const Options& options)
 {
     // What came through a pipe has no name. Its copy has none either, but the child is given it.
     std::error_code unknown;
     const bool named = path != "-" && fs::is_regular_file(path, unknown);
-    if (!named && !seekStream(file, 0, SEEK_SET))
-        return invalid("is a film, which cannot be read from a pipe here; save it to a file first");
-    std::FILE* const input = named ? nullptr : file;
+    std::FILE* const pipe = named ? nullptr : file;
     const auto place = fs::absolute(path, unknown).u8string();
     // With its protocol, so that no name is taken for an option or an address.
     std::string name = "file:" + (named ? std::string(place.begin(), place.end()) : "/dev/fd/0");
@@ -274,147 +319,142 @@ Result<FilmSound> FilmSound::open(const fs::path& path, std::FILE* file, const O
     if (isBehindTag)
         name = fmt::format("subfile,,start,{},end,0,,:{}", options.begin, name);
 
-    constexpr const char* entries =
-        "stream=index,codec_type,codec_name,sample_rate,channels,channel_layout,start_time,duration:"
-        "stream_disposition=default,attached_pic:stream_tags:format=format_name,duration:"
-        "chapter=start_time:chapter_tags=title";
-    auto words = safely("level+error");
-    for (const char* word : {"-of", "json", "-show_chapters", "-show_entries", entries})
-        words.emplace_back(word);
-    words.push_back(name);
-    auto started = ChildProgram::start("ffprobe", words, input);
-    if (!started)
-        return started.error();
-    if (*started == nullptr)
-        return notInstalled("ffprobe");
-    const std::string printed = allOutput(**started, std::size_t(1) << 24);
-    const auto ending = (*started)->wait();
-    const Json found = Json::parse(printed, nullptr, false);
-    if (!ending.succeeded || !found.is_object())
-    {
-        const std::string why = complaintOf(ending.complaint, name);
-        return invalid(fmt::format("cannot be read by ffmpeg ({}); get a complete copy",
-                                   why.empty() ? "it did not say why" : why));
-    }
-
+    auto found = probed(name, pipe);
+    if (!found)
+        return found.error();
+    Probe probe;
+    probe.found = std::move(*found);
     FilmSound sound;
     sound.takesTruncated = options.allowTruncated;
-    std::vector<const Json*> tracks;
-    std::optional<double> picture;
-    for (const Json* stream : listOf(found, "streams"))
-    {
-        const std::string kind = textOf(*stream, "codec_type");
-        if (kind == "audio")
-            tracks.push_back(stream);
-        if (kind != "video" || numberOf(partOf(*stream, "disposition"), "attached_pic").value_or(0.0) != 0.0)
-            continue;
-        sound.hasPicture = true;
-        if (!picture)
-            picture = numberOf(*stream, "start_time");
-    }
-    if (tracks.empty())
-        return invalid(sound.hasPicture ? "is a film without sound; choose one with sound"
-                                        : "has no sound that ffmpeg knows; convert it to WAV elsewhere");
-    const auto chosen = std::find_if(tracks.begin(), tracks.end(),
-                                     [](const Json* one)
-                                     { return numberOf(partOf(*one, "disposition"), "default").value_or(0.0) != 0.0; });
-    const Json& track = chosen != tracks.end() ? **chosen : *tracks.front();
-    if (tracks.size() > 1)
-        sound.warnings.push_back(fmt::format(
-            "has {} tracks of sound; track {} is read; save another as a file of its own", tracks.size(),
-            trackText(static_cast<std::size_t>((chosen != tracks.end() ? chosen : tracks.begin()) - tracks.begin()) + 1,
-                      track)));
-
-    const double rate = numberOf(track, "sample_rate").value_or(0.0);
-    const double channels = numberOf(track, "channels").value_or(0.0);
-    if (!(rate >= 1.0 && rate < 1e9) || !(channels >= 1.0 && channels < 1e6))
-        return invalid("has a sound whose sample rate or channels ffmpeg cannot tell; get a complete copy");
-    sound.rate = static_cast<int>(rate);
-    sound.width = static_cast<int>(channels);
-    sound.special = specialChannelsOf(textOf(track, "channel_layout"));
-
-    const double begins = numberOf(track, "start_time").value_or(0.0);
-    const double zero = picture.value_or(std::max(begins, 0.0)); // codecs are primed before 0
-    if (!(std::abs(begins - zero) < latest))
-        return invalid("has a damaged header, by which its sound begins more than a day from its picture; get a "
-                       "complete copy");
-    sound.late = begins - zero;
-    if (begins < zero - shortest)
-        sound.warnings.push_back(
-            fmt::format("has a sound that begins before its picture; the first {:.3f} s are left out", zero - begins));
-
-    // What states a duration, and how reliably, differs by kind.
-    const std::string kind = textOf(partOf(found, "format"), "format_name");
-    std::optional<double> end;
-    if (kind.find("mov") != std::string::npos)
-    {
-        sound.duration = Duration::exact;
-        end = numberOf(track, "duration");
-        if (end)
-            *end += begins;
-    }
-    else if (kind.find("matroska") != std::string::npos)
-    {
-        sound.duration = Duration::atLeast;
-        end = secondsOfTag(textOf(partOf(track, "tags"), "DURATION"));
-    }
-    else if (kind == "wv" || kind == "tta" || kind == "ape" || kind == "caf")
-    {
-        sound.duration = Duration::atLeast;
-        end = numberOf(track, "duration");
-    }
-    if (!end)
-    {
-        sound.duration = Duration::estimated;
-        end = numberOf(partOf(found, "format"), "duration");
-        if (end)
-            *end += zero;
-    }
-    if (end && *end - zero < latest)
-        sound.stated = static_cast<std::uint64_t>(std::llround(std::max(*end - zero, 0.0) * sound.rate));
-
+    if (const auto taken = sound.takeTrack(probe); !taken)
+        return taken.error();
+    if (const auto taken = sound.takeTimes(probe); !taken)
+        return taken.error();
+    const std::string &kind = probe.kind, &codec = probe.codec;
+    const double index = numberOf(*probe.track, "index").value_or(0.0);
     if (const auto whole = sound.checkCut(file, kind); !whole)
         return whole.error();
-    const double index = numberOf(track, "index").value_or(0.0);
-    const std::string codec = textOf(track, "codec_name");
     if (kind.find("mov") != std::string::npos)
         sound.checkTables(file, isBehindTag ? options.begin : 0, index, codec);
     if (kind.find("matroska") != std::string::npos)
         sound.checkMatroska(file, codec);
     if (kind == "aac" || (codec == "aac" && !sound.hasPicture && (kind == "mpegts" || kind == "flv")))
         sound.warnings.push_back(primingWarning(aacPriming, sound.rate));
+    sound.takeChapters(probe);
 
-    std::size_t number = 0;
-    for (const Json* chapter : listOf(found, "chapters"))
-    {
-        ++number;
-        const auto time = numberOf(*chapter, "start_time");
-        std::string title = wellFormedUtf8(textOf(partOf(*chapter, "tags"), "title"));
-        if (time && *time - zero > -0.0005)
-            sound.markers.markers.push_back(
-                {std::max(*time - zero, 0.0), title.empty() ? fmt::format("chapter {}", number) : std::move(title)});
-        else
-            sound.markers.warnings.push_back(
-                fmt::format("has a chapter before its picture, {}, which is left out", number));
-    }
-
-    words = safely("level+verbose"); // which tells of samples that were added or left out
+    auto words = safely("level+verbose"); // which tells of samples that were added or left out
     words.insert(words.begin(), {"-nostdin", "-nostats", "-hide_banner", "-copyts"});
     if (options.toTheEnd && kind == "wav")
         words.insert(words.end(), {"-ignore_length", "1"});
     words.insert(words.end(), {"-i", name, "-map", fmt::format("0:{}", static_cast<int>(index)), "-af",
-                               fmt::format("aresample=async=1:first_pts={}", std::llround(zero * sound.rate)), "-ar",
-                               fmt::format("{}", sound.rate), "-ac", fmt::format("{}", sound.width), "-f",
+                               fmt::format("aresample=async=1:first_pts={}", std::llround(probe.zero * sound.rate)),
+                               "-ar", fmt::format("{}", sound.rate), "-ac", fmt::format("{}", sound.width), "-f",
                                std::endian::native == std::endian::little ? "f32le" : "f32be", "-"});
-    if (input != nullptr && !seekStream(file, 0, SEEK_SET))
-        return invalid("is a film, which cannot be read from a pipe here; save it to a file first");
-    auto decoder = ChildProgram::start("ffmpeg", words, input);
+    auto decoder = started("ffmpeg", words, pipe);
     if (!decoder)
         return decoder.error();
-    if (*decoder == nullptr)
-        return notInstalled("ffmpeg");
     sound.ffmpeg = std::move(*decoder);
     return sound;
+}
+
+Result<void> FilmSound::takeTrack(Probe& probe)
+{
+    std::vector<const Json*> tracks;
+    for (const Json* stream : listOf(probe.found, "streams"))
+    {
+        const std::string kind = textOf(*stream, "codec_type");
+        if (kind == "audio")
+            tracks.push_back(stream);
+        if (kind != "video" || numberOf(partOf(*stream, "disposition"), "attached_pic").value_or(0.0) != 0.0)
+            continue;
+        hasPicture = true;
+        if (!probe.picture)
+            probe.picture = numberOf(*stream, "start_time");
+    }
+    if (tracks.empty())
+        return invalid(hasPicture ? "is a film without sound; choose one with sound"
+                                  : "has no sound that ffmpeg knows; convert it to WAV elsewhere");
+    const auto chosen = std::find_if(tracks.begin(), tracks.end(),
+                                     [](const Json* one)
+                                     { return numberOf(partOf(*one, "disposition"), "default").value_or(0.0) != 0.0; });
+    probe.track = chosen != tracks.end() ? *chosen : tracks.front();
+    const Json& track = *probe.track;
+    if (tracks.size() > 1)
+        warnings.push_back(fmt::format(
+            "has {} tracks of sound; track {} is read; save another as a file of its own", tracks.size(),
+            trackText(static_cast<std::size_t>((chosen != tracks.end() ? chosen : tracks.begin()) - tracks.begin()) + 1,
+                      track)));
+
+    const double frequency = numberOf(track, "sample_rate").value_or(0.0);
+    const double count = numberOf(track, "channels").value_or(0.0);
+    if (!(frequency >= 1.0 && frequency < 1e9) || !(count >= 1.0 && count < 1e6))
+        return invalid("has a sound whose sample rate or channels ffmpeg cannot tell; get a complete copy");
+    rate = static_cast<int>(frequency);
+    width = static_cast<int>(count);
+    special = specialChannelsOf(textOf(track, "channel_layout"));
+    probe.codec = textOf(track, "codec_name");
+    return {};
+}
+
+Result<void> FilmSound::takeTimes(Probe& probe)
+{
+    const Json& track = *probe.track;
+    const double begins = numberOf(track, "start_time").value_or(0.0);
+    const double zero = probe.zero = probe.picture.value_or(std::max(begins, 0.0)); // codecs are primed before 0
+    if (!(std::abs(begins - zero) < latest))
+        return invalid("has a damaged header, by which its sound begins more than a day from its picture; get a "
+                       "complete copy");
+    late = begins - zero;
+    if (begins < zero - shortest)
+        warnings.push_back(
+            fmt::format("has a sound that begins before its picture; the first {:.3f} s are left out", zero - begins));
+
+    // What states a duration, and how reliably, differs by kind.
+    const std::string& kind = probe.kind = textOf(partOf(probe.found, "format"), "format_name");
+    std::optional<double> end;
+    if (kind.find("mov") != std::string::npos)
+    {
+        duration = Duration::exact;
+        end = numberOf(track, "duration");
+        if (end)
+            *end += begins;
+    }
+    else if (kind.find("matroska") != std::string::npos)
+    {
+        duration = Duration::atLeast;
+        end = secondsOfTag(textOf(partOf(track, "tags"), "DURATION"));
+    }
+    else if (kind == "wv" || kind == "tta" || kind == "ape" || kind == "caf")
+    {
+        duration = Duration::atLeast;
+        end = numberOf(track, "duration");
+    }
+    if (!end)
+    {
+        duration = Duration::estimated;
+        end = numberOf(partOf(probe.found, "format"), "duration");
+        if (end)
+            *end += zero;
+    }
+    if (end && *end - zero < latest)
+        stated = static_cast<std::uint64_t>(std::llround(std::max(*end - zero, 0.0) * rate));
+    return {};
+}
+
+void FilmSound::takeChapters(const Probe& probe)
+{
+    std::size_t number = 0;
+    for (const Json* chapter : listOf(probe.found, "chapters"))
+    {
+        ++number;
+        const auto time = numberOf(*chapter, "start_time");
+        std::string title = wellFormedUtf8(textOf(partOf(*chapter, "tags"), "title"));
+        if (time && *time - probe.zero > -0.0005)
+            markers.markers.push_back({std::max(*time - probe.zero, 0.0),
+                                       title.empty() ? fmt::format("chapter {}", number) : std::move(title)});
+        else
+            markers.warnings.push_back(fmt::format("has a chapter before its picture, {}, which is left out", number));
+    }
 }
 
 std::size_t FilmSound::readFrames(std::span<float> interleaved)

@@ -72,7 +72,12 @@ private:
         estimated ///< only for bars of progress
     };
 
+    struct Probe;
+
     FilmSound() = default;
+    [[nodiscard]] Result<void> takeTrack(Probe& probe);
+    [[nodiscard]] Result<void> takeTimes(Probe& probe);
+    void takeChapters(const Probe& probe);
     [[nodiscard]] std::size_t readFrames(std::span<float> interleaved);
     [[nodiscard]] Result<void> explainEnd();
     [[nodiscard]] Result<void> checkCut(std::FILE* file, const std::string& kind);
