@@ -68,6 +68,27 @@ double changeOf(const TighteningStrapParams& strap, double low, double high, con
     }
     return std::sqrt(sum);
 }
+
+/// A table of the bands, which are added to `list` too.
+std::string bandsText(const TighteningStrapParams& strap, const DynamicCompensation& compensation, Json& list)
+{
+    const auto frequencies = compensation.frequencies();
+    std::string text = fmt::format("{:>9}  {:>10}  {:>9}\n", "Hz", "strap dB", "gain dB");
+    for (std::size_t k = 0; k < frequencies.size(); ++k)
+    {
+        const double f = frequencies[k];
+        const double change = strapLevel(strap, f, true) - strapLevel(strap, f, false);
+        Json band{{"frequency", f}, {"change", change}, {"gain", compensation.gain(k)}};
+        if (const auto level = compensation.measured(k))
+            band["measured"] = *level;
+        if (const auto level = compensation.reference(k))
+            band["reference"] = *level;
+        list.push_back(std::move(band));
+        text += fmt::format("{:>9.1f}  {:>10}  {:>9}\n", f, signedText(change, 2),
+                            compensation.measured(k) ? signedText(compensation.gain(k), 2) : "silent");
+    }
+    return text;
+}
 } // namespace
 
 CLI::App* CompensateSubcommand::declare(CLI::App& app)
@@ -151,20 +172,7 @@ Exit CompensateSubcommand::run(Console& console)
     const double before = changeOf(strap, frequencies.front(), frequencies.back(), nullptr);
     const double after = changeOf(strap, frequencies.front(), frequencies.back(), &compensation);
     Json list = Json::array();
-    std::string text = fmt::format("{:>9}  {:>10}  {:>9}\n", "Hz", "strap dB", "gain dB");
-    for (std::size_t k = 0; k < frequencies.size(); ++k)
-    {
-        const double f = frequencies[k];
-        const double change = strapLevel(strap, f, true) - strapLevel(strap, f, false);
-        Json band{{"frequency", f}, {"change", change}, {"gain", compensation.gain(k)}};
-        if (const auto level = compensation.measured(k))
-            band["measured"] = *level;
-        if (const auto level = compensation.reference(k))
-            band["reference"] = *level;
-        list.push_back(std::move(band));
-        text += fmt::format("{:>9.1f}  {:>10}  {:>9}\n", f, signedText(change, 2),
-                            compensation.measured(k) ? signedText(compensation.gain(k), 2) : "silent");
-    }
+    std::string text = bandsText(strap, compensation, list);
     text += fmt::format("changes by {:.2f} dB RMS under the strap, with compensation by {:.2f} dB", before, after);
     if (!output.empty())
     {

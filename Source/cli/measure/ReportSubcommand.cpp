@@ -178,6 +178,8 @@ struct ReportSubcommand : Command
     CLI::App* declare(CLI::App& app) override;
     Exit run(Console& console) override;
 
+    /// How the command ends before anything is read, if it does.
+    [[nodiscard]] std::optional<Exit> checkOptions(Console& console, const RecordingOptions& loaded) const;
     /// The peak at full drive, V, if it is known.
     [[nodiscard]] std::optional<double> voltage(const std::optional<Profile>& actuator) const;
     [[nodiscard]] Result<Page> page(const AnalysedRecordings& free, const std::optional<AnalysedRecordings>& worn,
@@ -268,14 +270,12 @@ Result<Page> ReportSubcommand::page(const AnalysedRecordings& free, const std::o
     return page;
 }
 
-Exit ReportSubcommand::run(Console& console)
+std::optional<Exit> ReportSubcommand::checkOptions(Console& console, const RecordingOptions& loaded) const
 {
     const std::string extension = lowerExtension(output);
     if (extension != ".html" && extension != ".json")
         return console.fail(output, {ErrorCode::invalidArgument, "", "must have the extension .html or .json"},
                             Exit::usage);
-    RecordingOptions loaded = options;
-    loaded.recordings = worn;
     for (const RecordingOptions* inputs : {&options, &loaded})
         if (const auto wrong = overwrittenInput(*inputs, {output}))
             return console.fail(wrong->first, wrong->second, Exit::usage);
@@ -287,6 +287,15 @@ Exit ReportSubcommand::run(Console& console)
         console.kept(kept);
         return Exit::ok;
     }
+    return {};
+}
+
+Exit ReportSubcommand::run(Console& console)
+{
+    RecordingOptions loaded = options;
+    loaded.recordings = worn;
+    if (const auto ended = checkOptions(console, loaded))
+        return *ended;
     std::optional<Profile> actuator;
     if (!profile.empty())
     {
@@ -339,7 +348,7 @@ Exit ReportSubcommand::run(Console& console)
         json["volts"] = *peak;
     json.update(figuresJson(figures));
     std::string text;
-    if (extension == ".json")
+    if (lowerExtension(output) == ".json")
         text = json.dump(2) + "\n";
     else
     {
