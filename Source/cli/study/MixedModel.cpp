@@ -1,24 +1,16 @@
 #include "cli/study/MixedModel.h"
 
+#include "io/ChildProgram.h"
+#include "io/FileHandle.h"
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <array>
 #include <cerrno>
-#include <csignal>
+#include <cstddef>
+#include <cstdio>
 #include <cstring>
-#include <string_view>
-#include <utility>
-
-#if !defined(_WIN32)
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
-#if defined(__APPLE__)
-extern char** environ;
-#endif
-#endif
+#include <string>
 
 namespace pacini::cli
 {
@@ -27,7 +19,6 @@ namespace
 {
 using Json = nlohmann::json;
 
-// The table comes first: a program that ends without reading it would leave the other end of the pipe nobody.
 constexpr const char* program = R"python(import io, json, sys, warnings
 table = sys.stdin.read()
 try:
@@ -69,90 +60,24 @@ except Exception as error:
     print(json.dumps({"failed": f"{type(error).__name__}: {error}"}))
 )python";
 
-#if !defined(_WIN32)
-/// Both ends of a pipe, closed at the end.
-class Pipe
-{
-public:
-    Pipe()
-    {
-        if (pipe(ends.data()) != 0)
-            ends = {-1, -1};
-    }
-    ~Pipe()
-    {
-        closeEnd(0);
-        closeEnd(1);
-    }
-    Pipe(const Pipe&) = delete;
-    Pipe& operator=(const Pipe&) = delete;
-    [[nodiscard]] int end(std::size_t which) const { return ends[which]; }
-    void closeEnd(std::size_t which)
-    {
-        if (ends[which] >= 0)
-            close(std::exchange(ends[which], -1));
-    }
-
-private:
-    std::array<int, 2> ends{-1, -1};
-};
-
 /// What a program of Python prints that is given `input`.
-Result<std::string> runPython(const char* source, std::string_view input)
+Result<std::string> runPython(const char* source, const std::string& input)
 {
-    Pipe in, out;
-    if (in.end(0) < 0 || out.end(0) < 0)
-        return Error{ErrorCode::io, "python3", "cannot be started: too many files are open"};
-    posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_adddup2(&actions, in.end(0), STDIN_FILENO);
-    posix_spawn_file_actions_adddup2(&actions, out.end(1), STDOUT_FILENO);
-    for (const int end : {in.end(0), in.end(1), out.end(0), out.end(1)})
-        posix_spawn_file_actions_addclose(&actions, end);
-    std::array<std::string, 3> words{"python3", "-c", source};
-    std::array<char*, 4> line{words[0].data(), words[1].data(), words[2].data(), nullptr};
-    pid_t child = 0;
-    const int failed = posix_spawnp(&child, "python3", &actions, nullptr, line.data(), environ);
-    posix_spawn_file_actions_destroy(&actions);
-    if (failed != 0)
-        return Error{ErrorCode::io, "python3", fmt::format("cannot be started: {}", std::strerror(failed))};
-    in.closeEnd(0);
-    out.closeEnd(1);
-    const auto before = std::signal(SIGPIPE, SIG_IGN); // it may end early
-    while (!input.empty())
-    {
-        const ssize_t written = write(in.end(1), input.data(), input.size());
-        if (written < 0 && errno == EINTR)
-            continue;
-        if (written <= 0)
-            break;
-        input.remove_prefix(static_cast<std::size_t>(written));
-    }
-    in.closeEnd(1);
-    std::signal(SIGPIPE, before);
-    std::string printed;
-    std::array<char, 4096> piece;
-    for (;;)
-    {
-        const ssize_t got = read(out.end(0), piece.data(), piece.size());
-        if (got < 0 && errno == EINTR)
-            continue;
-        if (got <= 0)
-            break;
-        printed.append(piece.data(), static_cast<std::size_t>(got));
-    }
-    while (waitpid(child, nullptr, 0) < 0 && errno == EINTR)
-    {
-    }
+    const FileHandle table = namelessStream();
+    if (!table || std::fwrite(input.data(), 1, input.size(), table.get()) != input.size() ||
+        !seekStream(table.get(), 0, SEEK_SET))
+        return fileError(errno);
+    const auto python = ChildProgram::start("python3", {"-c", source}, table.get());
+    if (!python)
+        return python.error();
+    if (*python == nullptr)
+        return Error{ErrorCode::io, "python3", fmt::format("cannot be started: {}", std::strerror(ENOENT))};
+    constexpr std::size_t most = std::size_t(1) << 24; // bytes
+    std::string printed = allOutput(**python, most);
+    const auto ending = (*python)->wait();
+    std::fputs(ending.complaint.c_str(), stderr);
     return printed;
 }
-#else
-Result<std::string> runPython(const char*, std::string_view)
-{
-    return Error{ErrorCode::io, "python3",
-                 "is not available on Windows; export the ratings and fit them with another program"};
-}
-#endif
 
 double numberOf(const Json& object, const char* name)
 {
