@@ -263,10 +263,9 @@ Exit ConvertCommand::convertProfile(Console& console)
         reportPlan(console, tasks);
         return Exit::ok;
     }
-    if (overwriting.keepsAll() && isOccupied(output))
+    if (overwriting.keeps(console, {output}))
     {
         console.addToReport(fileList(nlohmann::ordered_json::array(), false));
-        console.kept(output);
         return Exit::ok;
     }
     const auto textOf = [&]() -> std::string

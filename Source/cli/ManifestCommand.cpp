@@ -115,11 +115,8 @@ struct MergeSubcommand : Command
         const MissingShards missing = made.missing();
         if (!missing.names.empty())
             merged.shards = made.shards;
-        if (overwriting.keepsAll() && isOccupied(output))
-        {
-            console.kept(output);
+        if (overwriting.keeps(console, {output}))
             return Exit::ok;
-        }
         // The user named it; only what is no manifest at all is worth a word.
         if (!overwriting.replacesAll() && !readManifest(output))
             return console.fail("", notReplaced(output, "exists and is not a manifest"));

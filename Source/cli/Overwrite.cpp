@@ -1,8 +1,11 @@
 #include "cli/Overwrite.h"
 
+#include "cli/Console.h"
 #include "io/AtomicFile.h"
 
 #include <fmt/format.h>
+
+#include <algorithm>
 
 namespace pacini::cli
 {
@@ -19,12 +22,14 @@ void OverwriteOptions::declare(CLI::App& command)
         ->excludes(no);
 }
 
-std::string OverwriteOptions::kept(std::initializer_list<std::string> outputs) const
+bool OverwriteOptions::keeps(Console& console, std::initializer_list<fs::path> outputs) const
 {
-    for (const std::string& output : outputs)
-        if (keep && !output.empty() && isOccupied(output))
-            return output;
-    return {};
+    const auto kept =
+        std::find_if(outputs.begin(), outputs.end(),
+                     [this](const fs::path& output) { return keep && !output.empty() && isOccupied(output); });
+    if (kept != outputs.end())
+        console.kept(*kept);
+    return kept != outputs.end();
 }
 
 Replaceable OverwriteOptions::of(bool named) const noexcept

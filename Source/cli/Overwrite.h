@@ -18,6 +18,8 @@
 namespace pacini::cli
 {
 
+class Console;
+
 /// The error of an output that is the input.
 inline constexpr const char* alsoInput = "is also the input; choose another output with -o";
 
@@ -29,8 +31,8 @@ public:
 
     [[nodiscard]] bool keepsAll() const noexcept { return keep; }
 
-    /// The first of `outputs` (empty names aside) that exists and is kept; empty: none.
-    [[nodiscard]] std::string kept(std::initializer_list<std::string> outputs) const;
+    /// Whether one of `outputs` (empty names aside) exists and is kept, which is said.
+    [[nodiscard]] bool keeps(Console& console, std::initializer_list<std::filesystem::path> outputs) const;
     [[nodiscard]] bool replacesAll() const noexcept { return replace; }
 
     /// For a file that the user named, or did not.

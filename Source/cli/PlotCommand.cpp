@@ -227,11 +227,8 @@ Exit PlotCommand::run(Console& console)
         return console.fail("", {ErrorCode::invalidArgument, "--from", "must be before --to"}, Exit::usage);
     if (std::error_code ignored; std::filesystem::equivalent(*target, path, ignored))
         return console.fail(input, {ErrorCode::invalidArgument, "", alsoInput});
-    if (overwriting.keepsAll() && isOccupied(*target))
-    {
-        console.kept(*target);
+    if (overwriting.keeps(console, {*target}))
         return Exit::ok;
-    }
 
     const plot::FigureStyle style{*parseSize(size), dark};
     ReadWarnings keys(console.isStrict());

@@ -214,11 +214,8 @@ Exit AnalyseSubcommand::run(Console& console)
                             Exit::usage);
     if (const auto wrong = overwrittenInput(options, {output, picture, impulse}))
         return console.fail(wrong->first, wrong->second, Exit::usage);
-    if (const std::string kept = overwriting.kept({output, picture, impulse}); !kept.empty())
-    {
-        console.kept(kept);
+    if (overwriting.keeps(console, {output, picture, impulse}))
         return Exit::ok;
-    }
     Profile profile;
     profile.technology = Technology::vca;
     profile.name = output.empty() ? "" : std::filesystem::path(output).stem().string();

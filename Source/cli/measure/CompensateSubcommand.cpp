@@ -134,11 +134,8 @@ Exit CompensateSubcommand::run(Console& console)
     if (!output.empty() && isSameFile(output, input))
         return console.fail(output, {ErrorCode::invalidArgument, "", "is the drive; name another output"}, Exit::usage);
 
-    if (const std::string kept = overwriting.kept({output}); !kept.empty())
-    {
-        console.kept(kept);
+    if (overwriting.keeps(console, {output}))
         return Exit::ok;
-    }
     constexpr double mostFrames = 4e7; // three channels of them are half a gigabyte
     if (!output.empty() && duration * sound.sampleRate > mostFrames)
         return console.fail(output,

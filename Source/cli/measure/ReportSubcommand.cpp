@@ -282,11 +282,8 @@ std::optional<Exit> ReportSubcommand::checkOptions(Console& console, const Recor
     if (mass && worn.empty())
         return console.fail("", {ErrorCode::invalidArgument, "--mass", "needs --worn, the recordings with that mass"},
                             Exit::usage);
-    if (const std::string kept = overwriting.kept({output}); !kept.empty())
-    {
-        console.kept(kept);
+    if (overwriting.keeps(console, {output}))
         return Exit::ok;
-    }
     return {};
 }
 

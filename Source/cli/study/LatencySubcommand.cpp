@@ -96,11 +96,8 @@ Exit LatencySubcommand::run(Console& console)
 
 Exit LatencySubcommand::writeProbe(Console& console, const OpenedStudy& opened)
 {
-    if (overwriting.keepsAll() && isOccupied(probeFile))
-    {
-        console.kept(probeFile);
+    if (overwriting.keeps(console, {probeFile}))
         return Exit::ok;
-    }
     std::vector<float> burst = study::latencyBurst(probe);
     const std::string actuator = actuatorOf(opened.study, opened.folder, profile);
     if (!actuator.empty())

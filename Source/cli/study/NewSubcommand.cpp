@@ -86,11 +86,8 @@ struct NewSubcommand : Command
         const fs::path file = isFile ? named : named / study::studyFileName;
         const fs::path folder = file.parent_path();
         std::error_code unknown;
-        if (overwriting.keepsAll() && isOccupied(file))
-        {
-            console.kept(file);
+        if (overwriting.keeps(console, {file}))
             return Exit::ok;
-        }
         if (isOccupied(file) && !overwriting.replacesAll())
             return console.fail(file.string(), {ErrorCode::io, "", "exists; -y replaces it"});
         const InputFiles found = findInputs(sounds, audioExtensions());

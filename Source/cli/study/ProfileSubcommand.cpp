@@ -49,11 +49,8 @@ struct ProfileSubcommand : Command
         const auto personal = study::personalProfile(*base, *results, participant);
         if (!personal)
             return console.fail(named, personal.error());
-        if (overwriting.keepsAll() && isOccupied(output))
-        {
-            console.kept(output);
+        if (overwriting.keeps(console, {output}))
             return Exit::ok;
-        }
         const auto written = writeProfile(output, *personal);
         if (!written)
             return console.fail(output, written.error());

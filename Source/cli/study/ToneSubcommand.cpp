@@ -39,11 +39,8 @@ struct ToneSubcommand : Command
 
     Exit run(Console& console) override
     {
-        if (overwriting.keepsAll() && isOccupied(output))
-        {
-            console.kept(output);
+        if (overwriting.keeps(console, {output}))
             return Exit::ok;
-        }
         if (isOccupied(output) && !overwriting.replacesAll())
             return console.fail(output, {ErrorCode::io, "", "exists; -y replaces it"});
         AudioWriteParams writing;

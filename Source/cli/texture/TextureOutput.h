@@ -21,11 +21,8 @@ namespace pacini::cli
     for (const std::string& input : inputs)
         if (!isStandardOutput(output) && !isStream(input) && isSameFile(output, input))
             return console.fail(input, {ErrorCode::invalidArgument, "", alsoInput});
-    if (overwriting.keepsAll() && isOccupied(output))
-    {
-        console.kept(output);
+    if (overwriting.keeps(console, {output}))
         return Exit::ok;
-    }
     if (isStandardOutput(output))
         console.keepStdoutFree();
     return std::nullopt;
