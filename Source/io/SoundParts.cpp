@@ -532,17 +532,6 @@ private:
         std::uint64_t stream = 0, nextPage = 0;
         bool isSound = false;          // what `stream` is
         std::set<std::uint64_t> begun; // streams of the part
-        const auto mendTimes = [&]
-        {
-            if (parts.empty() || !isSound)
-                return;
-            SoundPart& part = parts.back();
-            const auto content = oggContent(file, part.begin, part.end, stream);
-            part.framesLeftOut = content.leftOut;
-            part.damagedPages = content.damagedPages;
-            part.packetFrames = content.frames;
-            mendEarlyStart(part, stream);
-        };
         for (auto offset = begin; offset < end;)
         {
             const auto bytes = oggPageBytes(file, offset);
@@ -559,13 +548,13 @@ private:
             const bool starts = (flags & beginsStream) != 0, ends = (flags & endsStream) != 0;
             if ((starts && !headers) || parts.empty())
             {
+                if (isSound)
+                    mendTimes(stream);
                 if (parts.size() == mostParts)
                 {
                     parts.back().leftOutBytes += end - offset;
-                    mendTimes();
                     return;
                 }
-                mendTimes();
                 parts.emplace_back().begin = offset;
                 isSound = false;
                 begun.clear();
@@ -607,12 +596,19 @@ private:
             part.end = std::min(offset, end);
         }
         parts.back().skippedBytes += skipped;
-        mendTimes();
+        if (isSound)
+            mendTimes(stream);
     }
 
-    /// Lets a stream begin at 0 that begins before it, which not all decoders honour.
-    void mendEarlyStart(SoundPart& part, std::uint64_t stream)
+    /// Takes the times of the last part, whose sound is `stream`, and lets it begin at 0 where it begins before it,
+    /// which not all decoders honour.
+    void mendTimes(std::uint64_t stream)
     {
+        SoundPart& part = parts.back();
+        const auto content = oggContent(file, part.begin, part.end, stream);
+        part.framesLeftOut = content.leftOut;
+        part.damagedPages = content.damagedPages;
+        part.packetFrames = content.frames;
         auto shift = vorbisShift(file, part.begin, part.end, stream);
         if (shift.frames == 0)
             return;
