@@ -531,16 +531,22 @@ TEST_CASE("Slow sounds are read at a multiple of their rate, which is said", "[i
     CHECK(asItIs->warnings.empty());
 }
 
+namespace
+{
+std::vector<float> readsWithoutWarning(const std::string& bytes)
+{
+    const TempFolder folder;
+    const auto audio = readAudio(put(folder / "x", bytes));
+    REQUIRE(audio.ok());
+    CHECK(audio->warnings.empty());
+    return audio->samples;
+}
+} // namespace
+
 TEST_CASE("A WAV may have its audio in a list of waves, and in front of its format", "[io][audio]")
 {
     const TempFolder folder;
-    const auto read = [&](const std::string& bytes)
-    {
-        const auto audio = readAudio(put(folder / "x", bytes));
-        REQUIRE(audio.ok());
-        CHECK(audio->warnings.empty());
-        return audio->samples;
-    };
+    const auto read = readsWithoutWarning;
     const std::string wave = waveFile("RIFF").bytes, data = wave.substr(44);
     const auto whole = read(wave);
     const auto chunk = [](const std::string& id, const std::string& content)
@@ -616,13 +622,7 @@ TEST_CASE("MPEG audio in a file of chunks is read as if it lay alone", "[io][aud
 TEST_CASE("Audio in several chunks of one file is read as one", "[io][audio]")
 {
     const TempFolder folder;
-    const auto read = [&](const std::string& bytes)
-    {
-        const auto audio = readAudio(put(folder / "x", bytes));
-        REQUIRE(audio.ok());
-        CHECK(audio->warnings.empty());
-        return audio->samples;
-    };
+    const auto read = readsWithoutWarning;
     // The header in front of the audio is that of the known sound; its size is of the first part alone.
     const std::string listOfWave = "LIST" + littleEndian(4, 4) + "INFO", listOfAiff = "NAME" + bigEndian(2, 4) + "ab";
     const std::string guid("\xF3\xAC\xD3\x11\x8C\xD1\x00\xC0\x4F\x8E\xDB\x8A", 12);
