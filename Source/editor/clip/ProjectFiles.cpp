@@ -98,25 +98,14 @@ void ProjectFiles::askWhatToOpen()
 
 void ProjectFiles::askWhatFolder()
 {
-    choose(tr("Open all sounds and clips in a folder"), Purpose::openingFolder,
-           [this](const juce::Array<juce::File>& chosen)
-           {
-               if (!chosen.isEmpty())
-                   open({pathOf(chosen[0])});
-           });
+    chooseOne(tr("Open all sounds and clips in a folder"), Purpose::openingFolder,
+              [this](const std::filesystem::path& folder) { open({folder}); });
 }
 
 void ProjectFiles::askForSound(const juce::String& title, const std::filesystem::path& start,
                                std::function<void(const std::filesystem::path&)> chosen)
 {
-    choose(
-        title, Purpose::openingSound,
-        [chosen = std::move(chosen)](const juce::Array<juce::File>& files)
-        {
-            if (!files.isEmpty())
-                chosen(pathOf(files[0]));
-        },
-        start);
+    chooseOne(title, Purpose::openingSound, std::move(chosen), start);
 }
 
 void ProjectFiles::tellMissing(const std::vector<AudioReference>& missing)
@@ -250,76 +239,69 @@ void ProjectFiles::choose(const juce::String& title, Purpose purpose,
     chooser->launchAsync(flags, [chosen](const juce::FileChooser& done) { chosen(done.getResults()); });
 }
 
-void ProjectFiles::askForProfile()
-{
-    choose(tr("Load the profile of an actuator"), Purpose::openingJson,
-           [this](const juce::Array<juce::File>& chosen)
-           {
-               if (chosen.isEmpty())
-                   return;
-               const auto file = pathOf(chosen[0]);
-               auto read = readProfile(file);
-               if (!read)
-                   return view.session().model.report(tr("{0} not opened", {pathText(file.filename())}).toStdString(),
-                                                      read.error());
-               view.session().actuators.addProfile(
-                   {file.stem().string(), std::make_shared<const Profile>(std::move(read).value()), true}, true);
-           });
-}
-
-void ProjectFiles::askForStudy()
-{
-    choose(tr("Run a study"), Purpose::openingJson,
-           [this](const juce::Array<juce::File>& chosen)
-           {
-               if (!chosen.isEmpty())
-                   view.hostServices().runStudy(pathOf(chosen[0]));
-           });
-}
-
-void ProjectFiles::askForStudyReport()
-{
-    choose(tr("Report of a study"), Purpose::openingJson,
-           [this](const juce::Array<juce::File>& chosen)
-           {
-               if (chosen.isEmpty())
-                   return;
-               auto& model = view.session().model;
-               if (model.onNotice)
-                   model.onNotice(tr(toText("Writing the report…")));
-               jobs.run([file = pathOf(chosen[0])] { return reportStudy(file); },
-                        [&model](const Result<std::filesystem::path>& page)
-                        {
-                            if (!page)
-                                return model.report("No report", page.error());
-                            if (model.onWritten)
-                                model.onWritten({*page});
-                            juce::URL(juce::File(pathText(*page))).launchInDefaultBrowser();
-                        });
-           });
-}
-
-void ProjectFiles::askForFolder(const juce::String& title, const std::filesystem::path& start,
-                                std::function<void(const std::filesystem::path&)> chosen)
+void ProjectFiles::chooseOne(const juce::String& title, Purpose purpose,
+                             std::function<void(const std::filesystem::path&)> chosen,
+                             const std::filesystem::path& wantedStart)
 {
     choose(
-        title, Purpose::openingFolder,
+        title, purpose,
         [chosen = std::move(chosen)](const juce::Array<juce::File>& files)
         {
             if (!files.isEmpty())
                 chosen(pathOf(files[0]));
         },
-        start);
+        wantedStart);
+}
+
+void ProjectFiles::askForProfile()
+{
+    chooseOne(tr("Load the profile of an actuator"), Purpose::openingJson,
+              [this](const std::filesystem::path& file)
+              {
+                  auto read = readProfile(file);
+                  if (!read)
+                      return view.session().model.report(
+                          tr("{0} not opened", {pathText(file.filename())}).toStdString(), read.error());
+                  view.session().actuators.addProfile(
+                      {file.stem().string(), std::make_shared<const Profile>(std::move(read).value()), true}, true);
+              });
+}
+
+void ProjectFiles::askForStudy()
+{
+    chooseOne(tr("Run a study"), Purpose::openingJson,
+              [this](const std::filesystem::path& file) { view.hostServices().runStudy(file); });
+}
+
+void ProjectFiles::askForStudyReport()
+{
+    chooseOne(tr("Report of a study"), Purpose::openingJson,
+              [this](const std::filesystem::path& file)
+              {
+                  auto& model = view.session().model;
+                  if (model.onNotice)
+                      model.onNotice(tr(toText("Writing the report…")));
+                  jobs.run([file] { return reportStudy(file); },
+                           [&model](const Result<std::filesystem::path>& page)
+                           {
+                               if (!page)
+                                   return model.report("No report", page.error());
+                               if (model.onWritten)
+                                   model.onWritten({*page});
+                               juce::URL(juce::File(pathText(*page))).launchInDefaultBrowser();
+                           });
+              });
+}
+
+void ProjectFiles::askForFolder(const juce::String& title, const std::filesystem::path& start,
+                                std::function<void(const std::filesystem::path&)> chosen)
+{
+    chooseOne(title, Purpose::openingFolder, std::move(chosen), start);
 }
 
 void ProjectFiles::askForSettings(std::function<void(const std::filesystem::path&)> chosen)
 {
-    choose(tr("Load settings"), Purpose::openingJson,
-           [chosen = std::move(chosen)](const juce::Array<juce::File>& files)
-           {
-               if (!files.isEmpty())
-                   chosen(pathOf(files[0]));
-           });
+    chooseOne(tr("Load settings"), Purpose::openingJson, std::move(chosen));
 }
 
 void ProjectFiles::offerRecovery()

@@ -70,6 +70,9 @@ private:
     void choose(const juce::String& title, Purpose purpose,
                 const std::function<void(const juce::Array<juce::File>&)>& chosen,
                 const std::filesystem::path& wantedStart = {});
+    /// Nothing is done without a choice.
+    void chooseOne(const juce::String& title, Purpose purpose, std::function<void(const std::filesystem::path&)> chosen,
+                   const std::filesystem::path& wantedStart = {});
     void finishSaving(const Result<void>& saved, const std::filesystem::path& file, const std::function<void()>& next);
 
     EditorView& view;
