@@ -63,11 +63,21 @@ EditorView::EditorView(Session& shared, HostServices around)
     body.addChildComponent(notice);
     addKeyListener(menuList.keys());
     body.addMouseListener(this, true);
-    toolbar.onCommand = [this](Command command)
+    connectParts();
+    translateTexts(body);
+    if (const auto problem = languageProblem(); problem.isNotEmpty())
     {
-        doCommand(command);
-    };
-    clipPart.onCommand = [this](Command command)
+        notice.showAdvice(problem);
+        speak(problem);
+    }
+    connectSession();
+    juce::Desktop::getInstance().addFocusChangeListener(this);
+    arrange();
+}
+
+void EditorView::connectParts()
+{
+    toolbar.onCommand = clipPart.onCommand = [this](Command command)
     {
         doCommand(command);
     };
@@ -92,6 +102,23 @@ EditorView::EditorView(Session& shared, HostServices around)
     {
         fileQuestions.open({file});
     };
+    if (host.reconnect)
+        status.onReconnect = [this]
+        {
+            reconnect();
+        };
+    over.onClosed = [this]
+    {
+        takeFocus();
+    };
+    speaker.onMissing = [this]
+    {
+        notice.show(tr("Nothing is spoken: spd-say is missing. Install the package speech-dispatcher."));
+    };
+}
+
+void EditorView::connectSession()
+{
     open.model.onError = [this](const juce::String& title, const juce::String& text)
     {
         showMessage(std::make_unique<MessageSheet>(title, text, std::vector<Sheet::Answer>{{"Close", {}}}));
@@ -115,25 +142,6 @@ EditorView::EditorView(Session& shared, HostServices around)
     {
         tellNowhere();
     };
-    if (host.reconnect)
-        status.onReconnect = [this]
-        {
-            reconnect();
-        };
-    over.onClosed = [this]
-    {
-        takeFocus();
-    };
-    speaker.onMissing = [this]
-    {
-        notice.show(tr("Nothing is spoken: spd-say is missing. Install the package speech-dispatcher."));
-    };
-    translateTexts(body);
-    if (const auto problem = languageProblem(); problem.isNotEmpty())
-    {
-        notice.showAdvice(problem);
-        speak(problem);
-    }
     subscriptions.on({&open.model.contentChanged, &open.model.projectChanged, &open.sounds.workChanged},
                      [this] { arrange(); });
     subscriptions.on({&open.outputs.changed}, [this] { resized(); });
@@ -150,8 +158,6 @@ EditorView::EditorView(Session& shared, HostServices around)
     subscriptions.on({&open.model.contentChanged, &open.model.projectChanged, &open.transport.changed,
                       &open.actuators.changed, &open.outputs.changed, &open.viewState.lookChanged},
                      [this] { speakStatus(); });
-    juce::Desktop::getInstance().addFocusChangeListener(this);
-    arrange();
 }
 
 /// Where the user wants that.

@@ -137,6 +137,8 @@ private:
     void fileDragExit(const juce::StringArray&) override { start.setDropping(false); }
     void filesDropped(const juce::StringArray& files, int x, int y) override;
 
+    void connectParts();   ///< what they ask for is done
+    void connectSession(); ///< what it tells is shown
     void arrange();
 
     Session& open;

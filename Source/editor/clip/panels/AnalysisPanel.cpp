@@ -38,30 +38,6 @@ AnalysisPanel::AnalysisPanel(EditorView& shown)
       edits(shown.session().model, shown.session().viewState, shown.session().transport)
 {
     setTitle("Analysis");
-    ownPresets.settings = [this]
-    {
-        return analysisSettings(params());
-    };
-    ownPresets.load = [this](const std::filesystem::path& file, const juce::String& name)
-    {
-        return take(file, name);
-    };
-    ownPresets.onSaved = [this](const juce::String& name)
-    {
-        fillPresets();
-        if (name.isNotEmpty())
-            lastOwn = OwnPreset{name, params()};
-        showPreset(params());
-    };
-    ownPresets.onRenamed = [this](const juce::String& old, const juce::String& name)
-    {
-        fillPresets();
-        if (lastOwn && lastOwn->name == old)
-            lastOwn->name = name;
-        if (lastOwn && lastOwn->name.isEmpty())
-            lastOwn.reset();
-        showPreset(params());
-    };
     const auto label = [this](juce::Label& one, const juce::String& text)
     {
         prepareLabel(one, text, smallFont());
@@ -99,6 +75,54 @@ AnalysisPanel::AnalysisPanel(EditorView& shown)
                       set({});
                       edited();
                   });
+    connectPresets();
+    prepareSoundButtons();
+    addAll(*this, {&replaceButton, &findButton, &preset, &resetButton, &spacing, &normalise, &edits});
+    prepareKnobs();
+    setSize(200, preferredHeight);
+    subscriptions.on({&sounds.workChanged},
+                     [this]
+                     {
+                         // The wish was carried out, or was stopped.
+                         if (!sounds.workNow() && !isTimerRunning())
+                             waiting.reset();
+                     });
+    subscriptions.on({&model.projectChanged, &model.versionChanged, &sounds.changed, &sounds.workChanged},
+                     [this] { show(); });
+    lookAndFeelChanged();
+    show();
+}
+
+void AnalysisPanel::connectPresets()
+{
+    ownPresets.settings = [this]
+    {
+        return analysisSettings(params());
+    };
+    ownPresets.load = [this](const std::filesystem::path& file, const juce::String& name)
+    {
+        return take(file, name);
+    };
+    ownPresets.onSaved = [this](const juce::String& name)
+    {
+        fillPresets();
+        if (name.isNotEmpty())
+            lastOwn = OwnPreset{name, params()};
+        showPreset(params());
+    };
+    ownPresets.onRenamed = [this](const juce::String& old, const juce::String& name)
+    {
+        fillPresets();
+        if (lastOwn && lastOwn->name == old)
+            lastOwn->name = name;
+        if (lastOwn && lastOwn->name.isEmpty())
+            lastOwn.reset();
+        showPreset(params());
+    };
+}
+
+void AnalysisPanel::prepareSoundButtons()
+{
     prepareButton(
         replaceButton, "Replaces the source sound of this clip and keeps its edits",
         [this]
@@ -117,20 +141,6 @@ AnalysisPanel::AnalysisPanel(EditorView& shown)
                 view.files().askForSound(tr("Locate {0}", {pathText(sound->path.filename())}), sound->path,
                                          [this](const std::filesystem::path& file) { sounds.findSounds(file); });
         });
-    addAll(*this, {&replaceButton, &findButton, &preset, &resetButton, &spacing, &normalise, &edits});
-    prepareKnobs();
-    setSize(200, preferredHeight);
-    subscriptions.on({&sounds.workChanged},
-                     [this]
-                     {
-                         // The wish was carried out, or was stopped.
-                         if (!sounds.workNow() && !isTimerRunning())
-                             waiting.reset();
-                     });
-    subscriptions.on({&model.projectChanged, &model.versionChanged, &sounds.changed, &sounds.workChanged},
-                     [this] { show(); });
-    lookAndFeelChanged();
-    show();
 }
 
 void AnalysisPanel::prepareKnobs()

@@ -62,6 +62,8 @@ private:
     };
 
     void timerCallback() override { carryOut(); }
+    void connectPresets();
+    void prepareSoundButtons();
     void prepareKnobs();
     void prepare(Which which, const juce::String& name, const juce::String& unit, const juce::String& help);
     void set(const EncoderParams& wanted);

@@ -59,68 +59,8 @@ ExportSheet::ExportSheet(const EditorModel& project, const Actuators& profiles, 
     label(eventsLabel, "Events");
     label(targetLabel, "File");
     label(lossLabel, "What is kept");
-    format.setTitle("Format");
-    format.setTooltip("Format of the exported files");
-    for (const ClipFormat& one : exportFormats())
-        format.addItem(nameOf(one), format.getNumItems() + 1);
-    const auto& formats = exportFormats();
-    const auto known = std::find_if(formats.begin(), formats.end(),
-                                    [this](const ClipFormat& one) { return one.name == memory.format; });
-    format.setSelectedId(known == formats.end() ? 1 : 1 + static_cast<int>(known - formats.begin()),
-                         juce::dontSendNotification);
-    format.onChange = [this]
-    {
-        chooseUsualEvents();
-        formatChanged();
-    };
-    alsoButton.setTitle("Further formats");
-    prepareButton(alsoButton, "Writes the clips in further formats beside this one", [this] { chooseAlso(); });
-    rate.setTitle("Sample rate");
-    rate.setTooltip("Sample rate of formats that contain samples, in Hz");
-    rate.addItem("Same as sound", sourceRate);
-    for (const int hertz : {48000, 8000, 2000})
-        rate.addItem(juce::String(hertz) + " Hz", hertz);
-    rate.setSelectedId(sourceRate, juce::dontSendNotification);
-    if (rate.indexOfItemId(memory.sampleRate) >= 0)
-        rate.setSelectedId(memory.sampleRate, juce::dontSendNotification);
-    rate.onChange = [this]
-    {
-        showLosses();
-    };
-    events.setTitle("Events");
-    events.setTooltip("Each event as its own transient, or merged into the voice where that is as strong");
-    events.addItem("Transients", itemOf(EventExport::transients));
-    events.addItem("Merged into voice", itemOf(EventExport::merged));
-    events.setTextWhenNothingSelected(tr("Set by the format"));
-    events.onChange = [this]
-    {
-        showLosses();
-    };
-    const auto count = model.document().project().clips.size();
-    const auto selected = model.selectedClips().size();
-    all.setButtonText(selected > 1 ? tr("{0} selected clips", {juce::String(static_cast<int>(selected))})
-                      : count > 1  ? tr("All {0} clips of the project", {juce::String(static_cast<int>(count))})
-                                   : tr("All clips of the project"));
-    all.setTitle("Export all clips");
-    all.setEnabled(count > 1);
-    all.setToggleState(selected > 1, juce::dontSendNotification);
-    prepareButton(all, "One file per clip, in a folder", [this] { formatChanged(); });
-    target.setTitle("Destination file or folder");
-    target.setFont(usualFont());
-    target.setIndents(grid, 7);
-    target.onTextChange = [this]
-    {
-        followExtension();
-    };
-    target.onReturnKey = [this]
-    {
-        run();
-    };
-    target.onEscapeKey = [this]
-    {
-        close();
-    };
-    prepareButton(browseButton, "Chooses where to save", [this] { browse(); });
+    prepareFormat();
+    prepareTarget();
     losses.setMultiLine(true);
     losses.setReadOnly(true);
     losses.setCaretVisible(false);
@@ -149,6 +89,75 @@ ExportSheet::ExportSheet(const EditorModel& project, const Actuators& profiles, 
     {
         takeFocus();
     };
+    chooseUsualEvents();
+    formatChanged();
+    showAlso();
+}
+
+void ExportSheet::prepareFormat()
+{
+    format.setTitle("Format");
+    format.setTooltip("Format of the exported files");
+    for (const ClipFormat& one : exportFormats())
+        format.addItem(nameOf(one), format.getNumItems() + 1);
+    const auto& formats = exportFormats();
+    const auto known = std::find_if(formats.begin(), formats.end(),
+                                    [this](const ClipFormat& one) { return one.name == memory.format; });
+    format.setSelectedId(known == formats.end() ? 1 : 1 + static_cast<int>(known - formats.begin()),
+                         juce::dontSendNotification);
+    format.onChange = [this]
+    {
+        chooseUsualEvents();
+        formatChanged();
+    };
+    alsoButton.setTitle("Further formats");
+    prepareButton(alsoButton, "Writes the clips in further formats beside this one", [this] { chooseAlso(); });
+    rate.setTitle("Sample rate");
+    rate.setTooltip("Sample rate of formats that contain samples, in Hz");
+    rate.addItem("Same as sound", sourceRate);
+    for (const int hertz : {48000, 8000, 2000})
+        rate.addItem(juce::String(hertz) + " Hz", hertz);
+    rate.setSelectedId(sourceRate, juce::dontSendNotification);
+    if (rate.indexOfItemId(memory.sampleRate) >= 0)
+        rate.setSelectedId(memory.sampleRate, juce::dontSendNotification);
+    events.setTitle("Events");
+    events.setTooltip("Each event as its own transient, or merged into the voice where that is as strong");
+    events.addItem("Transients", itemOf(EventExport::transients));
+    events.addItem("Merged into voice", itemOf(EventExport::merged));
+    events.setTextWhenNothingSelected(tr("Set by the format"));
+    rate.onChange = events.onChange = [this]
+    {
+        showLosses();
+    };
+}
+
+void ExportSheet::prepareTarget()
+{
+    const auto count = model.document().project().clips.size();
+    const auto selected = model.selectedClips().size();
+    all.setButtonText(selected > 1 ? tr("{0} selected clips", {juce::String(static_cast<int>(selected))})
+                      : count > 1  ? tr("All {0} clips of the project", {juce::String(static_cast<int>(count))})
+                                   : tr("All clips of the project"));
+    all.setTitle("Export all clips");
+    all.setEnabled(count > 1);
+    all.setToggleState(selected > 1, juce::dontSendNotification);
+    prepareButton(all, "One file per clip, in a folder", [this] { formatChanged(); });
+    target.setTitle("Destination file or folder");
+    target.setFont(usualFont());
+    target.setIndents(grid, 7);
+    target.onTextChange = [this]
+    {
+        followExtension();
+    };
+    target.onReturnKey = [this]
+    {
+        run();
+    };
+    target.onEscapeKey = [this]
+    {
+        close();
+    };
+    prepareButton(browseButton, "Chooses where to save", [this] { browse(); });
     const auto& path = model.document().path();
     std::error_code gone;
     const juce::File folder = !memory.folder.empty() && std::filesystem::is_directory(memory.folder, gone)
@@ -156,9 +165,6 @@ ExportSheet::ExportSheet(const EditorModel& project, const Actuators& profiles, 
                               : path.empty() ? documentsFolder()
                                              : juce::File(pathText(path.parent_path()));
     target.setText(folder.getFullPathName(), false);
-    chooseUsualEvents();
-    formatChanged();
-    showAlso();
 }
 
 const ClipFormat& ExportSheet::chosenFormat() const

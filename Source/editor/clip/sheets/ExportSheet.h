@@ -45,6 +45,8 @@ public:
 private:
     void layOut(juce::Rectangle<int> area) override;
     juce::Component* firstFocus() override { return &target; }
+    void prepareFormat();
+    void prepareTarget();
     void formatChanged();
     void chooseUsualEvents();
     void followExtension();
