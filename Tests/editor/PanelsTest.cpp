@@ -530,18 +530,48 @@ TEST_CASE(
     CHECK(bench.session.transport.controls().speed == 1.0);
 }
 
+namespace
+{
+/// The panel of analysis with a folder of own presets, and its box of presets.
+struct PresetBench
+{
+    PresetBench()
+    {
+        view.setBounds(0, 0, 1280, 800);
+        panel.setSize(240, 640);
+        bench.openDemo("knock_wood_bridge");
+    }
+
+    int idOf(const juce::String& name) const
+    {
+        for (int i = 0; i < preset.getNumItems(); ++i)
+            if (preset.getItemText(i) == name)
+                return preset.getItemId(i);
+        return 0;
+    }
+
+    static editor::HostServices withPresets(const std::filesystem::path& folder)
+    {
+        editor::HostServices around;
+        around.presetFolder = folder;
+        return around;
+    }
+
+    TempFolder folder;
+    EditorBench bench;
+    editor::EditorView view{bench.session, withPresets(folder / "presets")};
+    editor::AnalysisPanel panel{view};
+    juce::ComboBox& preset = get<juce::ComboBox>(panel, "Preset");
+};
+} // namespace
+
 TEST_CASE("Own presets are settings files, which the menu offers, asks before it replaces, and the command reads")
 {
-    const TempFolder folder;
-    EditorBench bench;
-    editor::HostServices around;
-    around.presetFolder = folder / "presets";
-    editor::EditorView view(bench.session, around);
-    view.setBounds(0, 0, 1280, 800);
-    editor::AnalysisPanel panel(view);
-    panel.setSize(240, 640);
-    bench.openDemo("knock_wood_bridge");
-    auto& preset = get<juce::ComboBox>(panel, "Preset");
+    PresetBench presets;
+    auto& view = presets.view;
+    auto& panel = presets.panel;
+    auto& preset = presets.preset;
+    const auto& folder = presets.folder;
     get<juce::Slider>(panel, "Bands").setValue(7.0, juce::sendNotificationSync);
     const EncoderParams wanted = panel.params();
     panel.saveAs("doors");
@@ -552,15 +582,8 @@ TEST_CASE("Own presets are settings files, which the menu offers, asks before it
     CHECK(presetOf(*read) == presetOf(wanted));
     preset.setSelectedId(1, juce::sendNotificationSync);
     CHECK(panel.params().bands != 7);
-    const auto find = [&]
-    {
-        for (int i = 0; i < preset.getNumItems(); ++i)
-            if (preset.getItemText(i) == "doors")
-                return preset.getItemId(i);
-        return 0;
-    };
-    REQUIRE(find() != 0);
-    preset.setSelectedId(find(), juce::sendNotificationSync);
+    REQUIRE(presets.idOf("doors") != 0);
+    preset.setSelectedId(presets.idOf("doors"), juce::sendNotificationSync);
     CHECK(panel.params().bands == 7);
     CHECK(preset.getText() == "doors");
     // One of this name is replaced after a question only; names that are no files are refused.
@@ -579,25 +602,13 @@ TEST_CASE("Own presets are settings files, which the menu offers, asks before it
 
 TEST_CASE("Own presets are renamed and deleted, never over another one")
 {
-    const TempFolder folder;
-    EditorBench bench;
-    editor::HostServices around;
-    around.presetFolder = folder / "presets";
-    editor::EditorView view(bench.session, around);
-    view.setBounds(0, 0, 1280, 800);
-    editor::AnalysisPanel panel(view);
-    panel.setSize(240, 640);
-    bench.openDemo("knock_wood_bridge");
-    auto& preset = get<juce::ComboBox>(panel, "Preset");
-    const auto idOf = [&](const juce::String& name)
-    {
-        for (int i = 0; i < preset.getNumItems(); ++i)
-            if (preset.getItemText(i) == name)
-                return preset.getItemId(i);
-        return 0;
-    };
+    PresetBench presets;
+    auto& view = presets.view;
+    auto& panel = presets.panel;
+    auto& preset = presets.preset;
+    const auto& folder = presets.folder;
     const juce::String manage = editor::toText("Manage presets…");
-    CHECK(idOf(manage) == 0); // there are none
+    CHECK(presets.idOf(manage) == 0); // there are none
     get<juce::Slider>(panel, "Bands").setValue(7.0, juce::sendNotificationSync);
     panel.saveAs("doors");
     get<juce::Slider>(panel, "Bands").setValue(9.0, juce::sendNotificationSync);
@@ -605,7 +616,7 @@ TEST_CASE("Own presets are renamed and deleted, never over another one")
     const auto open = [&]() -> juce::ListBox&
     {
         view.showSheet(nullptr);
-        preset.setSelectedId(idOf(manage), juce::sendNotificationSync);
+        preset.setSelectedId(presets.idOf(manage), juce::sendNotificationSync);
         REQUIRE(view.sheet() != nullptr);
         CHECK(preset.getText() == "floors"); // what is in use stays
         return get<juce::ListBox>(*view.sheet(), "Own presets");
@@ -628,20 +639,20 @@ TEST_CASE("Own presets are renamed and deleted, never over another one")
     nameField().setText("windows");
     nameField().onReturnKey();
     CHECK(preset.getText() == "windows");
-    CHECK(idOf("windows") != 0);
-    CHECK(idOf("floors") == 0);
+    CHECK(presets.idOf("windows") != 0);
+    CHECK(presets.idOf("floors") == 0);
     CHECK(readAnalysisSettings(folder / "presets" / "windows.json")->bands == 9);
     CHECK_FALSE(std::filesystem::exists(folder / "presets" / "floors.json"));
     // Deleted after a question; what is set stays.
     view.showSheet(nullptr);
-    preset.setSelectedId(idOf(manage), juce::sendNotificationSync);
+    preset.setSelectedId(presets.idOf(manage), juce::sendNotificationSync);
     get<juce::ListBox>(*view.sheet(), "Own presets").selectRow(1);
     answer(*view.sheet(), editor::toText("Delete…"));
     CHECK(std::filesystem::exists(folder / "presets" / "windows.json"));
     answer(*view.question(), "Delete");
     CHECK_FALSE(std::filesystem::exists(folder / "presets" / "windows.json"));
-    CHECK(idOf("windows") == 0);
-    CHECK(idOf("doors") != 0);
+    CHECK(presets.idOf("windows") == 0);
+    CHECK(presets.idOf("doors") != 0);
     CHECK(preset.getText() == "Custom");
     CHECK(panel.params().bands == 9);
 }
