@@ -124,13 +124,14 @@ inline void placeNamed(juce::Label& name, int nameWidth, juce::ComboBox& box, ju
     box.setBounds(line);
 }
 
-/// The width of a column of labels that shows all of their texts, `least` to `most`.
+/// The width of a column of labels that shows all of their texts, `least` to `most`; `most` where that is less, as
+/// before a sheet has its size.
 [[nodiscard]] inline int labelsWidth(std::initializer_list<const juce::Label*> labels, int least, int most)
 {
     int widest = 0;
     for (const juce::Label* label : labels)
         widest = std::max(widest, label->getFont().getStringWidth(label->getText()));
-    return std::clamp(widest + 8, least, most);
+    return std::min(std::max(widest + 8, least), most);
 }
 
 /// A slider, its name, and the width of its number where that stands at the right end of the track.
