@@ -423,8 +423,8 @@ slow-tests)
         run_tests release --label-regex slow --label-exclude "^($others)$" --no-tests=ignore
     ;;
 # One part for each commit, in turn: core, files, fuzz, command. By hand: all of them without a name, `sanitized-tests assertions`
-# has the assertions on, `sanitized-tests thread` looks at what threads share, and `sanitized-tests slow` runs the slow
-# ones, which take as long as all others together.
+# has the assertions on, `sanitized-tests thread` looks at what threads share, `sanitized-tests windows` at editor and
+# plugin, and `sanitized-tests slow` runs the slow ones, which take as long as all others together.
 sanitized-tests)
     install_packages "${portability_packages[@]}"
     case "${2:-}" in
@@ -449,6 +449,12 @@ sanitized-tests)
     thread)
         build tsan "pacini_tests pacini_library_tests pacini_random_calls"
         run_tests tsan --tests-regex '^(tests-|library)' --label-exclude slow
+        ;;
+    # Editor, program and plugin, with the release's objects of all that has no windows.
+    windows)
+        install_packages "${plugin_packages[@]}" xvfb
+        build asan-windows "pacini_editor_tests pacini_plugin_tests"
+        run_tests asan-windows --label-exclude slow --tests-regex '^tests-(editor|plugin)'
         ;;
     assertions)
         build asan-assertions all
