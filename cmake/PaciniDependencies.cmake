@@ -38,6 +38,8 @@ if(PACINI_BUILD_CLI OR PACINI_BUILD_TESTS)
     pkg_check_modules(cairo ${PACINI_CAIRO_REQUIRED} IMPORTED_TARGET cairo)
     # Without hidapi the command cannot list game controllers.
     pkg_search_module(hidapi IMPORTED_TARGET hidapi-hidraw hidapi)
+endif()
+if(PACINI_BUILD_CLI OR PACINI_BUILD_TESTS OR PACINI_BUILD_PLUGIN)
     # Without the header of RtAudio 5 `pacini live` opens no sound device, and takes sounds from pipes and files. RtAudio 6
     # has other functions.
     pkg_check_modules(rtaudio rtaudio>=5.1 rtaudio<6)

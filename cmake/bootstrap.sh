@@ -435,7 +435,7 @@ sanitized-tests)
         ;;
     files)
         build asan "pacini_tests pacini_clip_tool pacini_profile_tool pacini_texture_tool pacini_study_tool" \
-            "-DPACINI_TEST_ROOMS=$(rooms_of_tests '^(io|document|devices|study|phone)(/|$)')"
+            "-DPACINI_TEST_ROOMS=$(rooms_of_tests '^(io|document|devices|live|study|phone)(/|$)')"
         run_tests asan --label-exclude slow --tests-regex '^(tests-|.*-schema$)'
         ;;
     fuzz)

@@ -1,7 +1,6 @@
 #include "cli/ControllerInput.h"
 
 #include "cli/Console.h"
-#include "devices/SoundCard.h"
 #include "io/Fields.h"
 
 #include <pacini/foundation/ParseNumber.h>
@@ -11,9 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <filesystem>
 #include <functional>
-#include <system_error>
 #include <utility>
 
 namespace pacini::cli
@@ -141,66 +138,17 @@ std::string shownName(const Controller& controller)
     return printable(controller.name.empty() ? controller.path : controller.name);
 }
 
-ControllerModel playedIn(ControllerModel model, DualSenseWay way) noexcept
+Result<live::OpenedController> openedController(const Controller& controller, live::DualSenseWay way)
 {
-    using devices::DualSenseSamples;
-    if (model.samples != DualSenseSamples::none)
-        model.samples = way == DualSenseWay::rumble        ? DualSenseSamples::none
-                        : way == DualSenseWay::longSamples ? DualSenseSamples::report36
-                                                           : DualSenseSamples::report32;
-    return model;
-}
-
-bool OpenedController::isThere() const
-{
-    std::error_code failed;
-    return std::filesystem::exists(controller.path, failed);
-}
-
-namespace
-{
-/// Gives a DualSense on a cable its sound device.
-void addSound(OpenedController& opened)
-{
-    const auto card = devices::soundCardOf(opened.controller.path);
-    if (!card)
+    auto opened = live::openToPlay(controller, way);
+    if (opened)
     {
-        opened.lesser = "has no sound device here";
-        return;
+        opened->name = shownName(controller);
+        return opened;
     }
-    auto port = SoundPort::openDualSense(*card);
-    if (!port)
-    {
-        opened.lesser = "has a sound device, of which " + port.error().message;
-        return;
-    }
-    opened.sound = std::move(*port);
-    for (const devices::TimedReport& each : devices::closingReports(opened.model, 0)) // no rumble that was left on
-        static_cast<void>(opened.device->send(each.report));
-}
-} // namespace
-
-Result<OpenedController> openedController(const Controller& controller, DualSenseWay way)
-{
-    const auto named = [&](Error error)
-    {
-        error.where = shownName(controller);
-        return error;
-    };
-    auto opened = devices::OpenController::open(controller.path);
-    if (!opened)
-        return named(opened.error());
-    const auto model = devices::modelOf(controller, **opened);
-    if (!model)
-        return named(model.error());
-    OpenedController made{controller, std::move(opened).value(), playedIn(*model, way)};
-    if (controller.haptics != ControllerHaptics::dualSense || way == DualSenseWay::rumble)
-        return made;
-    if (controller.transport != Transport::bluetooth)
-        addSound(made);
-    else if (made.model.samples == devices::DualSenseSamples::none)
-        made.lesser = "refuses samples";
-    return made;
+    Error error = opened.error();
+    error.where = shownName(controller);
+    return error;
 }
 
 } // namespace pacini::cli

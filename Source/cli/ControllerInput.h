@@ -2,16 +2,14 @@
 
 // Look-up of game controllers and other haptic devices by the name that the user gives.
 
-#include "cli/live/SoundPort.h"
 #include "devices/ControllerReports.h"
 #include "devices/HidList.h"
-#include "devices/OpenController.h"
 #include "io/Fields.h"
+#include "live/OpenedController.h"
 
 #include <pacini/foundation/Result.h>
 
 #include <array>
-#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -48,42 +46,19 @@ struct FoundController
 /// Looks for the named controller. Errors: those of devices::connectedControllers() and chosenController().
 [[nodiscard]] Result<FoundController> findController(const std::string& named);
 
-/// Way in which a DualSense plays.
-enum class DualSenseWay
-{
-    samples,     ///< its sound device on a cable, report 0x32 on Bluetooth
-    longSamples, ///< report 0x36 on Bluetooth
-    rumble,
-};
-
-inline constexpr std::array<Choice<DualSenseWay>, 3> dualSenseWays{{{"samples", DualSenseWay::samples},
-                                                                    {"long-samples", DualSenseWay::longSamples},
-                                                                    {"rumble", DualSenseWay::rumble}}};
+inline constexpr std::array<Choice<live::DualSenseWay>, 3> dualSenseWays{
+    {{"samples", live::DualSenseWay::samples},
+     {"long-samples", live::DualSenseWay::longSamples},
+     {"rumble", live::DualSenseWay::rumble}}};
 inline constexpr const char* dualSenseHelp = "How a DualSense plays: samples (its sound device on a cable, report 32 "
                                              "on Bluetooth), long-samples (report 36 where "
                                              "that stays silent) or rumble";
 
-/// The model with this way, where it has samples at all. [any]
-[[nodiscard]] devices::ControllerModel playedIn(devices::ControllerModel model, DualSenseWay way) noexcept;
-
 /// The name of a controller, or its path where it has none, with what a terminal can show.
 [[nodiscard]] std::string shownName(const devices::Controller& controller);
 
-/// A controller that is open for writing, and what it understands.
-struct OpenedController
-{
-    devices::Controller controller;
-    std::unique_ptr<devices::OpenController> device;
-    devices::ControllerModel model;
-    std::unique_ptr<SoundPort> sound{}; ///< a DualSense's on a cable, which plays instead; may be null
-    std::string lesser{};               ///< why it does not play samples as it could; empty otherwise
-
-    /// Whether it is still there, as far as the system tells: a sound server would go on elsewhere. [worker]
-    [[nodiscard]] bool isThere() const;
-};
-
-/// Opens one of `connected`, to play in `way`, or where that is not possible by rumble. Errors: those of
-/// OpenController::open() and modelOf(), with the controller's name. [worker]
-[[nodiscard]] Result<OpenedController> openedController(const devices::Controller& controller, DualSenseWay way);
+/// As live::openToPlay(), with errors that name the controller. [worker]
+[[nodiscard]] Result<live::OpenedController> openedController(const devices::Controller& controller,
+                                                              live::DualSenseWay way);
 
 } // namespace pacini::cli

@@ -2,9 +2,9 @@
 
 #include "cli/Command.h"
 #include "cli/ControllerInput.h"
-#include "cli/live/SoundPort.h"
 #include "devices/HidList.h"
 #include "devices/SoundCard.h"
+#include "live/SoundPort.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -48,7 +48,7 @@ Exit DevicesCommand::listSounds(Console& console) const
 {
     Json list = Json::array();
     std::string lines;
-    for (const SoundDevice& device : SoundPort::devices())
+    for (const live::SoundDevice& device : live::SoundPort::devices())
     {
         list.push_back({{"name", device.name},
                         {"description", device.description},

@@ -97,9 +97,9 @@ private:
     /// What --dry-run and --explain are for.
     [[nodiscard]] Result<devices::ControllerModel> listedModel() const;
 
-    [[nodiscard]] DualSenseWay way() const
+    [[nodiscard]] live::DualSenseWay way() const
     {
-        return dualSense.empty() ? DualSenseWay::samples : *valueOf(dualSense, dualSenseWays);
+        return dualSense.empty() ? live::DualSenseWay::samples : *valueOf(dualSense, dualSenseWays);
     }
 
     [[nodiscard]] const Profile* actuator() const { return profile ? &*profile : nullptr; }
@@ -115,15 +115,15 @@ private:
     [[nodiscard]] bool makeAlike(Console& console, Clip& clip) const;
 
     /// The controller that is meant, waited for if wanted; nothing when the user ended that.
-    [[nodiscard]] Result<std::optional<OpenedController>> openDevice(Console& console,
-                                                                     Interruption& interruption) const;
+    [[nodiscard]] Result<std::optional<live::OpenedController>> openDevice(Console& console,
+                                                                           Interruption& interruption) const;
 
     /// Says so where not these packets but samples by a sound device are played.
     void tellOfSound(Console& console, const devices::ControllerModel& model) const;
 
     Exit explain(Console& console, const Clip& clip, const devices::PlayRange& range) const;
     Exit list(Console& console, const Clip& clip, const devices::PlayRange& range) const;
-    Exit playSound(Console& console, const Clip& clip, const devices::PlayRange& range, OpenedController& opened,
+    Exit playSound(Console& console, const Clip& clip, const devices::PlayRange& range, live::OpenedController& opened,
                    Interruption& interruption) const;
     Exit play(Console& console, const Clip& clip, const devices::PlayRange& range) const;
 
@@ -215,7 +215,8 @@ Result<devices::PlayRange> PlayCommand::rangeIn(const Clip& clip) const
     return devices::PlayRange{Seconds(from), Seconds(end), loop};
 }
 
-Result<std::optional<OpenedController>> PlayCommand::openDevice(Console& console, Interruption& interruption) const
+Result<std::optional<live::OpenedController>> PlayCommand::openDevice(Console& console,
+                                                                      Interruption& interruption) const
 {
     // Right after it is connected, a controller may not be opened yet: the system still gives it to the user.
     constexpr int patience = 10;
@@ -239,7 +240,7 @@ Result<std::optional<OpenedController>> PlayCommand::openDevice(Console& console
         if (!told)
             console.note("Waiting for a controller ...");
         if (interruption.wait(pause))
-            return std::optional<OpenedController>();
+            return std::optional<live::OpenedController>();
     }
 }
 
@@ -293,7 +294,7 @@ bool PlayCommand::makeAlike(Console& console, Clip& clip) const
 Result<devices::ControllerModel> PlayCommand::listedModel() const
 {
     if (!like.empty())
-        return playedIn(modelNamed(like), way());
+        return live::playedIn(modelNamed(like), way());
     const auto found = findController(device);
     if (!found)
         return found.error();
@@ -311,7 +312,7 @@ Result<devices::ControllerModel> PlayCommand::listedModel() const
 void PlayCommand::tellOfSound(Console& console, const devices::ControllerModel& model) const
 {
     if (model.haptics != devices::ControllerHaptics::dualSense || model.transport == devices::Transport::bluetooth ||
-        way() == DualSenseWay::rumble)
+        way() == live::DualSenseWay::rumble)
         return;
     console.warning(input, fmt::format("a DualSense on a cable plays samples by its sound device, which sends no "
                                        "packets and loses only what is beyond full drive; {} its rumble, which plays "
@@ -373,7 +374,7 @@ Exit PlayCommand::play(Console& console, const Clip& clip, const devices::PlayRa
     }
     if (!*opened)
         return Exit::failed; // the signal ends the program
-    OpenedController& all = **opened;
+    live::OpenedController& all = **opened;
     const auto& controller = all.controller;
     const auto& target = all.device;
     const auto& model = all.model;
@@ -419,7 +420,7 @@ Exit PlayCommand::play(Console& console, const Clip& clip, const devices::PlayRa
 }
 
 Exit PlayCommand::playSound(Console& console, const Clip& clip, const devices::PlayRange& range,
-                            OpenedController& opened, Interruption& interruption) const
+                            live::OpenedController& opened, Interruption& interruption) const
 {
     constexpr double fading = 0.15; // s, in which the last sound fades out
     const double fs = opened.sound->sampleRate();

@@ -22,8 +22,8 @@ from pathlib import Path
 SOURCE, BUILD = (Path(word).resolve() for word in sys.argv[1:3])
 PYTHON = SOURCE / "build/zig-venv/bin/python"
 # What people run on macOS without JUCE, with the fewest sources that each may have: none is lost unseen.
-TARGETS = {"pacini_io": 15, "pacini_devices": 10, "pacini_study": 3, "pacini_phone": 1, "pacini_cli": 10, "pacini": 1,
-           "pacini_benches": 1, "pacini-bench": 1, "pacini_library_control": 10, "pacini_library_render": 1}
+TARGETS = {"pacini_io": 15, "pacini_devices": 10, "pacini_study": 3, "pacini_phone": 1, "pacini_live": 1, "pacini_cli": 10,
+           "pacini": 1, "pacini_benches": 1, "pacini-bench": 1, "pacini_library_control": 10, "pacini_library_render": 1}
 # Headers of libraries that Debian has in the folder of the C library of Linux.
 HEADERS = ("nlohmann", "fmt", "CLI", "boost", "sndfile.h", "expat.h", "expat_external.h", "zip.h", "zipconf.h",
            "hidapi", "qrcodegen", "qrcodegencpp")

@@ -35,18 +35,19 @@ SOURCE = {
     "io": ({"io"}, NO_JUCE),
     "study": ({"io", "study"}, NO_JUCE),
     "phone": ({"io", "devices", "phone"}, NO_JUCE),
-    "cli": ({"io", "study", "devices", "phone", "cli"}, NO_JUCE),
+    "live": ({"io", "devices", "live"}, NO_JUCE),
+    "cli": ({"io", "study", "devices", "live", "phone", "cli"}, NO_JUCE),
     "document": ({"io", "document"}, NO_JUCE),
     "devices": ({"devices"}, NO_JUCE),
     "library": ({"io", "devices", "library"}, NO_JUCE),
     "python": ({"io", "python"}, NO_JUCE),
     "web": ({"io", "document", "devices", "web"}, NO_JUCE),
-    "plugin/engine": ({"io", "document", "devices", "plugin/engine"}, NO_WINDOWS),
-    "plugin/window": ({"io", "study", "document", "devices", "editor", "plugin/engine", "plugin/window"}, ()),
-    "plugin/clap": ({"io", "study", "document", "devices", "editor", "plugin/engine", "plugin/window", "plugin/clap"}, ()),
+    "plugin/engine": ({"io", "document", "devices", "live", "plugin/engine"}, NO_WINDOWS),
+    "plugin/window": ({"io", "study", "document", "devices", "live", "editor", "plugin/engine", "plugin/window"}, ()),
+    "plugin/clap": ({"io", "study", "document", "devices", "live", "editor", "plugin/engine", "plugin/window", "plugin/clap"}, ()),
     "plugin/mingw": ({"plugin/mingw"}, NO_JUCE),
     "editor": ({"io", "study", "document", "devices", "editor"}, ()),
-    "app": ({"io", "study", "document", "devices", "phone", "editor", "plugin/engine", "plugin/window", "app"}, ()),
+    "app": ({"io", "study", "document", "devices", "live", "phone", "editor", "plugin/engine", "plugin/window", "app"}, ()),
 }
 
 # What Core must never touch: files, threads, clocks, JSON, hosts, and process-wide state.
@@ -57,7 +58,7 @@ CORE_FORBIDDEN = {
 }
 # Libraries that only one room of Source touches.
 ONLY_IN = {"sndfile": {"io"}, "hidapi": {"devices"}, "boost": {"study", "phone"}, "nanobind": {"python"},
-           "rtaudio": {"cli"}}
+           "rtaudio": {"live"}}
 CORE_THIRD_PARTY = re.compile(r"^Eigen/")
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 

@@ -1,6 +1,7 @@
 // Subcommand that translates a sound while it plays.
 
 #include "cli/Command.h"
+#include "cli/ControllerInput.h"
 #include "cli/Counted.h"
 #include "cli/DescribedOptions.h"
 #include "cli/Interruption.h"
@@ -11,14 +12,14 @@
 #include "cli/live/LiveFile.h"
 #include "cli/live/LiveFollow.h"
 #include "cli/live/LiveInput.h"
-#include "cli/live/LivePad.h"
 #include "cli/live/SoundOutput.h"
-#include "cli/live/SoundPort.h"
 #include "io/FileOrigin.h"
 #include "io/Fingerprint.h"
 #include "io/LiveSettings.h"
 #include "io/PlaybackSettings.h"
 #include "io/SettingsFile.h"
+#include "live/LivePad.h"
+#include "live/SoundPort.h"
 
 #include <pacini/realtime/TranslatorPresets.h>
 
@@ -88,6 +89,35 @@ std::string levelText(float peak)
                        level > lowest ? fmt::format("{:3.0f} dB", level) : "silent");
 }
 
+/// The door of the controller that the user names.
+live::PadDoor doorOf(const std::string& named, live::DualSenseWay way)
+{
+    live::PadDoor door;
+    door.find = [named]() -> Result<devices::Controller>
+    {
+        const auto found = findController(named);
+        if (!found)
+            return found.error();
+        return found->controller ? *found->controller : Result<devices::Controller>(found->missing);
+    };
+    door.open = [way](const devices::Controller& controller)
+    {
+        return openedController(controller, way);
+    };
+    return door;
+}
+
+/// Who is not connected is looked for without a word.
+void tellNews(Console& console, const std::string& name, const live::PadNews& news)
+{
+    if (news.isBack)
+        console.note(fmt::format("{} is back", name));
+    if (!news.lesser.empty())
+        console.note(fmt::format("{} plays by rumble: it {}", name, news.lesser));
+    if (news.stopped)
+        console.warning(name, news.stopped->message + "; it plays again when it is back");
+}
+
 /// `pacini live`: what sounds now, as touch.
 class LiveCommand : public Command
 {
@@ -103,14 +133,14 @@ private:
 
         std::unique_ptr<LiveInput> input; ///< or a port
         std::unique_ptr<LiveEngine> engine;
-        std::vector<std::unique_ptr<LiveDrive>> drives;
-        std::unique_ptr<LatencyProbe> probe;
+        std::vector<std::unique_ptr<live::LiveDrive>> drives;
+        std::unique_ptr<live::LatencyProbe> probe;
         std::unique_ptr<LiveFollow> follow;
-        std::vector<std::unique_ptr<LivePad>> pads;
+        std::vector<std::unique_ptr<live::LivePad>> pads;
         std::vector<std::unique_ptr<SoundOutput>> outputs;
-        std::unique_ptr<SoundPort> port; ///< ends before all that it hands the sound to
+        std::unique_ptr<live::SoundPort> port; ///< ends before all that it hands the sound to
         std::unique_ptr<LiveFile> file;
-        LiveDrive* fileDrive = nullptr;
+        live::LiveDrive* fileDrive = nullptr;
         std::atomic<bool> stop{false};
         std::atomic<bool> ended{false};
         Result<void> failure; ///< of the thread until it has ended
@@ -301,7 +331,7 @@ Result<void> LiveCommand::openInput(Session& session) const
 {
     if (!soundInput.empty())
     {
-        auto opened = SoundPort::openInput(soundInput);
+        auto opened = live::SoundPort::openInput(soundInput);
         if (!opened)
             return opened.error();
         session.port = std::move(*opened);
@@ -323,7 +353,7 @@ Exit LiveCommand::openFile(Console& console, Session& session) const
     const auto existing = mayReplace(output, origin, overwriting.of(true));
     if (!existing)
         return console.fail("", existing.error());
-    session.drives.push_back(std::make_unique<LiveDrive>(static_cast<std::size_t>(session.engine->sampleRate())));
+    session.drives.push_back(std::make_unique<live::LiveDrive>(static_cast<std::size_t>(session.engine->sampleRate())));
     session.fileDrive = session.drives.back().get();
     auto created = LiveFile::create(output, *existing, *session.fileDrive, session.engine->sampleRate());
     if (!created)
@@ -337,7 +367,7 @@ Exit LiveCommand::openSoundOutput(Console& console, Session& session, const std:
 {
     constexpr double pipeBlock = 0.020; // s, as programs write to pipes
     const double fs = session.engine->sampleRate();
-    session.drives.push_back(std::make_unique<LiveDrive>(static_cast<std::size_t>(fs)));
+    session.drives.push_back(std::make_unique<live::LiveDrive>(static_cast<std::size_t>(fs)));
     session.engine->add(*session.drives.back());
     session.outputs.push_back(std::make_unique<SoundOutput>(
         name, *session.drives.back(), fs,
@@ -353,15 +383,15 @@ Exit LiveCommand::openOutputs(Console& console, Session& session) const
 {
     const double fs = session.engine->sampleRate();
     auto named = controllers;
-    const auto way = dualSense.empty() ? DualSenseWay::samples : *valueOf(dualSense, dualSenseWays);
+    const auto way = dualSense.empty() ? live::DualSenseWay::samples : *valueOf(dualSense, dualSenseWays);
     if (named.empty() && output.empty() && soundOutputs.empty())
         named.emplace_back();
     for (const std::string& name : named)
     {
-        session.drives.push_back(std::make_unique<LiveDrive>(static_cast<std::size_t>(fs)));
+        session.drives.push_back(std::make_unique<live::LiveDrive>(static_cast<std::size_t>(fs)));
         session.engine->add(*session.drives.back());
-        LatencyProbe* probe = session.pads.empty() ? session.probe.get() : nullptr;
-        session.pads.push_back(std::make_unique<LivePad>(name, way, *session.drives.back(), fs, probe));
+        live::LatencyProbe* probe = session.pads.empty() ? session.probe.get() : nullptr;
+        session.pads.push_back(std::make_unique<live::LivePad>(doorOf(name, way), *session.drives.back(), fs, probe));
         const auto opened = session.pads.back()->open();
         if (opened)
             continue;
@@ -457,7 +487,10 @@ void LiveCommand::watch(Console& console, Session& session, Interruption& interr
         if (interruption.wait(glance))
             break;
         for (const auto& pad : session.pads)
-            pad->look(console);
+        {
+            const live::PadNews news = pad->look();
+            tellNews(console, pad->name(), news);
+        }
         for (auto& out : session.outputs)
             out->look(console);
         if (session.port && !session.ended.load())
@@ -493,7 +526,7 @@ void LiveCommand::tell(Console& console, Session& session, std::uint64_t written
     Json outputs = Json::array();
     for (const auto& pad : session.pads)
     {
-        const LivePadReport& report = pad->close();
+        const live::LivePadReport& report = pad->close();
         outputs.push_back({{"controller", report.name},
                            {"packets", report.sent},
                            {"leftOut", report.leftOut},
@@ -649,7 +682,7 @@ Exit LiveCommand::run(Console& console)
             return console.fail(soundName(), opened.error(), Exit::usage);
     if (measuring)
     {
-        session.probe = std::make_unique<LatencyProbe>();
+        session.probe = std::make_unique<live::LatencyProbe>();
         session.engine->measure(*session.probe);
     }
     if (const Exit opened = openOutputs(console, session); opened != Exit::ok)

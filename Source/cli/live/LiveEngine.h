@@ -2,9 +2,9 @@
 
 // Live translation of a sound to a drive signal for several outputs.
 
-#include "cli/live/LatencyProbe.h"
-#include "cli/live/LiveDrive.h"
 #include "cli/live/LiveFollow.h"
+#include "live/LatencyProbe.h"
+#include "live/LiveDrive.h"
 
 #include <pacini/foundation/LargestMagnitude.h>
 #include <pacini/realtime/Translator.h>
@@ -33,8 +33,8 @@ public:
     }
 
     /// Both outlive the engine. [message]
-    void add(LiveDrive& output) { outputs.push_back(&output); }
-    void measure(LatencyProbe& wanted) { probe = &wanted; }
+    void add(live::LiveDrive& output) { outputs.push_back(&output); }
+    void measure(live::LatencyProbe& wanted) { probe = &wanted; }
     void follow(LiveFollow& wanted) { follower = &wanted; }
 
     static constexpr std::size_t longestPiece = 256; ///< frames made at a time
@@ -57,7 +57,7 @@ public:
             if (follower)
                 follower->process(made, std::span<const float>(back).first(n));
             note(felt, made);
-            for (LiveDrive* output : outputs)
+            for (live::LiveDrive* output : outputs)
                 output->push(made);
             i += n;
         }
@@ -67,7 +67,7 @@ public:
     /// Nothing follows. [audio]
     void end() noexcept
     {
-        for (LiveDrive* output : outputs)
+        for (live::LiveDrive* output : outputs)
             output->end();
     }
 
@@ -112,8 +112,8 @@ private:
     std::vector<float> mono;
     std::vector<float> drive;
     std::vector<float> back; ///< of the channel that is followed
-    std::vector<LiveDrive*> outputs;
-    LatencyProbe* probe = nullptr;
+    std::vector<live::LiveDrive*> outputs;
+    live::LatencyProbe* probe = nullptr;
     LiveFollow* follower = nullptr;
     std::atomic<float> heard{0.0f};
     std::atomic<float> felt{0.0f};

@@ -51,7 +51,7 @@ Result<void> toStandardOutput(std::string_view bytes)
 } // namespace
 
 Result<std::unique_ptr<LiveFile>> LiveFile::create(const std::filesystem::path& path, Existing existing,
-                                                   LiveDrive& drive, double sampleRate)
+                                                   live::LiveDrive& drive, double sampleRate)
 {
     std::unique_ptr<LiveFile> file(new LiveFile(drive));
     const auto rate = static_cast<int>(std::lround(sampleRate));

@@ -2,9 +2,9 @@
 
 // A drive signal that is written to a file or to standard output while it is made.
 
-#include "cli/live/LiveDrive.h"
 #include "io/AtomicFile.h"
 #include "io/AudioWriter.h"
+#include "live/LiveDrive.h"
 
 #include <pacini/foundation/Result.h>
 
@@ -24,7 +24,7 @@ public:
     /// Starts `path`, whose folder must be there: .wav, or a WAV without lengths on standard output. The drive
     /// outlives this. Errors: those of AudioWriter::create(). [message]
     [[nodiscard]] static Result<std::unique_ptr<LiveFile>> create(const std::filesystem::path& path, Existing existing,
-                                                                  LiveDrive& drive, double sampleRate);
+                                                                  live::LiveDrive& drive, double sampleRate);
     LiveFile(const LiveFile&) = delete;
     LiveFile& operator=(const LiveFile&) = delete;
     ~LiveFile();
@@ -40,14 +40,14 @@ public:
     [[nodiscard]] const Result<void>& early() const noexcept { return result; }
 
 private:
-    explicit LiveFile(LiveDrive& drive) : source(drive) {}
+    explicit LiveFile(live::LiveDrive& drive) : source(drive) {}
     void work();
     [[nodiscard]] Result<void> write(std::span<const float> samples);
 
     /// Whether the disk has room for these; looks once a megabyte.
     [[nodiscard]] bool hasRoom(std::size_t samples);
 
-    LiveDrive& source;
+    live::LiveDrive& source;
     std::optional<AudioWriter> writer; ///< none: standard output
     std::filesystem::path folder;
     std::size_t sinceLook = 0;

@@ -3,9 +3,9 @@
 // Sound device that plays a live drive signal, and plays again when it is back.
 
 #include "cli/Console.h"
-#include "cli/live/LiveDrive.h"
-#include "cli/live/SoundPort.h"
-#include "cli/live/TrackedDrive.h"
+#include "live/LiveDrive.h"
+#include "live/SoundPort.h"
+#include "live/TrackedDrive.h"
 
 #include <pacini/foundation/Units.h>
 
@@ -48,21 +48,22 @@ class SoundOutput
 {
 public:
     /// The drive has the rate `fs`, Hz, and comes in blocks of `blockSeconds`; it outlives this.
-    SoundOutput(std::string device, LiveDrive& from, double fs, Seconds blockSeconds)
+    SoundOutput(std::string device, live::LiveDrive& from, double fs, Seconds blockSeconds)
         : named(std::move(device)), source(from), sourceRate(fs), comes(blockSeconds.value)
     {
     }
 
-    /// Errors: those of SoundPort::openOutput() and play().
+    /// Errors: those of live::SoundPort::openOutput() and play().
     [[nodiscard]] Result<void> open()
     {
         constexpr double margin = 0.002; // s
-        auto opened = SoundPort::openOutput(named);
+        auto opened = live::SoundPort::openOutput(named);
         if (!opened)
             return opened.error();
         const double goes = static_cast<double>((*opened)->blockFrames()) / (*opened)->sampleRate(); // s
-        auto next = std::make_unique<TrackedDrive>(source, sourceRate, (*opened)->sampleRate(),
-                                                   static_cast<std::size_t>((comes + goes + margin) * sourceRate));
+        auto next =
+            std::make_unique<live::TrackedDrive>(source, sourceRate, (*opened)->sampleRate(),
+                                                 static_cast<std::size_t>((comes + goes + margin) * sourceRate));
         auto started = (*opened)->play([reader = next.get()](std::span<float> frames) { reader->read(frames); });
         if (!started)
             return started;
@@ -122,7 +123,7 @@ private:
     static constexpr std::chrono::seconds betweenTries{1};
 
     std::string named;
-    LiveDrive& source;
+    live::LiveDrive& source;
     double sourceRate;
     double comes; // s
     std::size_t opens = 0;
@@ -130,8 +131,8 @@ private:
     Clock::time_point tried{};
     Heartbeat heartbeat;
     bool isSilent = false;
-    std::unique_ptr<TrackedDrive> drive;
-    std::unique_ptr<SoundPort> port; // ends first
+    std::unique_ptr<live::TrackedDrive> drive;
+    std::unique_ptr<live::SoundPort> port; // ends first
 };
 
 } // namespace pacini::cli

@@ -1,10 +1,10 @@
-#include "cli/live/DevicePace.h"
+#include "live/DevicePace.h"
 
 #include "support/Catch.h"
 
 #include <chrono>
 
-using namespace pacini::cli;
+using namespace pacini::live;
 using namespace std::chrono_literals;
 
 namespace

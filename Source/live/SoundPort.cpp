@@ -1,8 +1,8 @@
-#include "cli/live/SoundPort.h"
+#include "live/SoundPort.h"
 
-#include "cli/live/DevicePace.h"
-#include "cli/live/PulseServer.h"
-#include "io/SoundHandle.h"
+#include "io/SoundLibraryCall.h"
+#include "live/DevicePace.h"
+#include "live/PulseServer.h"
 
 #include <fmt/format.h>
 
@@ -17,12 +17,12 @@
 #include <utility>
 
 #if defined(PACINI_HAS_RTAUDIO)
-#include "cli/live/OpenedLibrary.h"
+#include "live/OpenedLibrary.h"
 
 #include <rtaudio_c.h>
 #endif
 
-namespace pacini::cli
+namespace pacini::live
 {
 
 #if defined(PACINI_HAS_RTAUDIO)
@@ -437,4 +437,4 @@ Result<std::unique_ptr<SoundPort>> SoundPort::openOutput(const std::string& name
     return openPort(named, false);
 }
 
-} // namespace pacini::cli
+} // namespace pacini::live

@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-namespace pacini::cli
+namespace pacini::live
 {
 
 /// Plays impulses in place of the sound. An impulse begins with its block, and so its time is that at which the block
@@ -80,4 +80,4 @@ private:
     std::vector<double> results;
 };
 
-} // namespace pacini::cli
+} // namespace pacini::live

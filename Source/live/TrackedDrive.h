@@ -2,7 +2,7 @@
 
 // Reader of a drive signal at the pace of another clock than the one that it comes by.
 
-#include "cli/live/LiveDrive.h"
+#include "live/LiveDrive.h"
 
 #include <pacini/foundation/Units.h>
 
@@ -13,7 +13,7 @@
 #include <numbers>
 #include <span>
 
-namespace pacini::cli
+namespace pacini::live
 {
 
 /// Resamples a drive signal so that the same number of frames waits in its queue for ever: two crystals that both say
@@ -124,4 +124,4 @@ private:
     std::size_t overflows = 0;
 };
 
-} // namespace pacini::cli
+} // namespace pacini::live

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace pacini::cli
+namespace pacini::live
 {
 
 /// Receives interleaved frames, on the device's own thread. [audio]
@@ -75,4 +75,4 @@ public:
     [[nodiscard]] virtual std::uint64_t interruptions() const = 0;
 };
 
-} // namespace pacini::cli
+} // namespace pacini::live

@@ -2,7 +2,7 @@
 
 // Sinks and sources of a PulseAudio server, or of PipeWire in its place.
 
-#include "cli/live/SoundPort.h"
+#include "live/SoundPort.h"
 
 #include <pacini/foundation/Result.h>
 
@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace pacini::cli
+namespace pacini::live
 {
 
 struct PulseDevice
@@ -29,4 +29,4 @@ struct PulseDevice
 /// [message]
 [[nodiscard]] Result<std::unique_ptr<SoundPort>> openPulseSurround(const std::string& sink);
 
-} // namespace pacini::cli
+} // namespace pacini::live

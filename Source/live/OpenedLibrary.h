@@ -4,7 +4,7 @@
 
 #include <dlfcn.h>
 
-namespace pacini::cli
+namespace pacini::live
 {
 
 /// Functions of a shared library. Derived classes look them up; `isThere` tells whether all were found.
@@ -38,4 +38,4 @@ const Library& openedLibrary()
     return library;
 }
 
-} // namespace pacini::cli
+} // namespace pacini::live

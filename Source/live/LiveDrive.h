@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <span>
 
-namespace pacini::cli
+namespace pacini::live
 {
 
 /// One thread pushes, one takes; neither waits. While nobody listens, what is pushed is forgotten: after a controller
@@ -85,4 +85,4 @@ private:
     std::atomic<bool> ended{false};
 };
 
-} // namespace pacini::cli
+} // namespace pacini::live

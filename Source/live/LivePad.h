@@ -2,23 +2,23 @@
 
 // A controller that plays a live drive signal, and comes back after it was unplugged.
 
-#include "cli/Console.h"
-#include "cli/ControllerInput.h"
-#include "cli/live/LatencyProbe.h"
-#include "cli/live/LiveDrive.h"
 #include "devices/HidList.h"
-#include "devices/OpenController.h"
 #include "devices/RumblePlayer.h"
 #include "devices/SteadyClock.h"
+#include "live/LatencyProbe.h"
+#include "live/LiveDrive.h"
+#include "live/OpenedController.h"
 
 #include <pacini/foundation/Result.h>
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
-namespace pacini::cli
+namespace pacini::live
 {
 
 /// What a controller was sent, all its connections together.
@@ -32,21 +32,45 @@ struct LivePadReport
     std::string lesser; ///< why it plays less than it could; empty otherwise
 };
 
+/// Which controller, and how it is opened; each asked for anew until it is there. [worker]
+struct PadDoor
+{
+    std::function<Result<devices::Controller>()> find; ///< the error says why there is none
+    std::function<Result<OpenedController>(const devices::Controller&)> open;
+    bool stopsOnCrash = true; ///< see devices::EmergencyStop, which takes signals of the whole program
+};
+
+/// What LivePad::look() noticed.
+struct PadNews
+{
+    bool isBack = false;           ///< it plays again
+    std::string lesser;            ///< why it plays by rumble, told once for each connection
+    std::optional<Error> stopped;  ///< why it does not play any more until it is back
+    std::optional<Error> notFound; ///< why it is not connected, each time it was looked for
+};
+
 /// Sends from its own thread; all functions are for one other thread.
 class LivePad
 {
 public:
-    /// `named` as for --device; the drive and the probe, which may be null, outlive this.
-    LivePad(std::string named, DualSenseWay way, LiveDrive& drive, double sampleRate, LatencyProbe* probe);
+    /// The drive and the probe, which may be null, outlive this.
+    LivePad(PadDoor wanted, LiveDrive& drive, double sampleRate, LatencyProbe* probe);
     LivePad(const LivePad&) = delete;
     LivePad& operator=(const LivePad&) = delete;
     ~LivePad();
 
-    /// Opens the controller and starts. Errors: invalidArgument when several could be meant, io. [message]
+    /// Opens the controller and starts. Errors: those of the door; invalidArgument for a rate that it does not take.
+    /// [message]
     [[nodiscard]] Result<void> open();
 
     /// Notices that it was unplugged, and looks for it now and then until it is back. [message]
-    void look(Console& console);
+    [[nodiscard]] PadNews look();
+
+    /// Whether it is open and, as far as it is known, plays. [message]
+    [[nodiscard]] bool isConnected() const noexcept { return link != nullptr; }
+
+    /// Its name, once it was connected. [message]
+    [[nodiscard]] const std::string& name() const noexcept { return report.name; }
 
     /// Whether it was connected and has played all. [message]
     [[nodiscard]] bool isDone() const;
@@ -63,8 +87,7 @@ private:
     /// Counts a connection when it has taken its first report; whether there was one before it.
     bool noteConnection();
 
-    std::string wanted;
-    DualSenseWay dualSense;
+    PadDoor door;
     LiveDrive& source;
     double fs;
     LatencyProbe* measured;
@@ -73,4 +96,4 @@ private:
     LivePadReport report;
 };
 
-} // namespace pacini::cli
+} // namespace pacini::live

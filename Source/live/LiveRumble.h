@@ -2,21 +2,21 @@
 
 // Conversion of a drive signal that arrives in real time to the states of a controller.
 
-#include "cli/live/LiveDrive.h"
-#include "cli/live/TrackedDrive.h"
 #include "devices/ControllerReports.h"
 #include "devices/DriveMeasure.h"
 #include "devices/DriveRumble.h"
 #include "devices/PacketContent.h"
 #include "devices/PacketStates.h"
 #include "devices/RumbleSource.h"
+#include "live/LiveDrive.h"
+#include "live/TrackedDrive.h"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 
-namespace pacini::cli
+namespace pacini::live
 {
 
 /// A packet holds whatever has arrived since the one before: no clock is compared with another, nothing drifts, and
@@ -48,4 +48,4 @@ private:
     std::optional<devices::DriveRumble> samples;
 };
 
-} // namespace pacini::cli
+} // namespace pacini::live

@@ -1,10 +1,10 @@
-#include "cli/live/LiveRumble.h"
+#include "live/LiveRumble.h"
 
 #include <algorithm>
 #include <cmath>
 #include <span>
 
-namespace pacini::cli
+namespace pacini::live
 {
 
 namespace
@@ -59,4 +59,4 @@ std::optional<devices::RumbleState> LiveRumble::at(std::int64_t packet)
     return states.of(packet, held);
 }
 
-} // namespace pacini::cli
+} // namespace pacini::live

@@ -1,6 +1,6 @@
-#include "cli/live/PulseServer.h"
+#include "live/PulseServer.h"
 
-#include "io/SoundHandle.h"
+#include "io/SoundLibraryCall.h"
 
 #include <fmt/format.h>
 
@@ -14,13 +14,13 @@
 #include <utility>
 
 #if defined(PACINI_HAS_PULSE)
-#include "cli/live/OpenedLibrary.h"
+#include "live/OpenedLibrary.h"
 
 #include <pulse/pulseaudio.h>
 #include <pulse/simple.h>
 #endif
 
-namespace pacini::cli
+namespace pacini::live
 {
 
 #if defined(PACINI_HAS_PULSE)
@@ -279,4 +279,4 @@ Result<std::unique_ptr<SoundPort>> openPulseSurround(const std::string&)
 
 #endif
 
-} // namespace pacini::cli
+} // namespace pacini::live

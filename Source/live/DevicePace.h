@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <chrono>
 
-namespace pacini::cli
+namespace pacini::live
 {
 
 /// Detects a sound device that has gone. The driver of a server that ended asks for blocks, or hands in the last one,
@@ -41,4 +41,4 @@ private:
     double ahead = 0.0; // s of sound before the clock
 };
 
-} // namespace pacini::cli
+} // namespace pacini::live

@@ -1,8 +1,7 @@
-#include "cli/live/LivePad.h"
+#include "live/LivePad.h"
 
-#include "cli/ControllerInput.h"
-#include "cli/live/LiveRumble.h"
-#include "cli/live/TrackedDrive.h"
+#include "live/LiveRumble.h"
+#include "live/TrackedDrive.h"
 
 #include <fmt/format.h>
 
@@ -13,7 +12,7 @@
 #include <span>
 #include <utility>
 
-namespace pacini::cli
+namespace pacini::live
 {
 
 namespace
@@ -48,13 +47,17 @@ private:
 class WatchedSink : public devices::ReportSink
 {
 public:
-    WatchedSink(devices::ReportSink& target, const bool& soundsNow, LatencyProbe* measured,
+    WatchedSink(devices::ReportSink& target, bool stopsOnCrash, const bool& soundsNow, LatencyProbe* measured,
                 std::atomic<std::int64_t>& counter)
-        : device(target), sounds(soundsNow), probe(measured), sent(counter)
+        : device(target), stops(stopsOnCrash), sounds(soundsNow), probe(measured), sent(counter)
     {
     }
 
-    void prepare(const devices::StopReports& stops) override { device.prepare(stops); }
+    void prepare(const devices::StopReports& reports) override
+    {
+        if (stops)
+            device.prepare(reports);
+    }
 
     Result<void> send(const devices::Report& report) override
     {
@@ -69,6 +72,7 @@ public:
 
 private:
     devices::ReportSink& device;
+    bool stops;
     const bool& sounds;
     LatencyProbe* probe;
     std::atomic<std::int64_t>& sent;
@@ -78,8 +82,8 @@ private:
 /// All that lasts from a connection to its end; the player ends first.
 struct LivePad::Link
 {
-    Link(OpenedController opened, LiveDrive& drive, double fs, LatencyProbe* probe)
-        : pad(std::move(opened)), sink(std::make_unique<WatchedSink>(*pad.device, sounds, probe, sent))
+    Link(OpenedController opened, bool stopsOnCrash, LiveDrive& drive, double fs, LatencyProbe* probe)
+        : pad(std::move(opened)), sink(std::make_unique<WatchedSink>(*pad.device, stopsOnCrash, sounds, probe, sent))
     {
         if (pad.sound)
             playSound(drive, fs);
@@ -148,8 +152,8 @@ struct LivePad::Link
     std::optional<devices::RumblePlayer> player; ///< of reports
 };
 
-LivePad::LivePad(std::string named, DualSenseWay way, LiveDrive& drive, double sampleRate, LatencyProbe* probe)
-    : wanted(std::move(named)), dualSense(way), source(drive), fs(sampleRate), measured(probe)
+LivePad::LivePad(PadDoor wanted, LiveDrive& drive, double sampleRate, LatencyProbe* probe)
+    : door(std::move(wanted)), source(drive), fs(sampleRate), measured(probe)
 {
     source.listen(false);
 }
@@ -158,27 +162,24 @@ LivePad::~LivePad() = default;
 
 Result<void> LivePad::openOne(const devices::Controller& controller)
 {
-    auto opened = openedController(controller, dualSense);
+    auto opened = door.open(controller);
     if (!opened)
         return opened.error();
-    const std::string name = shownName(controller);
     if (!devices::DriveRumble::takesRate(fs, opened->model))
-        return Error{ErrorCode::invalidArgument, name,
+        return Error{ErrorCode::invalidArgument, opened->name,
                      fmt::format("takes no sound of {} Hz; use one of a whole number of Hz from 8000 on", fs)};
     source.listen(true);
-    report.name = name;
+    report.name = opened->name;
     report.lesser = opened->lesser;
-    link = std::make_unique<Link>(std::move(*opened), source, fs, measured);
+    link = std::make_unique<Link>(std::move(*opened), door.stopsOnCrash, source, fs, measured);
     return {};
 }
 
 Result<void> LivePad::open()
 {
     lastLook = std::chrono::steady_clock::now();
-    const auto found = findController(wanted);
-    if (!found)
-        return found.error();
-    return found->controller ? openOne(*found->controller) : Result<void>(found->missing);
+    const auto found = door.find();
+    return found ? openOne(*found) : Result<void>(found.error());
 }
 
 Result<void> LivePad::takeResult()
@@ -203,24 +204,25 @@ bool LivePad::noteConnection()
     return ++report.connections > 1;
 }
 
-void LivePad::look(Console& console)
+PadNews LivePad::look()
 {
     constexpr std::chrono::milliseconds pause(300);
+    PadNews news;
     if (link)
     {
-        if (noteConnection())
-            console.note(fmt::format("{} is back", report.name));
-        if (!report.lesser.empty())
-            console.note(fmt::format("{} plays by rumble: it {}", report.name, std::exchange(report.lesser, {})));
+        news.isBack = noteConnection();
+        news.lesser = std::exchange(report.lesser, {});
         if (link->isPlaying() || source.isOver())
-            return;
+            return news;
         const bool worked = link->works; // one that is just being plugged in may open and not answer
         if (const auto done = takeResult(); !done && worked)
-            console.warning(report.name, done.error().message + "; it plays again when it is back");
-        return;
+            news.stopped = done.error();
+        return news;
     }
     if (std::chrono::steady_clock::now() - lastLook >= pause)
-        static_cast<void>(open());
+        if (const auto opened = open(); !opened)
+            news.notFound = opened.error();
+    return news;
 }
 
 bool LivePad::isDone() const
@@ -238,4 +240,4 @@ const LivePadReport& LivePad::close()
     return report;
 }
 
-} // namespace pacini::cli
+} // namespace pacini::live
