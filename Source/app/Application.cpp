@@ -43,6 +43,7 @@ public:
         editor::useLanguage({});
         editor::tellLanguageProblem("Pacini");
         processor = std::make_unique<plugin::Plugin>();
+        processor->pad().setStopsOnCrash(true); // the signals are ours
         rig = std::make_unique<AudioDevices>(*processor);
         Routing routing;
         std::unique_ptr<juce::XmlElement> devices;
@@ -54,6 +55,8 @@ public:
             if (juce::Base64::convertFromBase64(state, settings->getValue("state")))
                 processor->setStateInformation(state.getData(), static_cast<int>(state.getDataSize()));
         }
+        if (choices.controller)
+            processor->pad().choose(*choices.controller);
         if (choices.testSignal)
             routing.input = InputChoice::test;
         if (!choices.hapticOutputs.empty())

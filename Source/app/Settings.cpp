@@ -39,6 +39,10 @@ std::optional<int> readCommandLine(CommandLineChoices& choices, const juce::Stri
     options.add_option("--sound-output", soundOutput, "First output of the sound, from 1; 0: none")
         ->type_name("N")
         ->check(channels);
+    std::string controller;
+    auto* const named = options.add_option(
+        "--controller", controller, "Game controller that plays along, by its name in 'pacini devices'; empty: none");
+    named->type_name("NAME");
     if (const auto code = readCommandLine(options, JucePlugin_VersionString, arguments))
         return code;
     choices.deviceType = editor::toText(deviceType);
@@ -46,6 +50,8 @@ std::optional<int> readCommandLine(CommandLineChoices& choices, const juce::Stri
         choices.file = juce::File::getCurrentWorkingDirectory().getChildFile(editor::toText(file));
     for (const int output : hapticOutputs)
         choices.hapticOutputs.push_back(output - 1);
+    if (named->count() > 0)
+        choices.controller = controller;
     if (soundOutput >= 0)
         choices.soundOutput = soundOutput - 1;
     return std::nullopt;

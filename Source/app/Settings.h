@@ -8,6 +8,7 @@
 #include <juce_data_structures/juce_data_structures.h>
 
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace pacini::app
@@ -22,6 +23,7 @@ struct CommandLineChoices
     juce::File file;
     std::vector<int> hapticOutputs; ///< of each channel from the first on, from 0, -1: none; empty: as remembered
     std::optional<int> soundOutput; ///< likewise
+    std::optional<std::string> controller; ///< empty: none; nothing: as remembered
 };
 
 /// Returns the code to end with where the program is not to start: see readCommandLine().

@@ -5,8 +5,8 @@
 
 #include "devices/ClipRumble.h"
 #include "devices/DecodeReport.h"
-#include "devices/DecodeRumble.h"
 #include "devices/InstantClock.h"
+#include "devices/Levels.h"
 #include "devices/RumblePlayback.h"
 #include "devices/WaveformDevice.h"
 #include "io/AudioReader.h"
@@ -34,6 +34,7 @@
 
 using namespace pacini;
 using namespace pacini::devices;
+using namespace pacini::test;
 
 namespace
 {
@@ -111,22 +112,6 @@ std::vector<Clip> fortyClips()
     return all;
 }
 
-// Levels of squares, smoothed by a window of Hann, half as high as in its middle 25 ms beside it: a box would let pass
-// the ripple of the squares of low tones, which no level has.
-std::vector<double> smoothed(const std::vector<double>& squares)
-{
-    constexpr int reach = 50;
-    std::vector<double> levels;
-    for (int i = 0; i < static_cast<int>(squares.size()); ++i)
-    {
-        double sum = 0.0;
-        for (int k = std::max(i - reach, 0); k <= std::min(i + reach, static_cast<int>(squares.size()) - 1); ++k)
-            sum += squares[static_cast<std::size_t>(k)] * (1.0 + std::cos(std::numbers::pi * (k - i) / reach));
-        levels.push_back(std::sqrt(sum / (2.0 * reach)));
-    }
-    return levels;
-}
-
 // As `pacini render` makes it, in steps of 1 ms.
 std::vector<double> driveLevels(const Clip& clip)
 {
@@ -141,22 +126,6 @@ std::vector<double> driveLevels(const Clip& clip)
             squares[i] += 2.0 * x * x / static_cast<double>(frames);
         }
     return smoothed(squares);
-}
-
-double squareOf(const ControllerModel& model, const RumbleState& state)
-{
-    if (const auto* sides = std::get_if<SidesRumble>(&state))
-    {
-        const RumbleTones tones = decodeRumble(sides->left).value();
-        return tones.high.amplitude * tones.high.amplitude + tones.low.amplitude * tones.low.amplitude;
-    }
-    if (std::holds_alternative<MotorLevels>(state))
-    {
-        const MotorLevels motors = test::toldLevels(model, reportOf(model, state, 0));
-        return motors.strong * motors.strong + motors.weak * motors.weak;
-    }
-    const auto& waveform = std::get<WaveformState>(state);
-    return waveform.intensity * waveform.intensity;
 }
 
 std::vector<double> sentLevels(const Clip& clip, const ControllerModel& model)
@@ -195,21 +164,6 @@ std::vector<double> sampleLevels(const Clip& clip, const ControllerModel& model)
         for (std::size_t k = i * perStep; k < (i + 1) * perStep; ++k)
             squares[i] += 2.0 * samples[k] * samples[k] / static_cast<double>(perStep);
     return smoothed(squares);
-}
-
-double correlation(const std::vector<double>& a, const std::vector<double>& b)
-{
-    double sumA = 0.0, sumB = 0.0, aa = 0.0, bb = 0.0, ab = 0.0;
-    const auto n = static_cast<double>(a.size());
-    for (std::size_t i = 0; i < a.size(); ++i)
-    {
-        sumA += a[i];
-        sumB += b[i];
-        aa += a[i] * a[i];
-        bb += b[i] * b[i];
-        ab += a[i] * b[i];
-    }
-    return (ab - sumA * sumB / n) / std::sqrt((aa - sumA * sumA / n) * (bb - sumB * sumB / n));
 }
 
 // Mean difference in dB where the drive is within 10 dB of each of three levels below its loudest.

@@ -42,6 +42,9 @@ FILE_ERRORS = [Path("Source/io") / name for name in (
     "CueSheet.cpp", "Id3Chapters.cpp", "Mp4Tables.cpp", "OnsetFile.cpp", "NumberTable.cpp",
     "TextMark.h", "JsonSource.h", "JsonText.cpp", "JsonTree.h", "Json5Cursor.h", "Json5Text.cpp", "FieldsHandler.h",
     "NearestName.h", "ReadWarnings.cpp", "SceneCheck.h")]
+# Why a controller does not play, or plays less than it could.
+DEVICE_ERRORS = [Path("Source/devices/HidrawController.cpp"), Path("Source/live/LivePad.cpp"),
+                 Path("Source/live/OpenedController.cpp")]
 # Readers of clips: an import lists what they warn of, and says why they refuse. All that is in the folders of formats.
 CLIP_READERS = re.compile(r"Source/io/formats/(\w+/.*|ForeignText|JsonEntry)\.(cpp|h)$")
 
@@ -236,7 +239,7 @@ def check(root, tables):
         for text in (match.group(1), "".join(PART.findall(match.group(2)))):
             wanted.setdefault(text, f"{STUDY_TEMPLATES.as_posix()}:{line}")
     shorter = {" (costs {0} dB)"}  # ends of sentences whose whole is in the table, with and without
-    for source in (ERRORS, FILE_NAMES, *CORE, *FILE_ERRORS, *SETTINGS_ERRORS):
+    for source in (ERRORS, FILE_NAMES, *CORE, *FILE_ERRORS, *DEVICE_ERRORS, *SETTINGS_ERRORS):
         for line, text in literals(root / source):
             quoting.add(numbered(text))
             if text not in no_texts and numbered(text) not in shorter and is_text(text, "reader"):

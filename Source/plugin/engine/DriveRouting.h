@@ -53,9 +53,10 @@ public:
     }
 
     /// `main` contains the sound, delayed like the drives. All spans have one length, with a drive for each of `haptic`
-    /// and at least one. Afterwards `drives` contain the output: faded, and silent where none is played.
+    /// and at least one. Afterwards `drives` contain the output: faded, and silent where none is played; the first
+    /// `elsewhere` of them are played without a haptic channel too.
     void process(std::span<const std::span<float>> main, std::span<const std::span<float>> haptic,
-                 std::span<const std::span<float>> drives) noexcept
+                 std::span<const std::span<float>> drives, std::size_t elsewhere = 0) noexcept
     {
         if (share.resting())
         {
@@ -73,7 +74,7 @@ public:
             playFading(main, drives);
         for (std::size_t c = 0; c < haptic.size(); ++c)
             std::copy(drives[c].begin(), drives[c].end(), haptic[c].begin());
-        for (std::size_t c = haptic.size(); c < drives.size(); ++c)
+        for (std::size_t c = std::max(haptic.size(), elsewhere); c < drives.size(); ++c)
             if (!isInMain(c, main.size()))
                 std::fill(drives[c].begin(), drives[c].end(), 0.0f);
     }

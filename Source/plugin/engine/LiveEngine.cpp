@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "plugin/engine/LiveEngine.h"
 
+#include "live/LiveDrive.h"
+
 #include <pacini/foundation/LargestMagnitude.h>
 #include <pacini/realtime/Translator.h>
 
@@ -160,7 +162,8 @@ void LiveEngine::process(const EngineBlock& block, const ParameterValues& values
             sidechain[c] = {block.sidechain[c] + done, n};
         for (std::size_t c = 0; c < haptics; ++c)
             haptic[c] = {block.haptic[c] + done, n};
-        piece(std::span(main).first(mains), std::span(sidechain).first(sides), std::span(haptic).first(haptics), n);
+        piece(std::span(main).first(mains), std::span(sidechain).first(sides), std::span(haptic).first(haptics), n,
+              block.controller);
     }
 }
 
@@ -183,7 +186,8 @@ void LiveEngine::aim(const EngineBlock& block, const ParameterValues& values, bo
 }
 
 void LiveEngine::piece(std::span<const std::span<float>> main, std::span<const std::span<const float>> sidechain,
-                       std::span<const std::span<float>> haptic, std::size_t frames) noexcept
+                       std::span<const std::span<float>> haptic, std::size_t frames,
+                       live::LiveDrive* controller) noexcept
 {
     const auto in = std::span(source).first(frames);
     const bool previews = clips != nullptr && preview.take(*clips, frames);
@@ -230,8 +234,10 @@ void LiveEngine::piece(std::span<const std::span<float>> main, std::span<const s
     else if (main.size() >= 2)
         left = main[0], right = main[1];
     row.process(std::span(from).first(channels), left, right, std::span(to).first(channels));
-    routing.process(main, haptic, std::span(to).first(channels));
-    meterPeaks(main.size(), frames);
+    routing.process(main, haptic, std::span(to).first(channels), controller != nullptr ? 1 : 0);
+    if (controller != nullptr)
+        controller->push(to[0]); // nothing at rest: who waits for more than some packets falls silent
+    meterPeaks(main.size(), frames, controller != nullptr);
     watch.worked(frames, mayRest && silent && isStill(main, frames), framesToRest());
 }
 
@@ -331,12 +337,12 @@ void LiveEngine::translate(std::span<const float> in) noexcept
 }
 
 /// What goes out.
-void LiveEngine::meterPeaks(std::size_t mainChannels, std::size_t frames) noexcept
+void LiveEngine::meterPeaks(std::size_t mainChannels, std::size_t frames, bool onController) noexcept
 {
     const unsigned haptics = connected.load(std::memory_order_relaxed);
     for (std::size_t c = 0; c < channels; ++c)
     {
-        if ((haptics >> c & 1u) == 0 && !routing.isInMain(c, mainChannels))
+        if ((haptics >> c & 1u) == 0 && !routing.isInMain(c, mainChannels) && !(onController && c == 0))
             continue;
         const float peak = largestMagnitude(std::span(drives[c]).first(frames));
         if (peak > peaks[c].load(std::memory_order_relaxed))

@@ -27,6 +27,10 @@ namespace pacini
 {
 class Translator;
 }
+namespace pacini::live
+{
+class LiveDrive;
+}
 
 namespace pacini::plugin
 {
@@ -43,6 +47,7 @@ struct EngineBlock
     std::span<const float* const> sidechain;
     std::span<float* const> haptic;
     std::size_t frames = 0;
+    live::LiveDrive* controller = nullptr; ///< plays the drive of the first haptic channel; null: none
 };
 
 /// Translates the sound for each actuator that is in use, once for all channels that share one, and hands the drives
@@ -108,7 +113,7 @@ private:
 
     void aim(const EngineBlock& block, const ParameterValues& values, bool bypassed) noexcept;
     void piece(std::span<const std::span<float>> main, std::span<const std::span<const float>> sidechain,
-               std::span<const std::span<float>> haptic, std::size_t frames) noexcept;
+               std::span<const std::span<float>> haptic, std::size_t frames, live::LiveDrive* controller) noexcept;
 
     /// One translation.
     struct Voice
@@ -126,7 +131,7 @@ private:
     [[nodiscard]] bool isStill(std::span<const std::span<float>> main, std::size_t frames) const noexcept;
     [[nodiscard]] std::size_t framesToRest() const noexcept;
     void translate(std::span<const float> in) noexcept;
-    void meterPeaks(std::size_t mainChannels, std::size_t frames) noexcept;
+    void meterPeaks(std::size_t mainChannels, std::size_t frames, bool onController) noexcept;
 
     std::atomic<double> fs{48000.0};
     std::array<Voice, maxHapticChannels> voices;

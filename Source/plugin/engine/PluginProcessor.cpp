@@ -91,6 +91,7 @@ void PluginProcessor::prepareToPlay(double newRate, int)
                        static_cast<std::size_t>(std::max(getChannelCountOfBus(false, hapticBus), 1)));
     }
     clips.prepare(newRate);
+    padOutput.prepare(newRate);
     setLatencySamples(static_cast<int>(engine.latencyFrames()));
 }
 
@@ -137,7 +138,8 @@ void PluginProcessor::process(juce::AudioBuffer<float>& buffer, bool bypassed) n
     const std::size_t sides = gather(true, sidechainBus, sidechain);
     const std::size_t haptics = gather(false, hapticBus, haptic);
     engine.process({std::span<float* const>(main).first(mains), std::span<const float* const>(sidechain).first(sides),
-                    std::span<float* const>(haptic).first(haptics), static_cast<std::size_t>(buffer.getNumSamples())},
+                    std::span<float* const>(haptic).first(haptics), static_cast<std::size_t>(buffer.getNumSamples()),
+                    isNonRealtime() ? nullptr : padOutput.drive()},
                    heardValues(), bypassed);
     const std::chrono::duration<double> worked = std::chrono::steady_clock::now() - begin;
     noteLoad(worked.count(), static_cast<double>(buffer.getNumSamples()) / engine.sampleRate());
@@ -261,6 +263,7 @@ void PluginProcessor::getStateInformation(juce::MemoryBlock& block)
     state.windowWidth = windowWidth.load();
     state.windowHeight = windowHeight.load();
     state.keepsCaptures = keepsCaptures();
+    state.controller = padOutput.status().name;
     const std::string text = stateText(state);
     block.replaceAll(text.data(), text.size());
 }
@@ -294,6 +297,7 @@ bool PluginProcessor::restoreState(std::string_view text)
     }
     setPreset(state.preset);
     setKeepsCaptures(state.keepsCaptures);
+    padOutput.choose(state.controller);
     if (state.windowWidth > 0 && state.windowHeight > 0)
         setWindowSize(state.windowWidth, state.windowHeight);
     if (const auto restored = clips.setText(state.clips); !restored)

@@ -6,6 +6,7 @@
 #include "document/HostedProject.h"
 #include "plugin/engine/EditHistory.h"
 #include "plugin/engine/LiveEngine.h"
+#include "plugin/engine/PadOutput.h"
 #include "plugin/engine/PluginState.h"
 #include "plugin/engine/SetupWorker.h"
 #include "plugin/engine/TableParameter.h"
@@ -102,6 +103,10 @@ public:
     /// The clips that are edited in the window.
     [[nodiscard]] HostedProject& project() noexcept { return clips; }
 
+    /// The controller that plays the drive of the first haptic channel, except when the host renders offline.
+    [[nodiscard]] PadOutput& pad() noexcept { return padOutput; }
+    [[nodiscard]] const PadOutput& pad() const noexcept { return padOutput; }
+
     // What the window shows. [message], answered without waiting for the audio thread
     [[nodiscard]] TranslatorMeterReading readMeters() const { return engine.readMeters(); }
     /// The largest sample of the source since the last call, linear.
@@ -172,6 +177,7 @@ private:
     std::array<TableParameter*, parameterCount> table{}; // the base owns them
     HostedProject clips;
     LiveEngine engine;
+    PadOutput padOutput;
 
     /// Guards the members below, and the preparation of the engine. Never taken by the audio thread, except when the
     /// host renders offline.

@@ -18,6 +18,8 @@ namespace
 {
 using Json = nlohmann::json;
 
+constexpr std::size_t longestControllerName = 256; // bytes; a device gives one of at most 126 characters
+
 int sizeOf(const Json& tree, const char* name)
 {
     const auto found = tree.find(name);
@@ -119,9 +121,11 @@ std::string stateText(const PluginState& state)
         tree["window"] = {{"width", state.windowWidth}, {"height", state.windowHeight}};
     if (!state.keepsCaptures)
         tree["keepsCaptures"] = false;
+    if (!state.controller.empty())
+        tree["controller"] = state.controller;
     if (!state.clips.empty())
         tree["clips"] = Json::parse(state.clips);
-    return tree.dump();
+    return tree.dump(-1, ' ', false, Json::error_handler_t::replace); // a controller gives itself any name
 }
 
 Result<ReadState> readState(std::string_view text)
@@ -150,6 +154,9 @@ Result<ReadState> readState(std::string_view text)
     }
     if (const auto keeps = tree->find("keepsCaptures"); keeps != tree->end() && keeps->is_boolean())
         read.state.keepsCaptures = keeps->get<bool>();
+    if (const auto controller = tree->find("controller"); controller != tree->end() && controller->is_string())
+        if (auto name = controller->get<std::string>(); name.size() <= longestControllerName)
+            read.state.controller = std::move(name);
     if (const auto clips = tree->find("clips"); clips != tree->end() && clips->is_object())
         read.state.clips = clips->dump();
     return read;

@@ -56,6 +56,7 @@ struct PluginState : PluginSettings
     int windowWidth = 0;                 ///< 0: the default size
     int windowHeight = 0;
     bool keepsCaptures = true; ///< captured clips keep their sound
+    std::string controller;    ///< name of the one that plays along; empty: none
     bool operator==(const PluginState&) const = default;
 };
 

@@ -146,7 +146,7 @@ PluginWindow::PluginWindow(Plugin& shown)
     adopt(clipsButton, nullptr);
     menuButton.setTitle("Menu");
     menuButton.setWantsKeyboardFocus(true);
-    editor::prepareButton(menuButton, "Undo, sides, scale of the window, theme, help",
+    editor::prepareButton(menuButton, "Undo, sides, controller, scale of the window, theme, help",
                           [this] { menu().showMenuAsync(juce::PopupMenu::Options().withTargetComponent(menuButton)); });
     adopt(menuButton, nullptr);
 
@@ -324,6 +324,7 @@ juce::PopupMenu PluginWindow::menu()
     const bool isA = processor.side() == Side::a;
     add(menu, editor::tr(isA ? "Copy A to B" : "Copy B to A"), true, [this] { processor.copyToOtherSide(); });
     menu.addSeparator();
+    menu.addSubMenu(editor::tr("Controller"), controllerMenu());
     juce::PopupMenu sizes;
     for (const int percent : WindowSettings::scales)
         add(
@@ -336,6 +337,58 @@ juce::PopupMenu PluginWindow::menu()
         menu, editor::tr("Help"), true, [this] { ask(std::make_unique<editor::HelpSheet>(true)); },
         editor::keyText(helpKey()));
     return menu;
+}
+
+/// Those that are connected now, and the chosen one.
+juce::PopupMenu PluginWindow::controllerMenu()
+{
+    PadOutput& pad = processor.pad();
+    const PadOutput::Status chosen = pad.status();
+    const auto connected = pad.connected();
+    juce::PopupMenu menu;
+    const auto add = [&](const juce::String& text, bool ticked, std::function<void()> action)
+    {
+        juce::PopupMenu::Item item(text);
+        item.setTicked(ticked).setEnabled(action != nullptr).setAction(std::move(action));
+        menu.addItem(std::move(item));
+    };
+    add(editor::tr("None"), chosen.name.empty(), [&pad] { pad.choose({}); });
+    bool isThere = chosen.name.empty();
+    const bool none = !connected || connected->empty();
+    if (connected)
+        for (const devices::Controller& each : *connected)
+        {
+            const std::string name = nameOf(each);
+            const bool isChosen = !isThere && pad.isChosen(each);
+            isThere = isThere || isChosen;
+            add(editor::toText(name), isChosen, [&pad, name, path = each.path] { pad.choose(name, path); });
+        }
+    if (!isThere)
+        add(editor::toText(chosen.name), true, [&pad, name = chosen.name] { pad.choose(name); });
+    juce::StringArray told;
+    if (!connected)
+        told.add(editor::translateMessage(editor::toText(connected.error().text())));
+    else if (none)
+        told.add(editor::tr("No supported controller connected"));
+    if (const auto text = controllerText(chosen); text.isNotEmpty())
+        told.add(text);
+    if (!told.isEmpty())
+        menu.addSeparator();
+    for (const juce::String& text : told)
+        add(text, false, nullptr);
+    return menu;
+}
+
+juce::String PluginWindow::controllerText(const PadOutput::Status& of)
+{
+    const juce::String name = editor::toText(of.name);
+    if (of.name.empty())
+        return {};
+    if (!of.trouble.empty())
+        return name + " " + editor::translateMessage(editor::toText(of.trouble));
+    if (!of.lesser.empty())
+        return editor::tr("{0} plays by rumble: it {1}", {name, editor::translateMessage(editor::toText(of.lesser))});
+    return of.plays ? editor::tr("{0} plays", {name}) : juce::String();
 }
 
 void PluginWindow::ask(std::unique_ptr<editor::Sheet> sheet)
@@ -452,6 +505,9 @@ void PluginWindow::showRouting()
 
 juce::String PluginWindow::statusText() const
 {
+    const PadOutput::Status pad = processor.pad().status();
+    if (!pad.trouble.empty())
+        return controllerText(pad);
     juce::String note = processor.note();
     if (note.isNotEmpty())
         return editor::translateMessage(note);
@@ -459,6 +515,8 @@ juce::String PluginWindow::statusText() const
         return editor::tr("Bypassed by the host");
     if (languageNote.isNotEmpty())
         return languageNote;
+    if (!pad.lesser.empty())
+        return controllerText(pad);
     const double milliseconds = 1000.0 * processor.latency() / processor.sampleRate();
     return editor::tr("{0}, latency {1} ms, load {2} %",
                       {editor::tr(processor.actuatorName()), editor::numberText(milliseconds, 2),

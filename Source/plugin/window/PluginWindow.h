@@ -82,6 +82,8 @@ private:
     void showRouting();
     void placeHeader(juce::Rectangle<int> area);
     void placeKnobs(juce::Rectangle<int> area, std::initializer_list<editor::ParameterSlider*> knobs);
+    [[nodiscard]] juce::PopupMenu controllerMenu();
+    [[nodiscard]] static juce::String controllerText(const PadOutput::Status& of);
     [[nodiscard]] juce::String statusText() const;
 
     Plugin& processor;

@@ -5,6 +5,7 @@
 #include "editor/Text.h"
 #include "editor/Translation.h"
 #include "editor/clip/sheets/HelpSheet.h"
+#include "plugin/engine/FakePads.h"
 #include "plugin/engine/Rig.h"
 #include "plugin/window/PluginWindow.h"
 #include "support/TempFolder.h"
@@ -386,6 +387,58 @@ TEST_CASE("The window tells of its load and has help")
              });
     CHECK(found);
     CHECK_FALSE(window.keyPressed(undoKey())); // keys stay with the help
+}
+
+TEST_CASE("The menu offers the controllers that are connected now, and the window tells what becomes of the chosen one")
+{
+    const juce::ScopedJuceInitialiser_GUI gui;
+    FakePad pad, other("Pro Controller", "/dev/fake1");
+    pad.isPlugged = other.isPlugged = false;
+    WindowRig rig;
+    rig.plugin.pad().setAccess(accessTo({&pad, &other}));
+    plugin::PluginWindow window(rig.plugin);
+    auto& status = controlOf<juce::Label>(window, "Status");
+    CHECK(textsOf(window.menu()).contains("No supported controller connected"));
+    CHECK_FALSE(textsOf(window.menu()).contains("Wireless Controller"));
+    pad.isPlugged = other.isPlugged = true;
+    CHECK(textsOf(window.menu()).contains("Pro Controller"));
+    CHECK_FALSE(textsOf(window.menu()).contains("No supported controller connected"));
+    CHECK_FALSE(rig.plugin.canUndo());
+    const juce::String usual = status.getText();
+    CHECK(usual.contains("latency"));
+
+    CHECK(chooseFrom(window.menu(), "Wireless Controller"));
+    REQUIRE(becomes([&] { return rig.plugin.pad().status().plays; }));
+    window.refresh();
+    CHECK(status.getText() == usual);
+    CHECK(textsOf(window.menu()).contains("Wireless Controller plays"));
+    CHECK_FALSE(rig.plugin.canUndo()); // it belongs to the machine
+
+    pad.isPlugged = false;
+    REQUIRE(becomes([&] { return !rig.plugin.pad().status().plays; }));
+    window.refresh();
+    CHECK(status.getText() == "Wireless Controller is not connected; it plays as soon as it is");
+    CHECK(textsOf(window.menu()).contains(status.getText()));
+    CHECK(textsOf(window.menu()).contains("Wireless Controller"));
+    pad.isRefused = true;
+    pad.isPlugged = true;
+    CHECK(becomes(
+        [&]
+        {
+            window.refresh();
+            return status.getText() == "Wireless Controller is in use by another program; end that first";
+        }));
+    pad.isRefused = false;
+    pad.lesser = "refuses samples";
+    CHECK(becomes(
+        [&]
+        {
+            window.refresh();
+            return status.getText() == "Wireless Controller plays by rumble: it refuses samples";
+        }));
+    CHECK(chooseFrom(window.menu(), "None"));
+    window.refresh();
+    CHECK(status.getText() == usual);
 }
 
 TEST_CASE("Pictures of the window at all scales, light and dark, for a person to look at", "[.pictures]")
