@@ -215,14 +215,19 @@ PadNews LivePad::look()
         if (link->isPlaying() || source.isOver())
             return news;
         const bool worked = link->works; // one that is just being plugged in may open and not answer
-        if (const auto done = takeResult(); !done && worked)
-            news.stopped = done.error();
+        if (const auto done = takeResult(); !done)
+            (worked ? news.stopped : news.notFound) = done.error();
         return news;
     }
     if (std::chrono::steady_clock::now() - lastLook >= pause)
         if (const auto opened = open(); !opened)
             news.notFound = opened.error();
     return news;
+}
+
+bool LivePad::isConnected() const noexcept
+{
+    return link && link->works;
 }
 
 bool LivePad::isDone() const

@@ -46,7 +46,7 @@ struct PadNews
     bool isBack = false;           ///< it plays again
     std::string lesser;            ///< why it plays by rumble, told once for each connection
     std::optional<Error> stopped;  ///< why it does not play any more until it is back
-    std::optional<Error> notFound; ///< why it is not connected, each time it was looked for
+    std::optional<Error> notFound; ///< why it is not connected, each time it was tried
 };
 
 /// Sends from its own thread; all functions are for one other thread.
@@ -66,8 +66,8 @@ public:
     /// Notices that it was unplugged, and looks for it now and then until it is back. [message]
     [[nodiscard]] PadNews look();
 
-    /// Whether it is open and, as far as it is known, plays. [message]
-    [[nodiscard]] bool isConnected() const noexcept { return link != nullptr; }
+    /// Whether it is open and has taken something. [message]
+    [[nodiscard]] bool isConnected() const noexcept;
 
     /// Its name, once it was connected. [message]
     [[nodiscard]] const std::string& name() const noexcept { return report.name; }

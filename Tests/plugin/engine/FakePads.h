@@ -67,6 +67,7 @@ struct FakePad
 
     devices::Controller controller;
     std::atomic<bool> isPlugged{true}, isOpen{false}, isRefused{false};
+    std::atomic<bool> isMute{false}; ///< it is listed and opens, and takes nothing
     std::atomic<int> armed{0};
     mutable std::mutex mutex;
     std::vector<Sent> reports;
@@ -83,7 +84,7 @@ public:
 
     Result<void> send(const devices::Report& report) override
     {
-        if (!pad.isPlugged)
+        if (!pad.isPlugged || pad.isMute)
             return Error{ErrorCode::io, "", "does not answer any more; was it unplugged or switched off?"};
         const std::lock_guard lock(pad.mutex);
         pad.reports.push_back({FakePad::Clock::now(), report});

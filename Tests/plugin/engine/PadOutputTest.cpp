@@ -303,6 +303,17 @@ TEST_CASE("A controller: unplugging, coming back elsewhere and what it cannot pl
     REQUIRE(becomes([&] { return !status().plays; }));
     CHECK(status().lesser.empty());
     CHECK_FALSE(status().trouble.empty());
+    const std::string unplugged = status().trouble;
+    pad.isMute = true;
+    pad.isPlugged = true;
+    REQUIRE(becomes([&] { return status().trouble != unplugged; }));
+    for (int i = 0; i < 200; ++i) // it is opened time and again
+    {
+        CHECK_FALSE(status().plays);
+        CHECK(status().trouble == "does not answer any more; was it unplugged or switched off?");
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    pad.isPlugged = pad.isMute = false;
     pad.controller.path = "/dev/fake1";
     pad.isPlugged = true;
     REQUIRE(becomes([&] { return status().plays; }));
