@@ -49,10 +49,10 @@ PadOutput::~PadOutput()
 void PadOutput::choose(const std::string& name, const std::string& path)
 {
     const std::lock_guard lock(mutex);
-    if (name == wanted.name && (path.empty() || path == wanted.path))
+    if (name == choice.name && (path.empty() || path == choice.path))
         return;
-    wanted.name = name;
-    wanted.path = path;
+    choice.name = name;
+    choice.path = path;
     now = Status{};
     now.name = name;
     if (!name.empty() && !queue)
@@ -66,15 +66,15 @@ void PadOutput::choose(const std::string& name, const std::string& path)
 void PadOutput::prepare(double sampleRate)
 {
     const std::lock_guard lock(mutex);
-    wanted.fs = sampleRate;
+    choice.fs = sampleRate;
     changed.notify_all();
 }
 
 bool PadOutput::isChosen(const devices::Controller& controller) const
 {
     const std::lock_guard lock(mutex);
-    const std::string& path = now.path.empty() ? wanted.path : now.path;
-    return nameOf(controller) == wanted.name && (path.empty() || path == controller.path);
+    const std::string& path = now.path.empty() ? choice.path : now.path;
+    return nameOf(controller) == choice.name && (path.empty() || path == controller.path);
 }
 
 PadOutput::Status PadOutput::status() const
@@ -96,7 +96,7 @@ Result<devices::Controller> PadOutput::find(const Wanted& meant)
     if (found == nullptr)
         return Error{ErrorCode::io, "", missing};
     const std::lock_guard lock(mutex);
-    if (wanted == meant)
+    if (choice == meant)
         now.path = found->path;
     return *found;
 }
@@ -120,7 +120,7 @@ bool PadOutput::isStillThere(const Wanted& meant)
 {
     const auto connected = access.list();
     const std::lock_guard lock(mutex);
-    if (!connected || wanted != meant ||
+    if (!connected || choice != meant ||
         std::any_of(connected->begin(), connected->end(), [&](const auto& each) { return each.path == now.path; }))
         return true;
     now.plays = false;
@@ -138,9 +138,9 @@ void PadOutput::work()
     std::unique_lock lock(mutex);
     while (!ending)
     {
-        if (wanted != served)
+        if (choice != served)
         {
-            served = wanted;
+            served = choice;
             lock.unlock();
             pad.reset(); // it falls silent
             pad = padFor(served);
@@ -160,9 +160,9 @@ void PadOutput::work()
         }
         const live::PadNews news = pad->look();
         lock.lock();
-        if (wanted == served)
+        if (choice == served)
             note(served, *pad, news);
-        if (!ending && wanted == served)
+        if (!ending && choice == served)
             changed.wait_for(lock, glance);
     }
     lock.unlock();

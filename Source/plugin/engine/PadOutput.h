@@ -101,7 +101,7 @@ private:
 
     mutable std::mutex mutex; ///< of the members up to the thread
     std::condition_variable changed;
-    Wanted wanted;
+    Wanted choice;
     Status now;
     bool ending = false;
     std::unique_ptr<live::LiveDrive> queue; ///< lasts, once there was a choice
