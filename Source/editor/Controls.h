@@ -24,9 +24,18 @@ public:
 
     std::function<void()> onMenu; ///< the right button was pressed, which moves nothing then
 
+    /// A dash in the place of the number: there is nothing that has one.
+    void showNone(bool wanted)
+    {
+        if (std::exchange(none, wanted) != wanted)
+            updateText();
+    }
+
     // Numbers as the language writes them.
     juce::String getTextFromValue(double value) override
     {
+        if (none)
+            return juce::String::fromUTF8("–");
         return withDecimalMark(juce::Slider::getTextFromValue(value));
     }
     double getValueFromText(const juce::String& text) override

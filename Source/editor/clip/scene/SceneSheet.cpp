@@ -241,6 +241,8 @@ void SceneSheet::follow()
         part != nullptr && std::any_of(part->curves.begin(), part->curves.end(),
                                        [this](const SceneCurve& one) { return one.parameter == curve.parameter(); });
     value.setRange(range.low, range.high, 0.01);
+    for (Slider* slider : {&value, &priority, &repeats})
+        slider->showNone(part == nullptr);
     value.setTextValueSuffix(range.unit);
     value.setDoubleClickReturnValue(true, range.usual);
     if (part != nullptr)
