@@ -88,7 +88,7 @@ ExportSheet::ExportSheet(const EditorModel& project, const Actuators& profiles, 
         showLosses();
     };
     events.setTitle("Events");
-    events.setTooltip("Each event as its own transient, or merged into the voice where that is as strong");
+    events.setTooltip("Each event on its own, or merged into the voice where that is as strong");
     events.addItem("Transients", itemOf(EventExport::transients));
     events.addItem("Merged into voice", itemOf(EventExport::merged));
     events.setTextWhenNothingSelected(tr("Set by the format"));
