@@ -50,6 +50,20 @@ constexpr int mostRepeats = 100;
 constexpr int mostWarnings = 12; // lines of a message
 } // namespace
 
+juce::String forecastText(std::size_t parts, const SceneForecast& scene)
+{
+    const bool differs = scene.error > CompileParams().tolerance;
+    if (scene.leftOut.empty() && scene.bands == 0 && !differs)
+        return counted(parts, "{0} clip, felt", "{0} clips, all felt");
+    juce::StringArray changes;
+    if (!scene.leftOut.empty())
+        changes.add(counted(scene.leftOut.size(), "{0} clip left out", "{0} clips left out"));
+    if (scene.bands > 0)
+        changes.add(counted(scene.bands, "{0} band skipped", "{0} bands skipped"));
+    changes.add(differs ? tr("error {0} dB", {numberText(scene.error, 1)}) : tr("no difference that is felt"));
+    return counted(parts, "{0} clip", "{0} clips") + "; " + changes.joinIntoString(", ");
+}
+
 SceneSheet::SceneSheet(Session& shared)
     : Sheet("Scene", wholeWindow, wholeWindow),
       session(shared),
@@ -278,20 +292,10 @@ void SceneSheet::plan()
                      stop();
                  else if (plays)
                      isTimerRunning() ? session.player.set(playback()) : begin();
-                 juce::String text = counted(parts, "{0} clip", "{0} clips");
-                 if (found && parts == 0)
-                     text = tr("No clips yet");
-                 else if (!found)
-                     text = translateMessage(toText(found.error().text()));
-                 else if (scene.leftOut.empty() && scene.bands == 0 && !(scene.error > CompileParams().tolerance))
-                     text << ", " << tr("all of them are felt");
-                 else
-                     text << ", "
-                          << tr("{0} left out and {1} bands of others; the error is {2} dB",
-                                {juce::String(static_cast<int>(scene.leftOut.size())),
-                                 juce::String(static_cast<int>(scene.bands)),
-                                 std::isfinite(scene.error) ? numberText(scene.error, 1) : toText("−∞")});
-                 note.setText(text, juce::dontSendNotification);
+                 note.setText(found && parts == 0 ? tr("No clips yet")
+                              : found             ? forecastText(parts, scene)
+                                                  : translateMessage(toText(found.error().text())),
+                              juce::dontSendNotification);
                  line.showLeftOut(scene.leftOut);
              });
 }
