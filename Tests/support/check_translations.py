@@ -22,12 +22,13 @@ LOSSES = re.compile(r"Source/io/formats/(.*Writer|ClipFormat|.*SumLimit|.*Androi
 LIST_OF_LOSSES = re.compile(r"\b(LossList|LossTrack|LossKind)\b")
 READERS = re.compile(r"(Import|Reader)\.cpp$")
 
-# The core says what an actuator changes of a clip, what of a scene is left out, what cannot feel alike and why an edit is
-# refused; the editor shows it.
+# The core says what an actuator changes of a clip, what of a scene is left out, what cannot feel alike, why an edit is
+# refused and what is wrong with a measurement; the editor shows it.
 CORE = [Path("Core/pacini") / name for name in (
     "clip/Clip.h", "clip/PackedClip.h", "simplify/Simplify.h", "synthesis/Scene.h",
     "synthesis/ClipAdaptation.h", "synthesis/CompilePlan.h", "synthesis/Culling.h", "synthesis/Transparency.h",
-    "clip/edits/Clipboard.h", "clip/edits/TimeEdits.h")]
+    "clip/edits/Clipboard.h", "clip/edits/TimeEdits.h",
+    "linearize/RecordingChecks.h", "linearize/ResponseChecks.h", "linearize/SweepAnalysis.h")]
 
 # Names of presets; what is said of the plugin's is for the command.
 PRESETS = Path("Core/pacini/realtime/TranslatorPresets.h")
