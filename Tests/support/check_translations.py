@@ -105,7 +105,8 @@ LITERALS = {
         "Kind of sound device, such as ALSA or JACK", "Of menus and controls: en or "],
     "names of files of sounds and profiles": [
         "ui_click", "notification", "heartbeat", "footsteps", "weapon", "explosion", "engine_loop", "rain", "texture",
-        "music_bed", "phone-taptic", "l5-wristband", "dualsense-voice-coil"],
+        "music_bed", "click_clock", "drums_tabla_pattern", "impact_boom", "iter_drum_roll", "knock_wood_bridge",
+        "pluck_guitar_harmonics", "sweep_spring_up", "texture_river", "phone-taptic", "l5-wristband", "dualsense-voice-coil"],
     "places in errors and identifiers": [
         "must be a whole number",        "plays[",         "sample rate", "sound", "strength", "lane", "format", "plays[0]", ".bands", "' is not known",
         "channels[", "sweep.", "measurement.", "sweeps[", "clock", "channels"],

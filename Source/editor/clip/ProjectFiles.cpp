@@ -220,7 +220,7 @@ void ProjectFiles::choose(const juce::String& title, Purpose purpose,
     const auto& path = view.session().model.document().path();
     juce::File start = path.empty() ? documentsFolder() : juce::File(pathText(path));
     if (saving && path.empty())
-        start = start.getChildFile("Untitled.pacini");
+        start = start.getChildFile(tr("Untitled") + ".pacini");
     if (!wantedStart.empty())
         start = juce::File(pathText(wantedStart));
     // The folder may be gone, too.
