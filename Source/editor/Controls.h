@@ -3,6 +3,7 @@
 
 // Sliders, buttons and child components, as all windows have them.
 
+#include "editor/Theme.h"
 #include "editor/Tokens.h"
 #include "editor/Translation.h"
 
@@ -71,6 +72,34 @@ public:
 
 private:
     bool asksForMenu = false;
+    bool none = false;
+};
+
+/// A text field whose prompt, said in it while it is empty, follows the theme.
+class PromptField final : public juce::TextEditor
+{
+public:
+    using juce::TextEditor::TextEditor;
+
+    void showWhenEmpty(const juce::String& words)
+    {
+        whenEmpty = words;
+        follow();
+    }
+    void lookAndFeelChanged() override
+    {
+        juce::TextEditor::lookAndFeelChanged();
+        follow();
+    }
+    void parentHierarchyChanged() override
+    {
+        juce::TextEditor::parentHierarchyChanged();
+        follow();
+    }
+
+private:
+    void follow() { setTextToShowWhenEmpty(whenEmpty, paletteFor(*this).dim); }
+    juce::String whenEmpty;
 };
 
 /// A menu whose items do something: keys open it, where those of other boxes choose the next item at once.

@@ -102,6 +102,12 @@ private:
 /// The look of a component's window; a dark one for a component without.
 [[nodiscard]] const Palette& paletteFor(const juce::Component& component);
 
+/// Of secondary text in a row of a list; on the ground of a selected one it would be too faint.
+[[nodiscard]] inline juce::Colour quietTextColour(const Palette& palette, bool isSelected) noexcept
+{
+    return isSelected ? palette.text : palette.dim;
+}
+
 /// A rounded panel behind a group of controls, with its name in the first row; what is left inside.
 juce::Rectangle<int> drawCard(juce::Graphics& g, juce::Rectangle<int> area, const juce::String& name,
                               const Palette& palette);

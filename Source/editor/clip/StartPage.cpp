@@ -205,7 +205,7 @@ StartPage::StartPage(EditorModel& project, Actuators& profiles, FilePreview& pla
     words.setJustification(juce::Justification::centredLeft);
     words.setFont(usualFont());
     words.setIndents(grid, 0);
-    words.setTextToShowWhenEmpty(tr("Search sounds"), juce::Colours::grey);
+    words.showWhenEmpty(tr("Search sounds"));
     words.onTextChange = [this]
     {
         search();

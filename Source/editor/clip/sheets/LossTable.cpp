@@ -162,7 +162,7 @@ void LossTable::paintListBoxItem(int row, juce::Graphics& g, int width, int heig
                juce::Justification::centredLeft, true);
     g.drawText(one.count, columns[1], juce::Justification::centredRight, true);
     g.drawText(one.worst, columns[2], juce::Justification::centredRight, true);
-    g.setColour(p.dim);
+    g.setColour(quietTextColour(p, selected));
     g.drawText(one.place, columns[3], juce::Justification::centredRight, true);
 }
 
