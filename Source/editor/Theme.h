@@ -63,6 +63,11 @@ public:
                            const juce::Colour* colour) override;
     juce::Font getComboBoxFont(juce::ComboBox&) override;
     juce::Font getPopupMenuFont() override;
+    void getIdealPopupMenuItemSize(const juce::String& text, bool isSeparator, int standardHeight, int& width,
+                                   int& height) override;
+    void drawProgressBar(juce::Graphics&, juce::ProgressBar&, int width, int height, double progress,
+                         const juce::String& text) override;
+    bool isProgressBarOpaque(juce::ProgressBar&) override { return false; }
     juce::Font getMenuBarFont(juce::MenuBarComponent&, int, const juce::String&) override;
     juce::Font getTextButtonFont(juce::TextButton&, int height) override;
     juce::Font getLabelFont(juce::Label&) override;
