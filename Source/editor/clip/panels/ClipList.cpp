@@ -363,8 +363,6 @@ void ClipList::itemDropped(const SourceDetails& details)
 void ClipList::paintOverChildren(juce::Graphics& g)
 {
     const Palette& p = paletteFor(*this);
-    if (list.hasKeyboardFocus(true))
-        drawFocusRing(g, *this, getLocalBounds().toFloat().reduced(1.0f));
     if (rowsNow.empty())
     {
         g.setColour(p.dim);
