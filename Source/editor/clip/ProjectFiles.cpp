@@ -3,6 +3,7 @@
 
 #include "document/FolderFiles.h"
 #include "document/ProjectJson.h"
+#include "editor/FileQuestion.h"
 #include "editor/Text.h"
 #include "editor/Translation.h"
 #include "editor/clip/EditorView.h"
@@ -247,7 +248,7 @@ void ProjectFiles::choose(const juce::String& title, Purpose purpose,
         }
         return Browser::canSelectFiles | Browser::openMode | Browser::canSelectMultipleItems;
     }();
-    chooser->launchAsync(flags, [chosen](const juce::FileChooser& done) { chosen(done.getResults()); });
+    askForFiles(*chooser, flags, [chosen](const juce::FileChooser& done) { chosen(done.getResults()); });
 }
 
 void ProjectFiles::askForProfile()

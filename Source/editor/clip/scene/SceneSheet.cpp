@@ -2,6 +2,7 @@
 #include "editor/clip/scene/SceneSheet.h"
 
 #include "editor/Controls.h"
+#include "editor/FileQuestion.h"
 #include "editor/Text.h"
 #include "editor/Theme.h"
 #include "editor/Translation.h"
@@ -380,12 +381,12 @@ void SceneSheet::openScene()
 {
     using Browser = juce::FileBrowserComponent;
     chooser = std::make_unique<juce::FileChooser>(tr("Open scene"), folderOf(session.model), "*.json");
-    chooser->launchAsync(Browser::openMode | Browser::canSelectFiles,
-                         [this](const juce::FileChooser& done)
-                         {
-                             if (done.getResult() != juce::File())
-                                 read(pathOf(done.getResult()));
-                         });
+    askForFiles(*chooser, Browser::openMode | Browser::canSelectFiles,
+                [this](const juce::FileChooser& done)
+                {
+                    if (done.getResult() != juce::File())
+                        read(pathOf(done.getResult()));
+                });
 }
 
 void SceneSheet::read(const std::filesystem::path& file)
@@ -423,12 +424,12 @@ void SceneSheet::exportScene()
     const juce::String name = path.empty() ? tr("Untitled") : pathText(path.stem());
     chooser =
         std::make_unique<juce::FileChooser>(tr("Export scene"), folder.getChildFile(name + ".scene.json"), "*.json");
-    chooser->launchAsync(Browser::saveMode | Browser::canSelectFiles,
-                         [this](const juce::FileChooser& done)
-                         {
-                             if (done.getResult() != juce::File())
-                                 write(pathOf(done.getResult()));
-                         });
+    askForFiles(*chooser, Browser::saveMode | Browser::canSelectFiles,
+                [this](const juce::FileChooser& done)
+                {
+                    if (done.getResult() != juce::File())
+                        write(pathOf(done.getResult()));
+                });
 }
 
 void SceneSheet::write(const std::filesystem::path& file)

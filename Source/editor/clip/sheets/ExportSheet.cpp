@@ -2,6 +2,7 @@
 #include "editor/clip/sheets/ExportSheet.h"
 
 #include "editor/Controls.h"
+#include "editor/FileQuestion.h"
 #include "editor/Text.h"
 #include "editor/Theme.h"
 #include "editor/Translation.h"
@@ -328,13 +329,14 @@ void ExportSheet::browse()
         std::make_unique<juce::FileChooser>(tr(folder ? "Export to a folder" : "Export to a file"),
                                             juce::File::getCurrentWorkingDirectory().getChildFile(target.getText()),
                                             folder ? juce::String() : "*" + toText(chosenFormat().extension));
-    chooser->launchAsync(folder ? Browser::openMode | Browser::canSelectDirectories
-                                : Browser::saveMode | Browser::canSelectFiles, // run() asks
-                         [this](const juce::FileChooser& done)
-                         {
-                             if (done.getResult() != juce::File())
-                                 target.setText(done.getResult().getFullPathName(), false);
-                         });
+    askForFiles(*chooser,
+                folder ? Browser::openMode | Browser::canSelectDirectories
+                       : Browser::saveMode | Browser::canSelectFiles, // run() asks
+                [this](const juce::FileChooser& done)
+                {
+                    if (done.getResult() != juce::File())
+                        target.setText(done.getResult().getFullPathName(), false);
+                });
 }
 
 void ExportSheet::run()
