@@ -149,8 +149,11 @@ void MeasurePage::refresh()
     panel().refresh();
     backButton.setEnabled(stepNow != MeasureStep::setUp && !shared->isPlaying());
     const auto next = static_cast<MeasureStep>(static_cast<int>(stepNow) + 1);
+    nextButton.setVisible(stepNow != MeasureStep::save);
     nextButton.setEnabled(stepNow != MeasureStep::save && work.state(next) != MeasureStepState::locked &&
                           !shared->isPlaying());
+    if (auto* action = panel().action())
+        makePrimary(*action, !nextButton.isEnabled());
 }
 
 void MeasurePage::timerCallback()
