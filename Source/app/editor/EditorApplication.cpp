@@ -25,6 +25,7 @@
 #include <functional>
 #include <iostream>
 #include <memory>
+#include <optional>
 
 namespace pacini::app
 {
@@ -155,9 +156,10 @@ public:
         auto read = study::readStudy(file);
         if (!read)
             return read.error();
-        studyWindow =
-            std::make_unique<StudyWindow>(editor::StudyPlace{std::move(*read), file.parent_path()}, devices,
-                                          std::move(profiles), "Pacini " PACINI_VERSION, std::move(whenClosed));
+        studyWindow = std::make_unique<StudyWindow>(editor::StudyPlace{std::move(*read), file.parent_path()}, devices,
+                                                    std::move(profiles), "Pacini " PACINI_VERSION,
+                                                    window ? std::optional(window->view().isDark()) : std::nullopt,
+                                                    std::move(whenClosed));
         studyWindow->setVisible(true);
         return {};
     }

@@ -98,7 +98,8 @@ private:
 };
 
 StudyWindow::StudyWindow(editor::StudyPlace place, juce::AudioDeviceManager& devices,
-                         std::vector<NamedProfile> profiles, std::string program, std::function<void()> whenClosed)
+                         std::vector<NamedProfile> profiles, std::string program, std::optional<bool> dark,
+                         std::function<void()> whenClosed)
     : DocumentWindow(editor::toText(place.study.name), juce::Colours::black, DocumentWindow::allButtons),
       manager(devices),
       device(devices),
@@ -130,6 +131,7 @@ StudyWindow::StudyWindow(editor::StudyPlace place, juce::AudioDeviceManager& dev
     };
     around.profiles = std::move(profiles);
     around.program = std::move(program);
+    around.dark = dark;
     content = std::make_unique<editor::StudyPage>(std::move(place), std::move(around));
     setUsingNativeTitleBar(true);
     setContentNonOwned(content.get(), false);
