@@ -60,7 +60,7 @@ std::string languageCodes()
 }
 } // namespace
 
-class EditorApplication final : public juce::JUCEApplication
+class EditorApplication final : public juce::JUCEApplication, private juce::Timer
 {
 public:
     const juce::String getApplicationName() override { return "Pacini Editor"; }
@@ -126,6 +126,8 @@ public:
         else if (firstRun)
             view.doCommand(editor::openSample);
         view.files().offerRecovery();
+        if (settings)
+            startTimer(keepInterval);
     }
 
     /// The study alone, without the editor.
@@ -175,8 +177,8 @@ public:
 
     void shutdown() override
     {
-        if (settings && window)
-            settings->keep(*rig, window->view(), window->state());
+        stopTimer();
+        keepSettings();
         studyWindow.reset();
         studyDevices.reset();
         window.reset();
@@ -185,6 +187,17 @@ public:
     }
 
 private:
+    static constexpr int keepInterval = 1000; ///< ms
+
+    /// A program that is killed, or ends with the session of the desktop, does not come to shutdown(). Only what has
+    /// changed is written.
+    void timerCallback() override { keepSettings(); }
+    void keepSettings()
+    {
+        if (settings && window)
+            settings->keep(*rig, window->view(), window->state());
+    }
+
     struct Options
     {
         bool fresh = false, fullScreen = false;
