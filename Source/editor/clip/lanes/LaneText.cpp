@@ -51,6 +51,8 @@ int drawTickText(juce::Graphics& g, const juce::String& text, int x, juce::Recta
 {
     constexpr int gap = 4;
     const int width = g.getCurrentFont().getStringWidth(text) + 1;
+    if (x > line.getRight())
+        return taken; // the tick is out of sight
     const bool fits = x + gap + width <= line.getRight();
     const int from = fits ? x + gap : x - gap - width;
     if (!fits && from < taken + gap)
