@@ -205,7 +205,7 @@ TEST_CASE("What nobody would feel is said, and shown on the part")
     CHECK(pumpUntil([&] { return page.sheet->summary().contains("1 clip"); }));
     parts.add(page.second, 3.0);
     parts.editPart("Softer", [](ScenePart& part) { part.play.gain = -110.0; });
-    CHECK(pumpUntil([&] { return page.sheet->summary().contains("1 left out"); }));
+    CHECK(pumpUntil([&] { return page.sheet->summary().contains("1 clip left out"); }));
 }
 
 TEST_CASE("The scene plays, and the clip has the player again afterwards")
