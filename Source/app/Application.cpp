@@ -14,11 +14,12 @@
 
 #include <algorithm>
 #include <memory>
+#include <utility>
 
 namespace pacini::app
 {
 
-class Application final : public juce::JUCEApplication
+class Application final : public juce::JUCEApplication, private juce::Timer
 {
 public:
     const juce::String getApplicationName() override { return "Pacini"; }
@@ -72,20 +73,14 @@ public:
             if (const auto played = rig->play(choices.file); !played)
                 juce::Logger::writeToLog("Pacini: " + juce::String(played.error().text()));
         window = std::make_unique<StandaloneWindow>(*processor, *rig);
+        if (settings)
+            startTimer(keepInterval);
     }
 
     void shutdown() override
     {
-        if (settings && rig)
-        {
-            remember(*settings, rig->routing());
-            if (const auto devices = rig->devices().createStateXml())
-                settings->setValue("devices", devices.get());
-            juce::MemoryBlock state;
-            processor->getStateInformation(state);
-            settings->setValue("state", juce::Base64::toBase64(state.getData(), state.getSize()));
-            settings->saveIfNeeded();
-        }
+        stopTimer();
+        keepSettings();
         window.reset();
         rig.reset();
         processor.reset();
@@ -94,6 +89,26 @@ public:
     void systemRequestedQuit() override { quit(); }
 
 private:
+    static constexpr int keepInterval = 2000; ///< ms
+
+    /// A program that is killed, or ends with the session of the desktop, does not come to shutdown(). Only what has
+    /// changed is written.
+    void timerCallback() override { keepSettings(); }
+    void keepSettings()
+    {
+        if (!settings || !rig)
+            return;
+        remember(*settings, rig->routing());
+        if (const auto devices = rig->devices().createStateXml())
+            settings->setValue("devices", devices.get());
+        juce::MemoryBlock state;
+        processor->getStateInformation(state);
+        if (state != keptState)
+            settings->setValue("state", juce::Base64::toBase64(state.getData(), state.getSize()));
+        keptState = std::move(state);
+        settings->saveIfNeeded();
+    }
+
     static juce::PropertiesFile::Options settingsOptions()
     {
         juce::PropertiesFile::Options options;
@@ -108,6 +123,7 @@ private:
 
     CommandLineChoices choices;
     std::unique_ptr<juce::PropertiesFile> settings;
+    juce::MemoryBlock keptState;
     std::unique_ptr<plugin::Plugin> processor;
     std::unique_ptr<AudioDevices> rig;
     std::unique_ptr<StandaloneWindow> window;

@@ -2,6 +2,7 @@
 #include "app/RoutingBar.h"
 
 #include "editor/Controls.h"
+#include "editor/FileQuestion.h"
 #include "editor/Translation.h"
 #include "io/AudioExtensions.h"
 
@@ -265,19 +266,19 @@ void RoutingBar::chooseFile()
     for (const std::string& extension : audioExtensions())
         names.add("*" + juce::String(extension));
     chooser = std::make_unique<juce::FileChooser>(tr("Play a sound file"), juce::File(), names.joinIntoString(";"));
-    chooser->launchAsync(juce::FileBrowserComponent::openMode | juce::FileBrowserComponent::canSelectFiles,
-                         [this](const juce::FileChooser& chosen)
-                         {
-                             if (chosen.getResult() == juce::File())
-                                 return;
-                             if (const auto played = rig.play(chosen.getResult()); !played)
-                                 juce::NativeMessageBox::showMessageBoxAsync(
-                                     juce::MessageBoxIconType::WarningIcon, tr("Not played"),
-                                     chosen.getResult().getFileName() + ": " +
-                                         editor::translateMessage(juce::String(played.error().text())),
-                                     this);
-                             fillMenus();
-                         });
+    editor::askForFiles(*chooser, juce::FileBrowserComponent::openMode | juce::FileBrowserComponent::canSelectFiles,
+                        [this](const juce::FileChooser& chosen)
+                        {
+                            if (chosen.getResult() == juce::File())
+                                return;
+                            if (const auto played = rig.play(chosen.getResult()); !played)
+                                juce::NativeMessageBox::showMessageBoxAsync(
+                                    juce::MessageBoxIconType::WarningIcon, tr("Not played"),
+                                    chosen.getResult().getFileName() + ": " +
+                                        editor::translateMessage(juce::String(played.error().text())),
+                                    this);
+                            fillMenus();
+                        });
 }
 
 } // namespace pacini::app

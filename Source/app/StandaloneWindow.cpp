@@ -64,9 +64,14 @@ public:
                 return plugin.setScaleFactor(fits); // which comes back here
             }
         }
-        if (auto* window = findParentComponentOfClass<juce::ResizableWindow>())
-            window->setResizeLimits(scaled(plugin::PluginWindow::leastWidth),
-                                    scaled(plugin::PluginWindow::leastHeight + barHeight), 4800, 3400);
+        auto* window = findParentComponentOfClass<juce::ResizableWindow>();
+        if (window == nullptr)
+            return;
+        window->setResizeLimits(scaled(plugin::PluginWindow::leastWidth),
+                                scaled(plugin::PluginWindow::leastHeight + barHeight), 4800, 3400);
+        // It grows to the right and down: its menus would leave the screen.
+        if (display != nullptr && !window->isFullScreen())
+            window->setBounds(insideOf(display->userArea, window->getBounds()));
     }
 
     ~Content() override

@@ -52,9 +52,7 @@ std::string editTitle(const Edit& edit)
             [&](const LanePatch& patch)
             { return "Points of " + laneWords(patch.lane, edit.frequencies.empty() ? 0.0 : edit.frequencies.front()); },
             [](const TransientPatch& patch) {
-                return std::string(!patch.before  ? "Transient added"
-                                   : !patch.after ? "Transient removed"
-                                                  : "Transient changed");
+                return std::string(!patch.before ? "Event added" : !patch.after ? "Event removed" : "Event changed");
             },
             [](const MarkersEdit&) { return std::string("Markers"); },
             [](const RenameEdit& rename) { return "Name \"" + rename.name + "\""; },
@@ -73,7 +71,7 @@ std::string editTitle(const Edit& edit)
             [](const ReverseEdit&) { return std::string("Reversed"); },
             [](const StretchEdit& stretch) { return fmt::format("Stretched to {:.0f} %", 100.0 * stretch.ratio); },
             [](const ReplaceEdit&) { return std::string("Clip replaced"); },
-            [](const ThinEdit&) { return std::string("Transients thinned"); },
+            [](const ThinEdit&) { return std::string("Events thinned"); },
         },
         edit.operation);
 }

@@ -3,6 +3,7 @@
 
 // Sliders, buttons and child components, as all windows have them.
 
+#include "editor/Theme.h"
 #include "editor/Tokens.h"
 #include "editor/Translation.h"
 
@@ -24,9 +25,18 @@ public:
 
     std::function<void()> onMenu; ///< the right button was pressed, which moves nothing then
 
+    /// A dash in the place of the number: there is nothing that has one.
+    void showNone(bool wanted)
+    {
+        if (std::exchange(none, wanted) != wanted)
+            updateText();
+    }
+
     // Numbers as the language writes them.
     juce::String getTextFromValue(double value) override
     {
+        if (none)
+            return juce::String::fromUTF8("–");
         return withDecimalMark(juce::Slider::getTextFromValue(value));
     }
     double getValueFromText(const juce::String& text) override
@@ -62,6 +72,34 @@ public:
 
 private:
     bool asksForMenu = false;
+    bool none = false;
+};
+
+/// A text field whose prompt, said in it while it is empty, follows the theme.
+class PromptField final : public juce::TextEditor
+{
+public:
+    using juce::TextEditor::TextEditor;
+
+    void showWhenEmpty(const juce::String& words)
+    {
+        whenEmpty = words;
+        follow();
+    }
+    void lookAndFeelChanged() override
+    {
+        juce::TextEditor::lookAndFeelChanged();
+        follow();
+    }
+    void parentHierarchyChanged() override
+    {
+        juce::TextEditor::parentHierarchyChanged();
+        follow();
+    }
+
+private:
+    void follow() { setTextToShowWhenEmpty(whenEmpty, paletteFor(*this).dim); }
+    juce::String whenEmpty;
 };
 
 /// A menu whose items do something: keys open it, where those of other boxes choose the next item at once.

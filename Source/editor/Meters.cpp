@@ -96,7 +96,7 @@ std::unique_ptr<juce::AccessibilityHandler> LevelMeter::createAccessibilityHandl
 EventLamp::EventLamp()
 {
     setTitle("Events");
-    setDescription("Lights up at every transient in the sound");
+    setDescription("Lights up at every event in the sound");
 }
 
 void EventLamp::show(unsigned events, double level)

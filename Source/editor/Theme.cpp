@@ -419,6 +419,47 @@ void Look::drawPopupMenuItem(juce::Graphics& g, const juce::Rectangle<int>& area
     g.drawText(shortcut, row.withTrimmedRight(grid / 2), juce::Justification::centredRight, true);
 }
 
+/// With all that drawPopupMenuItem() puts beside the text: tick, arrow and margins.
+void Look::getIdealPopupMenuItemSize(const juce::String& text, bool isSeparator, int standardHeight, int& width,
+                                     int& height)
+{
+    juce::LookAndFeel_V4::getIdealPopupMenuItemSize(text, isSeparator, standardHeight, width, height);
+    constexpr int beside = 2 + grid + (2 * grid + 4) + 2 * grid + grid;
+    if (!isSeparator)
+        width = getPopupMenuFont().getStringWidth(text) + beside;
+}
+
+void Look::drawProgressBar(juce::Graphics& g, juce::ProgressBar&, int width, int height, double progress,
+                           const juce::String& text)
+{
+    const Palette& p = palette();
+    const auto area = juce::Rectangle<int>(width, height).toFloat();
+    g.setColour(p.well);
+    g.fillRoundedRectangle(area, space::corner);
+    {
+        const juce::Graphics::ScopedSaveState saved(g);
+        juce::Path inside;
+        inside.addRoundedRectangle(area, space::corner);
+        g.reduceClipRegion(inside);
+        g.setColour(p.accent.withAlpha(0.35f));
+        if (progress >= 0.0)
+            g.fillRect(area.withWidth(area.getWidth() * static_cast<float>(std::min(progress, 1.0))));
+        else
+        {
+            // How long it takes is not known: a piece that goes from end to end.
+            constexpr double period = 1500.0; // ms
+            const auto place = static_cast<float>(std::fmod(juce::Time::getMillisecondCounterHiRes(), period) / period);
+            const float piece = 0.25f * area.getWidth();
+            g.fillRect(area.withWidth(piece).withX(place * (area.getWidth() + piece) - piece));
+        }
+    }
+    g.setColour(p.line);
+    g.drawRoundedRectangle(area.reduced(0.5f), space::corner, 1.0f);
+    g.setColour(p.text);
+    g.setFont(smallFont());
+    g.drawText(text, area.reduced(static_cast<float>(grid) / 2.0f, 0.0f), juce::Justification::centred, true);
+}
+
 juce::Font Look::getComboBoxFont(juce::ComboBox& box)
 {
     // Tall ones are those of a study's pages, whose labels are as large.

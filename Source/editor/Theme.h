@@ -63,6 +63,11 @@ public:
                            const juce::Colour* colour) override;
     juce::Font getComboBoxFont(juce::ComboBox&) override;
     juce::Font getPopupMenuFont() override;
+    void getIdealPopupMenuItemSize(const juce::String& text, bool isSeparator, int standardHeight, int& width,
+                                   int& height) override;
+    void drawProgressBar(juce::Graphics&, juce::ProgressBar&, int width, int height, double progress,
+                         const juce::String& text) override;
+    bool isProgressBarOpaque(juce::ProgressBar&) override { return false; }
     juce::Font getMenuBarFont(juce::MenuBarComponent&, int, const juce::String&) override;
     juce::Font getTextButtonFont(juce::TextButton&, int height) override;
     juce::Font getLabelFont(juce::Label&) override;
@@ -101,6 +106,12 @@ private:
 
 /// The look of a component's window; a dark one for a component without.
 [[nodiscard]] const Palette& paletteFor(const juce::Component& component);
+
+/// Of secondary text in a row of a list; on the ground of a selected one it would be too faint.
+[[nodiscard]] inline juce::Colour quietTextColour(const Palette& palette, bool isSelected) noexcept
+{
+    return isSelected ? palette.text : palette.dim;
+}
 
 /// A rounded panel behind a group of controls, with its name in the first row; what is left inside.
 juce::Rectangle<int> drawCard(juce::Graphics& g, juce::Rectangle<int> area, const juce::String& name,

@@ -42,7 +42,7 @@ inline const Palette darkPalette{
     .primary = juce::Colour(0xffe6e9ec),
     .onPrimary = juce::Colour(0xff16191d),
     .warning = juce::Colour(0xffe8a33d),
-    .danger = juce::Colour(0xffec6a5e),
+    .danger = juce::Colour(0xffee766b),
     .event = juce::Colour(0xffb497ff),
     .tone = juce::Colour(0xff62aef0),
 };
@@ -54,14 +54,14 @@ inline const Palette lightPalette{
     .line = juce::Colour(0xffc6ccd2),
     .text = juce::Colour(0xff1b2026),
     .dim = juce::Colour(0xff5b6570),
-    .accent = juce::Colour(0xff0c7f69),
+    .accent = juce::Colour(0xff0b7360),
     .onAccent = juce::Colour(0xfffbfcfc),
     .primary = juce::Colour(0xff1b2026),
     .onPrimary = juce::Colour(0xfffbfcfc),
-    .warning = juce::Colour(0xffa86408),
+    .warning = juce::Colour(0xff955806),
     .danger = juce::Colour(0xffb8322a),
     .event = juce::Colour(0xff6a3fd1),
-    .tone = juce::Colour(0xff1f6fb5),
+    .tone = juce::Colour(0xff1b67aa),
 };
 
 /// All distances are multiples of this many points.

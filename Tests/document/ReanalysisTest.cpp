@@ -85,8 +85,8 @@ TEST_CASE("Edits say what they do and where")
     CHECK(editTime(points) == range);
     CHECK(titleOf(LanePatch{{LaneKind::envelope, 0}, range, {}}) == "Points of the envelope");
     CHECK(titleOf(LanePatch{{LaneKind::pitch, 1}, range, {}}) == "Points of the pitch of band 2");
-    CHECK(titleOf(TransientPatch{std::nullopt, Transient{1.5, 1.0, 0.5}}) == "Transient added");
-    CHECK(titleOf(TransientPatch{Transient{1.5, 1.0, 0.5}, std::nullopt}) == "Transient removed");
+    CHECK(titleOf(TransientPatch{std::nullopt, Transient{1.5, 1.0, 0.5}}) == "Event added");
+    CHECK(titleOf(TransientPatch{Transient{1.5, 1.0, 0.5}, std::nullopt}) == "Event removed");
     CHECK(titleOf(GainEdit{{}, -3.0}) == "Gain of -3.0 dB");
     CHECK(titleOf(FadeEdit{{}, FadeDirection::out, FadeShape::linear}) == "Fade out");
     CHECK(titleOf(StretchEdit{1.5}) == "Stretched to 150 %");

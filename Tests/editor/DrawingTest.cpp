@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <ctime>
 #include <functional>
 #include <set>
@@ -363,4 +364,33 @@ TEST_CASE("The whole window with ten minutes, 500 clips and a scene of 40 parts 
     REQUIRE(bench.view.doCommand(editor::editScene));
     frames("the scene, one part moved in each frame", [&](int i)
            { scene.edit("Move in scene", [&](ProjectScene& wanted) { wanted.parts[0].play.start = 0.01 * i; }); });
+}
+
+TEST_CASE("Each colour of text is read on each ground of its theme")
+{
+    const auto light = [](juce::Colour colour)
+    {
+        const auto linear = [](float part)
+        {
+            const double v = static_cast<double>(part);
+            return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+        };
+        return 0.2126 * linear(colour.getFloatRed()) + 0.7152 * linear(colour.getFloatGreen()) +
+               0.0722 * linear(colour.getFloatBlue());
+    };
+    for (const bool dark : {true, false})
+    {
+        const editor::Palette& p = editor::paletteOf(dark);
+        for (const auto ground : {p.background, p.card, p.well, p.control})
+            for (const auto text : {p.text, p.dim, p.accent, p.warning, p.danger, p.event, p.tone})
+            {
+                const double a = light(ground), b = light(text);
+                CAPTURE(dark, ground.toString(), text.toString());
+                CHECK((std::max(a, b) + 0.05) / (std::min(a, b) + 0.05) >= 4.5);
+            }
+        // Secondary text of a chosen row stands on the accent.
+        const auto chosen = p.well.interpolatedWith(p.accent, 0.35f);
+        const double a = light(chosen), b = light(editor::quietTextColour(p, true));
+        CHECK((std::max(a, b) + 0.05) / (std::min(a, b) + 0.05) >= 4.5);
+    }
 }

@@ -101,7 +101,7 @@ TEST_CASE("A loss of the table is shown in the clip, and the choices of the expo
     CHECK(table.getNumRows() < 12);
     CHECK(table.getNameForRow(0).isNotEmpty());
     bench.session.transport.setPlayhead(0.0);
-    table.onPlace(0.5, 0.1);
+    table.onPlace(bench.session.model.activeId(), 0.5, 0.1);
     REQUIRE(pumpUntil([&] { return bench.view.sheet() == nullptr; }));
     CHECK(bench.session.transport.playhead() == Approx(0.5));
     const auto shown = bench.session.viewState.axis().visible(bench.session.viewState.viewWidth());
@@ -129,4 +129,28 @@ TEST_CASE("What is kept has the height of its words, and the fields stay where t
     CHECK(target.getBounds() == place);
     CHECK(table.getHeight() > 15 * editor::grid);
     CHECK(table.getY() >= words.getBottom());
+}
+
+TEST_CASE("What is kept and lost is said of each format and each clip that would be written")
+{
+    EditorBench bench;
+    bench.openDemo("drums_tabla_pattern");
+    bench.openDemo("knock_wood_bridge");
+    auto& sheet = exportOf(bench);
+    auto& words = get<juce::TextEditor>(sheet, "What is kept and what is lost");
+    auto& table = get<editor::LossTable>(sheet, "Losses");
+    REQUIRE(pumpUntil([&] { return words.getText().contains("No losses."); }));
+    sheet.setAlso("ahap", true);
+    REQUIRE(pumpUntil([&] { return !table.isEmpty(); }));
+    CHECK(words.getText().contains("One voice: intensity curve")); // and not "Keeps everything" alone
+    const int ofOne = table.getNumRows();
+    auto& all = get<juce::ToggleButton>(sheet, "Export all clips");
+    all.setToggleState(true, juce::sendNotificationSync);
+    all.onClick();
+    REQUIRE(pumpUntil([&] { return table.getNumRows() > ofOne; }));
+    juce::String titles;
+    for (int row = 0; row < table.getNumRows(); ++row)
+        titles << table.getNameForRow(row) << "\n";
+    CHECK(titles.contains("drums_tabla_pattern"));
+    CHECK(titles.contains("knock_wood_bridge"));
 }

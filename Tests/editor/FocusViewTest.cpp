@@ -260,3 +260,47 @@ TEST_CASE("A sheet has the keyboard and keeps it, and Escape gives it back to wh
         bench.view.showSheet(nullptr);
     }
 }
+
+namespace
+{
+/// Counts how often a component is asked to be drawn again.
+struct Redraws final : juce::CachedComponentImage
+{
+    explicit Redraws(int& counted) : count(counted) {}
+    void paint(juce::Graphics&) override {}
+    bool invalidateAll() override { return ++count, true; }
+    bool invalidate(const juce::Rectangle<int>&) override { return ++count, true; }
+    void releaseResources() override {}
+    int& count;
+};
+} // namespace
+
+TEST_CASE("A ring is drawn when a component gets the keyboard, and goes when it loses it")
+{
+    EditorBench bench({shipped("lra-175"), shipped("l5-wristband")});
+    bench.view.setBounds(0, 0, 1280, 800);
+    ShownWindow window(bench.view);
+    bench.openDemo("drums_tabla_pattern");
+    const auto check = [&](juce::Component& in)
+    {
+        for (const auto& stop : stops())
+        {
+            if (stop == nullptr || !in.isParentOf(stop.getComponent()) || !stop->isShowing())
+                continue;
+            CAPTURE(nameOf(stop.getComponent()));
+            int count = 0;
+            in.grabKeyboardFocus();
+            stop->setCachedComponentImage(new Redraws(count)); // which it owns
+            stop->grabKeyboardFocus();
+            CHECK(count > 0);
+            count = 0;
+            bench.view.grabKeyboardFocus();
+            CHECK(count > 0);
+            if (stop != nullptr)
+                stop->setCachedComponentImage(nullptr);
+        }
+    };
+    check(bench.view);
+    REQUIRE(bench.view.doCommand(editor::editScene));
+    check(*bench.view.sheet());
+}

@@ -109,12 +109,12 @@ TEST_CASE("Steps say what they change and how much of it, in the menu and in Ger
     Selection both = withPoints({}, envelope, {1});
     CHECK(editor::stepName(editor::SelectionStep::move, both) == "Move point");
     both.transients = {0, 1};
-    CHECK(editor::stepName(editor::SelectionStep::move, both) == "Move 3 points and transients");
+    CHECK(editor::stepName(editor::SelectionStep::move, both) == "Move 3 points and events");
     both.lanes.clear();
-    CHECK(editor::stepName(editor::SelectionStep::move, both) == "Move 2 transients");
+    CHECK(editor::stepName(editor::SelectionStep::move, both) == "Move 2 events");
     editor::useLanguage("de");
     CHECK(bench.menuText("Edit", editor::redo) == juce::String::fromUTF8("Wiederholen: 3 Punkte l\xc3\xb6schen"));
-    CHECK(editor::stepText("Move 12 transients") == "12 Transienten verschieben");
+    CHECK(editor::stepText("Move 12 events") == "12 Ereignisse verschieben");
     editor::useLanguage("en");
 }
 

@@ -2,6 +2,7 @@
 
 #include "editor/Bench.h"
 #include "editor/clip/lanes/CurveLane.h"
+#include "editor/clip/lanes/LaneText.h"
 #include "editor/clip/lanes/SelectionBar.h"
 #include "editor/clip/session/ClipSteps.h"
 #include "editor/clip/session/Snapping.h"
@@ -339,4 +340,16 @@ TEST_CASE("What was copied from one clip is pasted into another, and a single la
         CHECK(valueAt(bench.clip().envelope, time) == Approx(valueAt(before.envelope, time)));
     CHECK(valueAt(bench.clip().bands[1].amplitude, 0.2) == Approx(valueAt(from.envelope, start + 0.1)));
     CHECK_FALSE(selectedIn(session.clipSelection.selected(), {LaneKind::amplitude, 1}).empty());
+}
+
+TEST_CASE("The number of a tick is whole, at the left of its line where need be, or not there")
+{
+    const juce::ScopedJuceInitialiser_GUI gui;
+    const juce::Image image(juce::Image::RGB, 100, 20, true);
+    juce::Graphics g(image);
+    const juce::Rectangle<int> line(0, 0, 100, 20);
+    CHECK(editor::drawTickText(g, "0.5 s", 10, line, 0) > 14);
+    CHECK(editor::drawTickText(g, "0.5 s", 95, line, 0) == 91);
+    CHECK(editor::drawTickText(g, "0.5 s", 95, line, 90) == 90);  // would run into the one before
+    CHECK(editor::drawTickText(g, "0.5 s", 104, line, 12) == 12); // its tick is out of sight
 }

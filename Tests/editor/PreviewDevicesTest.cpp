@@ -124,6 +124,19 @@ private:
     bool found = false;
 };
 
+/// A kind of device of which there is none.
+class EmptyType final : public juce::AudioIODeviceType
+{
+public:
+    EmptyType() : AudioIODeviceType("Empty") {}
+    void scanForDevices() override {}
+    juce::StringArray getDeviceNames(bool) const override { return {}; }
+    int getDefaultDeviceIndex(bool) const override { return 0; }
+    int getIndexOfDevice(juce::AudioIODevice*, bool) const override { return -1; }
+    bool hasSeparateInputsAndOutputs() const override { return true; }
+    juce::AudioIODevice* createDevice(const juce::String&, const juce::String&) override { return nullptr; }
+};
+
 struct DeviceBench : EditorBench
 {
     Plug plug;
@@ -216,6 +229,21 @@ TEST_CASE("Who has chosen no device is left without one until Reconnect", "[devi
     pumpFor(2.5);
     CHECK(bench.plug.opened == opened);
     CHECK(bench.rig->reconnect());
+}
+
+TEST_CASE("A kind of device that has none stays chosen, and no device is called lost", "[devices]")
+{
+    DeviceBench bench;
+    REQUIRE(pumpUntil([&] { return bench.session.outputs.hasDevice(); }));
+    auto& manager = bench.rig->devices();
+    manager.addAudioDeviceType(std::make_unique<EmptyType>());
+    manager.setCurrentAudioDeviceType("Empty", true);
+    REQUIRE(pumpUntil([&] { return !bench.session.outputs.hasDevice(); }, 5.0));
+    CHECK_FALSE(bench.rig->isLookingForDevice()); // so nothing is said of a device that is gone
+    pumpFor(2.5);
+    CHECK(manager.getCurrentAudioDeviceType() == "Empty");
+    manager.setCurrentAudioDeviceType("Fake", true);
+    CHECK(pumpUntil([&] { return bench.session.outputs.hasDevice(); }, 5.0));
 }
 
 TEST_CASE("Each haptic output plays on the channel that is shown, a third one on an interface of four, too",

@@ -10,6 +10,7 @@
 
 #include <chrono>
 #include <fstream>
+#include <limits>
 
 using namespace pacini;
 using namespace pacini::test;
@@ -204,7 +205,7 @@ TEST_CASE("What nobody would feel is said, and shown on the part")
     CHECK(pumpUntil([&] { return page.sheet->summary().contains("1 clip"); }));
     parts.add(page.second, 3.0);
     parts.editPart("Softer", [](ScenePart& part) { part.play.gain = -110.0; });
-    CHECK(pumpUntil([&] { return page.sheet->summary().contains("1 left out"); }));
+    CHECK(pumpUntil([&] { return page.sheet->summary().contains("1 clip left out"); }));
 }
 
 TEST_CASE("The scene plays, and the clip has the player again afterwards")
@@ -332,4 +333,36 @@ TEST_CASE("Keys on the closed list of clips add none")
     for (const int key : {juce::KeyPress::downKey, juce::KeyPress::downKey, juce::KeyPress::upKey})
         CHECK(list.keyPressed(juce::KeyPress(key)));
     CHECK(page.scene().parts.empty());
+}
+
+TEST_CASE("What is left out of a scene is said in words, without a figure where nothing is felt of it")
+{
+    SceneForecast all{{}, 0, -std::numeric_limits<double>::infinity(), 1.0};
+    CHECK(editor::forecastText(1, all) == "1 clip, felt");
+    CHECK(editor::forecastText(2, all) == "2 clips, all felt");
+    SceneForecast silent = all;
+    silent.bands = 3;
+    CHECK(editor::forecastText(2, silent) == "2 clips; 3 bands skipped, no difference that is felt");
+    silent.bands = 1;
+    silent.leftOut[0] = "why";
+    silent.error = -12.34;
+    CHECK(editor::forecastText(2, silent) == "2 clips; 1 clip left out, 1 band skipped, error -12.3 dB");
+}
+
+TEST_CASE("What belongs to no clip has no number on the scene page")
+{
+    ScenePage page;
+    for (const char* name : {"Value", "Priority", "Repeats"})
+    {
+        CAPTURE(name);
+        auto& slider = get<juce::Slider>(*page.sheet, name);
+        CHECK(slider.getTextFromValue(slider.getValue()).startsWith(juce::String::fromUTF8("–")));
+    }
+    page.sheet->parts().add(page.first, 0.0);
+    for (const char* name : {"Value", "Priority", "Repeats"})
+    {
+        CAPTURE(name);
+        auto& slider = get<juce::Slider>(*page.sheet, name);
+        CHECK(slider.getTextFromValue(slider.getValue()).containsAnyOf("0123456789"));
+    }
 }

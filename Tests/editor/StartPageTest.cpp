@@ -62,7 +62,12 @@ TEST_CASE("The library has its ten sounds, found by name and by tag")
     for (const char* name : {"UI click", "Notification", "Heartbeat", "Footsteps", "Weapon", "Explosion", "Engine loop",
                              "Rain", "Texture", "Music bed"})
         CHECK(all.contains(name));
-    CHECK(all.size() > 15); // recordings too
+    CHECK(all.size() > 15); // recordings too, none by the name of its file
+    for (const auto& name : all)
+    {
+        CAPTURE(name);
+        CHECK(juce::CharacterFunctions::isUpperCase(name[0]));
+    }
     CHECK(bench.search("heart") == juce::StringArray{"Heartbeat"});
     CHECK(bench.search("gravel walk") == juce::StringArray{"Footsteps"});
     CHECK(bench.search("nothing like it").isEmpty());

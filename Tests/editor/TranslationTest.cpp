@@ -2,6 +2,7 @@
 
 #include "editor/Translation.h"
 
+#include "document/measure/MeasureWords.h"
 #include "editor/Bench.h"
 #include "editor/Text.h"
 #include "editor/Unmarked.h"
@@ -179,4 +180,27 @@ TEST_CASE("Ticks of a time axis have two digits of seconds before any decimal ma
     CHECK(timeText(65.5, 0.5) == "1:05,5");
     CHECK(timeText(75.5, 0.5) == "1:15,5");
     CHECK(timeText(62.0, 2.0) == "1:02");
+}
+
+TEST_CASE("What is wrong with a measurement is said in the language")
+{
+    const juce::ScopedJuceInitialiser_GUI gui;
+    const Language german("de");
+    using Defect = MeasurementDefect;
+    const auto said = [](Defect code, const char* where, const char* message)
+    {
+        return editor::translateMessage(editor::toText(explain(MeasurementWarning{code, where, message}, {})));
+    };
+    CHECK(said(Defect::lowSnr, "below 10.2 Hz",
+               "the signal is down to 9 dB over the noise; drive harder, or play longer or more sweeps") ==
+          editor::toText("Schwach unter 10,2 Hz: das Signal liegt nur noch 9 dB über dem Rauschen; stärker aussteuern, "
+                         "oder längere oder mehr Sweeps spielen."));
+    CHECK(said(Defect::clipping, "channels[0]",
+               "12 samples at the limit, first at 1.25 s; record or drive at a lower level")
+              .contains("12 Abtastwerte an der Grenze"));
+    CHECK(
+        said(Defect::droppedFrames, "1.25 s", "48 frames are missing about here; use larger buffers and measure again")
+            .contains("48 Frames fehlen"));
+    CHECK(said(Defect::clockDrift, "clock", "player and recorder differ by 12 ppm; the result is corrected for it")
+              .contains("weichen um 12 ppm"));
 }

@@ -22,12 +22,13 @@ LOSSES = re.compile(r"Source/io/formats/(.*Writer|ClipFormat|.*SumLimit|.*Androi
 LIST_OF_LOSSES = re.compile(r"\b(LossList|LossTrack|LossKind)\b")
 READERS = re.compile(r"(Import|Reader)\.cpp$")
 
-# The core says what an actuator changes of a clip, what of a scene is left out, what cannot feel alike and why an edit is
-# refused; the editor shows it.
+# The core says what an actuator changes of a clip, what of a scene is left out, what cannot feel alike, why an edit is
+# refused and what is wrong with a measurement; the editor shows it.
 CORE = [Path("Core/pacini") / name for name in (
     "clip/Clip.h", "clip/PackedClip.h", "simplify/Simplify.h", "synthesis/Scene.h",
     "synthesis/ClipAdaptation.h", "synthesis/CompilePlan.h", "synthesis/Culling.h", "synthesis/Transparency.h",
-    "clip/edits/Clipboard.h", "clip/edits/TimeEdits.h")]
+    "clip/edits/Clipboard.h", "clip/edits/TimeEdits.h",
+    "linearize/RecordingChecks.h", "linearize/ResponseChecks.h", "linearize/SweepAnalysis.h")]
 
 # Names of presets; what is said of the plugin's is for the command.
 PRESETS = Path("Core/pacini/realtime/TranslatorPresets.h")
@@ -107,7 +108,8 @@ LITERALS = {
         "Kind of sound device, such as ALSA or JACK", "Of menus and controls: en or "],
     "names of files of sounds and profiles": [
         "ui_click", "notification", "heartbeat", "footsteps", "weapon", "explosion", "engine_loop", "rain", "texture",
-        "music_bed", "phone-taptic", "l5-wristband", "dualsense-voice-coil"],
+        "music_bed", "click_clock", "drums_tabla_pattern", "impact_boom", "iter_drum_roll", "knock_wood_bridge",
+        "pluck_guitar_harmonics", "sweep_spring_up", "texture_river", "phone-taptic", "l5-wristband", "dualsense-voice-coil"],
     "places in errors and identifiers": [
         "must be a whole number",        "plays[",         "sample rate", "sound", "strength", "lane", "format", "plays[0]", ".bands", "' is not known",
         "channels[", "sweep.", "measurement.", "sweeps[", "clock", "channels"],

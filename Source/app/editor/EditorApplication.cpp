@@ -25,6 +25,7 @@
 #include <functional>
 #include <iostream>
 #include <memory>
+#include <optional>
 
 namespace pacini::app
 {
@@ -59,7 +60,7 @@ std::string languageCodes()
 }
 } // namespace
 
-class EditorApplication final : public juce::JUCEApplication
+class EditorApplication final : public juce::JUCEApplication, private juce::Timer
 {
 public:
     const juce::String getApplicationName() override { return "Pacini Editor"; }
@@ -125,6 +126,8 @@ public:
         else if (firstRun)
             view.doCommand(editor::openSample);
         view.files().offerRecovery();
+        if (settings)
+            startTimer(keepInterval);
     }
 
     /// The study alone, without the editor.
@@ -155,9 +158,10 @@ public:
         auto read = study::readStudy(file);
         if (!read)
             return read.error();
-        studyWindow =
-            std::make_unique<StudyWindow>(editor::StudyPlace{std::move(*read), file.parent_path()}, devices,
-                                          std::move(profiles), "Pacini " PACINI_VERSION, std::move(whenClosed));
+        studyWindow = std::make_unique<StudyWindow>(editor::StudyPlace{std::move(*read), file.parent_path()}, devices,
+                                                    std::move(profiles), "Pacini " PACINI_VERSION,
+                                                    window ? std::optional(window->view().isDark()) : std::nullopt,
+                                                    std::move(whenClosed));
         studyWindow->setVisible(true);
         return {};
     }
@@ -173,8 +177,8 @@ public:
 
     void shutdown() override
     {
-        if (settings && window)
-            settings->keep(*rig, window->view(), window->state());
+        stopTimer();
+        keepSettings();
         studyWindow.reset();
         studyDevices.reset();
         window.reset();
@@ -183,6 +187,17 @@ public:
     }
 
 private:
+    static constexpr int keepInterval = 1000; ///< ms
+
+    /// A program that is killed, or ends with the session of the desktop, does not come to shutdown(). Only what has
+    /// changed is written.
+    void timerCallback() override { keepSettings(); }
+    void keepSettings()
+    {
+        if (settings && window)
+            settings->keep(*rig, window->view(), window->state());
+    }
+
     struct Options
     {
         bool fresh = false, fullScreen = false;

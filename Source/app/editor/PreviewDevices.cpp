@@ -124,7 +124,8 @@ void PreviewDevices::look()
     const bool changed = std::exchange(there, alive) != alive;
     if (changed && !alive)
     {
-        chosenNone = userChoseNone();
+        // Another kind of device, even one of which there is none, was turned to by somebody.
+        chosenNone = userChoseNone() || (lastType.isNotEmpty() && manager.getCurrentAudioDeviceType() != lastType);
         if (device != nullptr)
             manager.closeAudioDevice(); // it is dead: what is found later is opened anew
         lastSearch = now();

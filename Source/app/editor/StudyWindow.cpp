@@ -75,16 +75,16 @@ public:
                                 {juce::String(run->session().answered()), juce::String(run->session().planned())}));
             if (const auto* trial = run->trial())
             {
-                juce::StringArray names;
-                for (const std::size_t stimulus : trial->stimuli)
-                    names.add(editor::toText(run->study().stimuli[stimulus].name));
                 text.add(editor::tr("Block: {0}", {editor::toText(run->block().name)}));
-                text.add(editor::tr("Stimuli: {0}", {names.joinIntoString(", ")}));
+                text.add(editor::tr("Stimuli:"));
+                for (const std::size_t stimulus : trial->stimuli)
+                    text.add(editor::toText("  · ") + editor::toText(run->study().stimuli[stimulus].name));
                 if (const auto level = run->session().level())
                     text.add(editor::tr("Level: {0}", {editor::numberText(*level, 2)}));
             }
-            text.add(editor::tr("Exposure A(8): {0} of {1} m/s2", {editor::numberText(run->exposure(), 3),
-                                                                   editor::numberText(run->study().limits.daily, 2)}));
+            text.add(
+                editor::tr(editor::toText("Exposure A(8): {0} of {1} m/s²"),
+                           {editor::numberText(run->exposure(), 3), editor::numberText(run->study().limits.daily, 2)}));
         }
         lines.setText(text.joinIntoString("\n"), false);
         lines.applyColourToAllText(look.palette().text);
@@ -98,7 +98,8 @@ private:
 };
 
 StudyWindow::StudyWindow(editor::StudyPlace place, juce::AudioDeviceManager& devices,
-                         std::vector<NamedProfile> profiles, std::string program, std::function<void()> whenClosed)
+                         std::vector<NamedProfile> profiles, std::string program, std::optional<bool> dark,
+                         std::function<void()> whenClosed)
     : DocumentWindow(editor::toText(place.study.name), juce::Colours::black, DocumentWindow::allButtons),
       manager(devices),
       device(devices),
@@ -130,6 +131,7 @@ StudyWindow::StudyWindow(editor::StudyPlace place, juce::AudioDeviceManager& dev
     };
     around.profiles = std::move(profiles);
     around.program = std::move(program);
+    around.dark = dark;
     content = std::make_unique<editor::StudyPage>(std::move(place), std::move(around));
     setUsingNativeTitleBar(true);
     setContentNonOwned(content.get(), false);

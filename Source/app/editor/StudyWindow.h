@@ -13,6 +13,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <vector>
 
 namespace pacini::app
@@ -21,9 +22,9 @@ namespace pacini::app
 class StudyWindow final : public juce::DocumentWindow, private juce::AsyncUpdater
 {
 public:
-    /// Calls `whenClosed` once, later, from the message loop.
+    /// `dark`: the theme of the program; none: the system's. Calls `whenClosed` once, later, from the message loop.
     StudyWindow(editor::StudyPlace place, juce::AudioDeviceManager& devices, std::vector<NamedProfile> profiles,
-                std::string program, std::function<void()> whenClosed);
+                std::string program, std::optional<bool> dark, std::function<void()> whenClosed);
     ~StudyWindow() override;
 
     [[nodiscard]] editor::StudyPage& page() noexcept { return *content; }

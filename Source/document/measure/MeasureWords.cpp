@@ -71,7 +71,7 @@ std::string explain(const Error& error, std::span<const std::string> inputs)
                    ? fmt::format("'{}' sent invalid samples. Restart the audio device and sweep again.", *input)
                    : fmt::format("'{}' {}", *input, sentence(error.message));
     if (error.where == "clock")
-        return sentence(error.message);
+        return fmt::format("Two clocks: {}.", error.message);
     if (error.where.empty())
         return sentence(error.message);
     return sentence(settingOf(error.where) + " " + error.message);
@@ -95,9 +95,9 @@ std::string explain(const MeasurementWarning& warning, std::span<const std::stri
     case MeasurementDefect::droppedFrames:
         return fmt::format("Audio dropped out at {}: {}.", name, warning.message);
     case MeasurementDefect::clockDrift:
-        return sentence(warning.message);
+        return fmt::format("Two clocks: {}.", warning.message);
     case MeasurementDefect::lowSnr:
-        return sentence(name + " " + warning.message);
+        return fmt::format("Weak {}: {}.", name, warning.message);
     }
     return sentence(name + ": " + warning.message);
 }

@@ -3,6 +3,7 @@
 
 #include "document/FolderFiles.h"
 #include "document/ProjectJson.h"
+#include "editor/FileQuestion.h"
 #include "editor/Text.h"
 #include "editor/Translation.h"
 #include "editor/clip/EditorView.h"
@@ -209,7 +210,7 @@ void ProjectFiles::choose(const juce::String& title, Purpose purpose,
     const auto& path = view.session().model.document().path();
     juce::File start = path.empty() ? documentsFolder() : juce::File(pathText(path));
     if (saving && path.empty())
-        start = start.getChildFile("Untitled.pacini");
+        start = start.getChildFile(tr("Untitled") + ".pacini");
     if (!wantedStart.empty())
         start = juce::File(pathText(wantedStart));
     // The folder may be gone, too.
@@ -236,7 +237,7 @@ void ProjectFiles::choose(const juce::String& title, Purpose purpose,
         }
         return Browser::canSelectFiles | Browser::openMode | Browser::canSelectMultipleItems;
     }();
-    chooser->launchAsync(flags, [chosen](const juce::FileChooser& done) { chosen(done.getResults()); });
+    askForFiles(*chooser, flags, [chosen](const juce::FileChooser& done) { chosen(done.getResults()); });
 }
 
 void ProjectFiles::chooseOne(const juce::String& title, Purpose purpose,

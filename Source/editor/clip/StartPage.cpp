@@ -26,7 +26,8 @@ constexpr int roomForAll = 56 * grid;
 constexpr int signWidth = 4 * grid; // of a tile: a click there plays it
 constexpr int hoverDelay = 250;     // ms
 
-/// A sound of the library: its file in Resources/library without the ending, and words to find it by.
+/// A sound that comes with the program: its file in Resources/library or Resources/demo without the ending, and words
+/// to find it by.
 struct LibraryEntry
 {
     std::string_view file;
@@ -34,7 +35,7 @@ struct LibraryEntry
     const char* tags;
 };
 
-constexpr std::array<LibraryEntry, 10> library{{
+constexpr std::array<LibraryEntry, 18> library{{
     {"ui_click", "UI click", "interface, button, tap"},
     {"notification", "Notification", "interface, message, bell"},
     {"heartbeat", "Heartbeat", "body, pulse, slow"},
@@ -45,6 +46,14 @@ constexpr std::array<LibraryEntry, 10> library{{
     {"rain", "Rain", "weather, water, drops"},
     {"texture", "Texture", "surface, friction, rough"},
     {"music_bed", "Music bed", "music, beat, bass"},
+    {"click_clock", "Clock", "recording, ticks, mechanism"},
+    {"drums_tabla_pattern", "Tabla", "recording, drums, rhythm"},
+    {"impact_boom", "Boom", "recording, impact, low"},
+    {"iter_drum_roll", "Drum roll", "recording, drum, repeated"},
+    {"knock_wood_bridge", "Knocks on wood", "recording, wood, hits"},
+    {"pluck_guitar_harmonics", "Guitar harmonics", "recording, strings, plucked"},
+    {"sweep_spring_up", "Spring", "recording, rising, metal"},
+    {"texture_river", "River", "recording, water, flow"},
 }};
 
 /// A target for clips: a name and its profile.
@@ -196,7 +205,7 @@ StartPage::StartPage(EditorModel& project, Actuators& profiles, FilePreview& pla
     words.setJustification(juce::Justification::centredLeft);
     words.setFont(usualFont());
     words.setIndents(grid, 0);
-    words.setTextToShowWhenEmpty(tr("Search sounds"), juce::Colours::grey);
+    words.showWhenEmpty(tr("Search sounds"));
     words.onTextChange = [this]
     {
         search();

@@ -3,6 +3,7 @@
 
 // Start page of an editor without a clip: what will feel it, a library to begin with, opening and recent projects.
 
+#include "editor/Controls.h"
 #include "editor/clip/session/FilePreview.h"
 
 #include <juce_gui_basics/juce_gui_basics.h>
@@ -66,7 +67,7 @@ private:
     std::vector<std::unique_ptr<juce::TextButton>> feltBy, found, recentButtons;
     std::vector<FoundDevice> devices;
     juce::TextButton openButton, outputsButton;
-    juce::TextEditor words;
+    PromptField words;
     juce::TextButton hoverButton;
     juce::Viewport viewport;
     juce::Component tileArea;

@@ -2,6 +2,7 @@
 #include "editor/measure/MeasurePage.h"
 
 #include "editor/Controls.h"
+#include "editor/FileQuestion.h"
 #include "editor/Text.h"
 #include "editor/Theme.h"
 #include "editor/Translation.h"
@@ -148,8 +149,11 @@ void MeasurePage::refresh()
     panel().refresh();
     backButton.setEnabled(stepNow != MeasureStep::setUp && !shared->isPlaying());
     const auto next = static_cast<MeasureStep>(static_cast<int>(stepNow) + 1);
+    nextButton.setVisible(stepNow != MeasureStep::save);
     nextButton.setEnabled(stepNow != MeasureStep::save && work.state(next) != MeasureStepState::locked &&
                           !shared->isPlaying());
+    if (auto* action = panel().action())
+        makePrimary(*action, !nextButton.isEnabled());
 }
 
 void MeasurePage::timerCallback()
@@ -211,13 +215,13 @@ void MeasurePage::askForFile(const juce::String& title, const juce::String& patt
     const auto folder = documentsFolder();
     chooser = std::make_unique<juce::FileChooser>(tr(title), folder.getChildFile(name), pattern);
     using Browser = juce::FileBrowserComponent;
-    chooser->launchAsync(Browser::canSelectFiles |
-                             (forSaving ? Browser::saveMode : Browser::openMode), // who saves asks
-                         [chosen = std::move(chosen)](const juce::FileChooser& done)
-                         {
-                             if (done.getResult() != juce::File())
-                                 chosen(done.getResult());
-                         });
+    askForFiles(*chooser,
+                Browser::canSelectFiles | (forSaving ? Browser::saveMode : Browser::openMode), // who saves asks
+                [chosen = std::move(chosen)](const juce::FileChooser& done)
+                {
+                    if (done.getResult() != juce::File())
+                        chosen(done.getResult());
+                });
 }
 
 void MeasurePage::save(const std::vector<std::filesystem::path>& files, const std::function<bool()>& write)

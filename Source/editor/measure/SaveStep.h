@@ -14,6 +14,7 @@ class SaveStep final : public StepPanel
 public:
     SaveStep(MeasurementController& wanted, StepServices& around);
     void refresh() override;
+    juce::Button* action() override { return &saveButton; }
     void paint(juce::Graphics& g) override;
     void resized() override;
 

@@ -22,7 +22,7 @@ namespace pacini::editor
 
 inline constexpr int stepRow = 4 * grid;   ///< height of a control
 inline constexpr int stepGap = grid / 2;   ///< between rows
-inline constexpr int stepSide = 36 * grid; ///< width of the controls beside a plot
+inline constexpr int stepSide = 38 * grid; ///< width of the controls beside a plot
 
 /// A control with its name at its left.
 template <typename Control>
@@ -118,6 +118,8 @@ class StepPanel : public juce::Component
 public:
     virtual void refresh() = 0;
     virtual void tick() {}
+    /// What is done in this step, where that is one button; it stands out until the next step can be gone to.
+    [[nodiscard]] virtual juce::Button* action() { return nullptr; }
     [[nodiscard]] virtual int leastHeight() const { return 416; }
     static constexpr int leastWidth = 656;
 };

@@ -36,6 +36,7 @@ class SweepStep final : public StepPanel
 public:
     explicit SweepStep(MeasurementController& wanted);
     void refresh() override;
+    juce::Button* action() override { return &control.button; }
     void tick() override;
     void paint(juce::Graphics& g) override;
     void resized() override;

@@ -155,9 +155,9 @@ void VerifyStep::resized()
     tolerance.setBounds(side.removeFromTop(stepRow));
     side.setTop(verdictArea().getBottom() + grid);
     facts.setBounds(side.removeFromTop(facts.wantedHeight()));
+    again.setBounds(side.removeFromBottom(stepRow));
+    side.removeFromBottom(stepGap);
     auto row = side.removeFromBottom(stepRow);
-    again.setBounds(row.removeFromRight(11 * grid));
-    row.removeFromRight(grid);
     saveSweep.setBounds(row.removeFromLeft((row.getWidth() - grid) / 2));
     row.removeFromLeft(grid);
     openRecording.setBounds(row);

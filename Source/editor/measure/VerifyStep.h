@@ -19,6 +19,7 @@ class VerifyStep final : public StepPanel
 public:
     VerifyStep(MeasurementController& wanted, StepServices& around);
     void refresh() override;
+    juce::Button* action() override { return &control.button; }
     void tick() override;
     void paint(juce::Graphics& g) override;
     void resized() override;

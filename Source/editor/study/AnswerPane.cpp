@@ -454,7 +454,11 @@ public:
             }
             else
             {
-                row->field = std::make_unique<juce::TextEditor>(question);
+                auto field = std::make_unique<PromptField>(question);
+                if (item.kind == study::QuestionKind::number)
+                    field->showWhenEmpty(juce::String(item.scale.low) + juce::String::fromUTF8("–") +
+                                         juce::String(item.scale.high));
+                row->field = std::move(field);
                 row->field->setTitle(question);
                 row->field->setFont(participantFont());
                 row->field->setIndents(grid, 0);
@@ -462,10 +466,6 @@ public:
                 row->field->setSelectAllWhenFocused(true);
                 row->field->setInputRestrictions(item.kind == study::QuestionKind::number ? 20 : 1000);
                 row->field->setEscapeAndReturnKeysConsumed(false);
-                if (item.kind == study::QuestionKind::number)
-                    row->field->setTextToShowWhenEmpty(juce::String(item.scale.low) + juce::String::fromUTF8("–") +
-                                                           juce::String(item.scale.high),
-                                                       juce::Colours::grey);
                 row->field->onTextChange = [this]
                 {
                     changed();

@@ -72,7 +72,7 @@ StudyPage::StudyPage(StudyPlace wanted, StudyServices around)
     if (!actuator.empty() && profile() == nullptr)
         if (auto read = readProfile(place.folder / actuator))
             services.profiles.push_back({actuator, std::make_shared<const Profile>(std::move(*read)), true});
-    look.setDark(systemIsDark());
+    look.setDark(services.dark.value_or(systemIsDark()));
     setLookAndFeel(&look);
     setWantsKeyboardFocus(true);
     setTitle(tr("Study"));
@@ -545,6 +545,8 @@ void StudyPage::buildTrial()
         playButton = &addButton(tr("Play (space)"), [this] { play(0); });
     if (!pane->answersAtOnce())
         nextButton = &addButton(tr("Next"), [this] { answer(); });
+    if (running->isPage() && plays)
+        status.setText(tr("Play and rate all of them to go on."));
     // Short trials come in quick succession, and nobody wants to ask for each.
     if (pane->answersAtOnce() || block.task == study::Task::place || block.task == study::Task::which)
         juce::Timer::callAfterDelay(
@@ -729,7 +731,12 @@ void StudyPage::timerCallback()
     if (ready && !std::exchange(wasReady, true))
         pane->takeFocus();
     if (nextButton != nullptr)
-        nextButton->setEnabled(ready && pane->answer().has_value());
+    {
+        const bool possible = ready && pane->answer().has_value();
+        if (possible && !nextButton->isEnabled() && running->isPage())
+            status.setText({}); // it said what was missing
+        nextButton->setEnabled(possible);
+    }
     showPrimary();
 }
 

@@ -33,7 +33,8 @@ struct StudyServices
     std::function<void()> showMonitor = {}; ///< the experimenter's window; null: it is seen by itself
     std::function<void()> close = {};
     std::vector<NamedProfile> profiles = {};
-    std::string program = {}; ///< name and version, for the logs
+    std::string program = {};      ///< name and version, for the logs
+    std::optional<bool> dark = {}; ///< the theme of the program; none: the system's
 };
 
 /// Input from a game controller.

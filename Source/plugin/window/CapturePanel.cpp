@@ -2,6 +2,7 @@
 #include "plugin/window/CapturePanel.h"
 
 #include "editor/Controls.h"
+#include "editor/FileQuestion.h"
 #include "editor/Text.h"
 #include "editor/Theme.h"
 #include "editor/Translation.h"
@@ -123,12 +124,12 @@ void CapturePanel::chooseFile()
 {
     chooser = std::make_unique<juce::FileChooser>(
         editor::tr("Save clip"), editor::documentsFolder().getChildFile(file.getFileName()), "*.json;*.pacb");
-    chooser->launchAsync(juce::FileBrowserComponent::saveMode, // save() asks
-                         [this](const juce::FileChooser& chosen)
-                         {
-                             if (chosen.getResult() != juce::File())
-                                 save(chosen.getResult());
-                         });
+    editor::askForFiles(*chooser, juce::FileBrowserComponent::saveMode, // save() asks
+                        [this](const juce::FileChooser& chosen)
+                        {
+                            if (chosen.getResult() != juce::File())
+                                save(chosen.getResult());
+                        });
 }
 
 void CapturePanel::save(const juce::File& chosen)

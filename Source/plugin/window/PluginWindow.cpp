@@ -2,6 +2,7 @@
 #include "plugin/window/PluginWindow.h"
 
 #include "editor/Controls.h"
+#include "editor/FileQuestion.h"
 #include "editor/LanguageProblem.h"
 #include "editor/Text.h"
 #include "editor/Translation.h"
@@ -526,19 +527,19 @@ juce::String PluginWindow::statusText() const
 void PluginWindow::chooseActuator(std::size_t channel)
 {
     chooser = std::make_unique<juce::FileChooser>(editor::tr("Load an actuator"), juce::File(), "*.json");
-    chooser->launchAsync(juce::FileBrowserComponent::openMode | juce::FileBrowserComponent::canSelectFiles,
-                         [this, channel](const juce::FileChooser& chosen)
-                         {
-                             if (chosen.getResult() == juce::File())
-                                 return;
-                             const auto loaded = processor.loadActuator(chosen.getResult(), channel);
-                             if (!loaded)
-                                 juce::NativeMessageBox::showMessageBoxAsync(
-                                     juce::MessageBoxIconType::WarningIcon, editor::tr("Not a profile"),
-                                     chosen.getResult().getFileName() + ": " +
-                                         editor::translateMessage(juce::String(loaded.error().text())),
-                                     this);
-                         });
+    editor::askForFiles(*chooser, juce::FileBrowserComponent::openMode | juce::FileBrowserComponent::canSelectFiles,
+                        [this, channel](const juce::FileChooser& chosen)
+                        {
+                            if (chosen.getResult() == juce::File())
+                                return;
+                            const auto loaded = processor.loadActuator(chosen.getResult(), channel);
+                            if (!loaded)
+                                juce::NativeMessageBox::showMessageBoxAsync(
+                                    juce::MessageBoxIconType::WarningIcon, editor::tr("Not a profile"),
+                                    chosen.getResult().getFileName() + ": " +
+                                        editor::translateMessage(juce::String(loaded.error().text())),
+                                    this);
+                        });
 }
 
 void PluginWindow::paint(juce::Graphics& g)

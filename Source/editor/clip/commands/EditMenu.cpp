@@ -69,11 +69,11 @@ Menu editMenu(EditorView& view)
         paste, "Paste at playhead", "Pastes into the same lanes; a single lane goes into the focused one",
         [&session] { session.clipSelection.paste(session.transport.playhead(), focusedLane()); },
         [&session] { return session.model.clip() && session.clipSelection.canPaste(); }, {ctrl('v')});
-    menu.add(deleteSelection, "Delete points", "Deletes the selected points and transients",
+    menu.add(deleteSelection, "Delete points", "Deletes the selected points and events",
              [&session] { session.clipSelection.deleteSelection(); }, anySelected,
              {Key(Key::deleteKey), Key(Key::backspaceKey)});
     menu.addLine();
-    menu.add(selectAll, "Select all", "Selects all points of the focused lane, or all transients",
+    menu.add(selectAll, "Select all", "Selects all points of the focused lane, or all events",
              [&session] { session.clipSelection.select(everything(*session.model.clip())); }, anyClip, {ctrl('a')});
     menu.add(
         selectKind, "Select events of this kind", "Selects all events of the same kind: thuds, knocks or clicks",

@@ -74,8 +74,10 @@ Menu fileMenu(EditorView& view)
              {
                  auto sheet =
                      std::make_unique<ExportSheet>(view.session().model, view.session().actuators, view.lastExport);
-                 sheet->onPlace = [&session = view.session()](double time, double duration)
+                 sheet->onPlace = [&session = view.session()](int clip, double time, double duration)
                  {
+                     if (clip != session.model.activeId())
+                         session.model.show(clip);
                      showPlace(session, time, duration);
                  };
                  view.showSheet(std::move(sheet));

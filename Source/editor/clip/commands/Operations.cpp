@@ -118,17 +118,17 @@ Operation humaniseOperation(const ClipSelection& selection)
 
 Operation thinOperation(const ClipSelection& selection)
 {
-    return {"Thin transients",
-            false,
-            {number("Closer than", "ms",
-                    "Of transients closer than this only the strongest stays; skin resolves 8 to 10 ms", 0.0, 500.0,
-                    20.0, 1),
-             number("Weaker than", "dB", "Removes transients below this level, in dB re full drive; at -60 dB all stay",
-                    silence, 0.0, silence, 1)},
-            [range = selection.scope().range](const OperationValues& v)
-            {
-                return ThinEdit{range, v[0] / 1000.0, v[1] <= silence ? 0.0 : amplitudeOf(v[1])};
-            }};
+    return {
+        "Thin events",
+        false,
+        {number("Closer than", "ms", "Of events closer than this only the strongest stays; skin resolves 8 to 10 ms",
+                0.0, 500.0, 20.0, 1),
+         number("Weaker than", "dB", "Removes events below this level, in dB re full drive; at -60 dB all stay",
+                silence, 0.0, silence, 1)},
+        [range = selection.scope().range](const OperationValues& v)
+        {
+            return ThinEdit{range, v[0] / 1000.0, v[1] <= silence ? 0.0 : amplitudeOf(v[1])};
+        }};
 }
 
 Operation transposeOperation()

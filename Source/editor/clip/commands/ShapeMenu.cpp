@@ -53,7 +53,7 @@ Menu shapeMenu(EditorView& view)
              asking(view, quantiseOperation, true), anyClip, {Key('q')});
     menu.add(humanise, "Humanise...", "Varies timing, level and pitch at random", asking(view, humaniseOperation, true),
              anyClip, {ctrl('h')});
-    menu.add(thinOut, "Thin transients...", "Removes transients that are weak or too close to stronger ones",
+    menu.add(thinOut, "Thin events...", "Removes events that are weak or too close to stronger ones",
              asking(view, thinOperation, true),
              [&session] { return session.model.clip() && !session.model.clip()->transients.empty(); });
     return menu;

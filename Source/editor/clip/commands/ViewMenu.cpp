@@ -26,7 +26,7 @@ juce::PopupMenu snapChoices(Session& session)
                          session.viewState.setSnapTargets(wanted);
                      });
     };
-    add("Transients", &SnapTargets::transients);
+    add("Events", &SnapTargets::transients);
     add("Markers", &SnapTargets::markers);
     add("Playhead", &SnapTargets::playhead);
     add("Ruler lines", &SnapTargets::grid);

@@ -36,7 +36,7 @@ juce::Path headOf(juce::Point<float> centre, float size, EventKind kind)
 EventLane::EventLane(EditorModel& project, ClipSelection& selected, ViewState& sight, Transport& playing, Shows wanted)
     : PlotLane(project, selected, sight, playing), shows(wanted)
 {
-    setTitle(shows == Shows::amplitude ? "Transients" : "Sharpness of transients");
+    setTitle(shows == Shows::amplitude ? "Transients" : "Sharpness of events");
     setDescription(shows == Shows::amplitude
                        ? "Short events and their levels: round heads are thuds, squares knocks, pointed heads clicks. "
                          "Double-click to add one"

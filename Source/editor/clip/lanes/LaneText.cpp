@@ -47,6 +47,20 @@ juce::String timeText(double time, double step)
     return juce::String(minutes) + (one ? ":0" : ":") + text;
 }
 
+int drawTickText(juce::Graphics& g, const juce::String& text, int x, juce::Rectangle<int> line, int taken)
+{
+    constexpr int gap = 4;
+    const int width = g.getCurrentFont().getStringWidth(text) + 1;
+    if (x > line.getRight())
+        return taken; // the tick is out of sight
+    const bool fits = x + gap + width <= line.getRight();
+    const int from = fits ? x + gap : x - gap - width;
+    if (!fits && from < taken + gap)
+        return taken;
+    g.drawText(text, from, line.getY(), width, line.getHeight(), juce::Justification::centredLeft, false);
+    return from + width;
+}
+
 juce::String rangeText(double low, double high)
 {
     if (high < 1000.0)

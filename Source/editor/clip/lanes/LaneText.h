@@ -18,6 +18,11 @@ namespace pacini::editor
 /// A tick of a time axis whose ticks are `step` apart: "0.5 s", "1:05".
 [[nodiscard]] juce::String timeText(double time, double step);
 /// "60–125 Hz", "0.50–2.0 kHz".
+/// Draws the text of a ruler's tick at `x`, in the font of `g`: at its right, at its left where that would leave
+/// `line`, and not at all where it would run into the text before, which ends at `taken`. Returns the end of what is
+/// taken then.
+int drawTickText(juce::Graphics& g, const juce::String& text, int x, juce::Rectangle<int> line, int taken);
+
 [[nodiscard]] juce::String rangeText(double low, double high);
 /// "-12.3 dB", "silent".
 [[nodiscard]] juce::String amplitudeText(double amplitude);

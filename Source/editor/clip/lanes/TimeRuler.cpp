@@ -59,6 +59,7 @@ void TimeRuler::paint(juce::Graphics& g)
     const auto first = static_cast<long long>(std::floor(axis.start / step));
     const auto last = static_cast<long long>(std::ceil(axis.timeAt(plot.getWidth()) / step));
     g.setFont(smallFont());
+    int taken = plot.getX(); // by the text before
     for (long long i = std::max(0LL, first); i <= last; ++i)
     {
         const double time = static_cast<double>(i) * step;
@@ -68,8 +69,8 @@ void TimeRuler::paint(juce::Graphics& g)
         for (int k = 1; k < partsOfTick; ++k)
             g.fillRect(xOf(time + k * step / partsOfTick), static_cast<float>(plot.getBottom() - 5), 1.0f, 5.0f);
         g.setColour(p.dim);
-        g.drawText(timeText(time, step), juce::roundToInt(x) + 4, 0, 80, plot.getHeight() - 5,
-                   juce::Justification::centredLeft, false);
+        taken =
+            drawTickText(g, timeText(time, step), juce::roundToInt(x), plot.withHeight(plot.getHeight() - 5), taken);
     }
 }
 

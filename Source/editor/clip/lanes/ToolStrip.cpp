@@ -22,7 +22,7 @@ ToolStrip::ToolStrip(EditorModel& project, ViewState& sight)
     };
     prepare(drawButton, "Draw", "Drag in a lane to draw its curve (D; hold to draw temporarily)",
             [this] { viewState.setDrawing(!viewState.isDrawing()); });
-    prepare(snapButton, "Snap", "Dragging snaps to transients, markers, playhead or ruler lines (N)",
+    prepare(snapButton, "Snap", "Dragging snaps to events, markers, playhead or ruler lines (N)",
             [this]
             {
                 SnapTargets wanted = viewState.snapTargets();

@@ -162,7 +162,7 @@ void AnalysisPanel::prepareKnobs()
     range(detail, "breakpoints", 0.5);
     knob(detail).setSkewFactorFromMidPoint(20.0);
     prepare(sensitivity, "Events", " x",
-            "Transient sensitivity: above 1 also finds weaker and closer hits, below 1 only clear ones");
+            "Event sensitivity: above 1 also finds weaker and closer hits, below 1 only clear ones");
     range(sensitivity, "sensitivity", 0.05);
     knob(sensitivity).setSkewFactorFromMidPoint(1.0);
     prepare(audible, "Audible", " %",

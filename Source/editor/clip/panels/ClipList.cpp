@@ -36,7 +36,7 @@ ClipList::ClipList(EditorModel& project) : model(project)
     list.setOutlineThickness(0);
     list.setMultipleSelectionEnabled(true);
     searchField.setTitle("Search clips");
-    searchField.setTextToShowWhenEmpty(tr("Search clips"), juce::Colours::grey);
+    searchField.showWhenEmpty(tr("Search clips"));
     searchField.setJustification(juce::Justification::centredLeft);
     searchField.onTextChange = [this]
     {
@@ -151,9 +151,10 @@ void ClipList::paintListBoxItem(int row, juce::Graphics& g, int width, int heigh
         g.setColour(p.accent.withAlpha(list.hasKeyboardFocus(true) ? 0.35f : 0.2f));
         g.fillRoundedRectangle(area.toFloat().reduced(1.0f), 4.0f);
     }
+    const juce::Colour quiet = quietTextColour(p, selected);
     if (shown->clip == 0)
     {
-        g.setColour(p.dim);
+        g.setColour(quiet);
         g.setFont(smallFont().boldened());
         g.drawText(nameOf(*shown), area.reduced(grid, 0), juce::Justification::centredLeft, true);
         g.setColour(p.line);
@@ -167,7 +168,7 @@ void ClipList::paintListBoxItem(int row, juce::Graphics& g, int width, int heigh
     if (!shown->group.empty())
         area.removeFromLeft(grid);
     g.setFont(smallFont());
-    g.setColour(p.dim);
+    g.setColour(quiet);
     g.drawText(lengthText(item->clip->duration), area.removeFromRight(timeWidth), juce::Justification::centredRight,
                false);
     g.setColour(p.text);
@@ -362,8 +363,6 @@ void ClipList::itemDropped(const SourceDetails& details)
 void ClipList::paintOverChildren(juce::Graphics& g)
 {
     const Palette& p = paletteFor(*this);
-    if (list.hasKeyboardFocus(true))
-        drawFocusRing(g, *this, getLocalBounds().toFloat().reduced(1.0f));
     if (rowsNow.empty())
     {
         g.setColour(p.dim);

@@ -4,6 +4,7 @@
 // List of the project's clips under their groups: chosen, renamed, ordered, grouped by mouse and keys.
 
 #include "document/view/ClipRows.h"
+#include "editor/Controls.h"
 #include "editor/List.h"
 #include "editor/clip/session/EditorModel.h"
 
@@ -92,7 +93,7 @@ private:
     EditorModel& model;
     std::vector<ClipRow> rowsNow; ///< as the search has left them
     juce::StringArray wordsNow;
-    juce::TextEditor searchField;
+    PromptField searchField;
     List list{{}, this};
     std::unique_ptr<juce::TextEditor> nameField; ///< over a row while it is renamed
     std::optional<int> gap;                      ///< of a drag

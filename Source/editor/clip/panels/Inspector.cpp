@@ -125,7 +125,7 @@ void Inspector::prepareFields()
     field(valueField, "Selection value",
           "Level in dB or frequency in Hz of the first selected item; the others scale along");
     field(sharpField, "Selection sharpness",
-          "Sharpness of the first selected transient, 0 % dull to 100 % crisp; the others follow");
+          "Sharpness of the first selected event, 0 % dull to 100 % crisp; the others follow");
     const auto moves = [this](juce::Label& typed, SelectionStep step, auto moveOf)
     {
         typed.onTextChange = [this, &typed, step, moveOf]

@@ -2,6 +2,7 @@
 #include "editor/clip/scene/SceneSheet.h"
 
 #include "editor/Controls.h"
+#include "editor/FileQuestion.h"
 #include "editor/Text.h"
 #include "editor/Theme.h"
 #include "editor/Translation.h"
@@ -49,6 +50,20 @@ constexpr int idOf(SceneParameter parameter)
 constexpr int mostRepeats = 100;
 constexpr int mostWarnings = 12; // lines of a message
 } // namespace
+
+juce::String forecastText(std::size_t parts, const SceneForecast& scene)
+{
+    const bool differs = scene.error > CompileParams().tolerance;
+    if (scene.leftOut.empty() && scene.bands == 0 && !differs)
+        return counted(parts, "{0} clip, felt", "{0} clips, all felt");
+    juce::StringArray changes;
+    if (!scene.leftOut.empty())
+        changes.add(counted(scene.leftOut.size(), "{0} clip left out", "{0} clips left out"));
+    if (scene.bands > 0)
+        changes.add(counted(scene.bands, "{0} band skipped", "{0} bands skipped"));
+    changes.add(differs ? tr("error {0} dB", {numberText(scene.error, 1)}) : tr("no difference that is felt"));
+    return counted(parts, "{0} clip", "{0} clips") + "; " + changes.joinIntoString(", ");
+}
 
 SceneSheet::SceneSheet(Session& shared)
     : Sheet("Scene", wholeWindow, wholeWindow),
@@ -241,6 +256,8 @@ void SceneSheet::follow()
         part != nullptr && std::any_of(part->curves.begin(), part->curves.end(),
                                        [this](const SceneCurve& one) { return one.parameter == curve.parameter(); });
     value.setRange(range.low, range.high, 0.01);
+    for (Slider* slider : {&value, &priority, &repeats})
+        slider->showNone(part == nullptr);
     value.setTextValueSuffix(range.unit);
     value.setDoubleClickReturnValue(true, range.usual);
     if (part != nullptr)
@@ -276,20 +293,10 @@ void SceneSheet::plan()
                      stop();
                  else if (plays)
                      isTimerRunning() ? session.player.set(playback()) : begin();
-                 juce::String text = counted(parts, "{0} clip", "{0} clips");
-                 if (found && parts == 0)
-                     text = tr("No clips yet");
-                 else if (!found)
-                     text = translateMessage(toText(found.error().text()));
-                 else if (scene.leftOut.empty() && scene.bands == 0 && !(scene.error > CompileParams().tolerance))
-                     text << ", " << tr("all of them are felt");
-                 else
-                     text << ", "
-                          << tr("{0} left out and {1} bands of others; the error is {2} dB",
-                                {juce::String(static_cast<int>(scene.leftOut.size())),
-                                 juce::String(static_cast<int>(scene.bands)),
-                                 std::isfinite(scene.error) ? numberText(scene.error, 1) : toText("−∞")});
-                 note.setText(text, juce::dontSendNotification);
+                 note.setText(found && parts == 0 ? tr("No clips yet")
+                              : found             ? forecastText(parts, scene)
+                                                  : translateMessage(toText(found.error().text())),
+                              juce::dontSendNotification);
                  line.showLeftOut(scene.leftOut);
              });
 }
@@ -374,12 +381,12 @@ void SceneSheet::openScene()
 {
     using Browser = juce::FileBrowserComponent;
     chooser = std::make_unique<juce::FileChooser>(tr("Open scene"), folderOf(session.model), "*.json");
-    chooser->launchAsync(Browser::openMode | Browser::canSelectFiles,
-                         [this](const juce::FileChooser& done)
-                         {
-                             if (done.getResult() != juce::File())
-                                 read(pathOf(done.getResult()));
-                         });
+    askForFiles(*chooser, Browser::openMode | Browser::canSelectFiles,
+                [this](const juce::FileChooser& done)
+                {
+                    if (done.getResult() != juce::File())
+                        read(pathOf(done.getResult()));
+                });
 }
 
 void SceneSheet::read(const std::filesystem::path& file)
@@ -417,12 +424,12 @@ void SceneSheet::exportScene()
     const juce::String name = path.empty() ? tr("Untitled") : pathText(path.stem());
     chooser =
         std::make_unique<juce::FileChooser>(tr("Export scene"), folder.getChildFile(name + ".scene.json"), "*.json");
-    chooser->launchAsync(Browser::saveMode | Browser::canSelectFiles,
-                         [this](const juce::FileChooser& done)
-                         {
-                             if (done.getResult() != juce::File())
-                                 write(pathOf(done.getResult()));
-                         });
+    askForFiles(*chooser, Browser::saveMode | Browser::canSelectFiles,
+                [this](const juce::FileChooser& done)
+                {
+                    if (done.getResult() != juce::File())
+                        write(pathOf(done.getResult()));
+                });
 }
 
 void SceneSheet::write(const std::filesystem::path& file)

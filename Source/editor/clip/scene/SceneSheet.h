@@ -17,6 +17,9 @@
 namespace pacini::editor
 {
 
+/// What of a scene of that many parts is felt: left out, skipped, and what difference that makes.
+[[nodiscard]] juce::String forecastText(std::size_t parts, const SceneForecast& scene);
+
 class SceneSheet final : public Sheet, private juce::Timer
 {
 public:

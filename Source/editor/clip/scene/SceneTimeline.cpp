@@ -6,6 +6,7 @@
 #include "editor/Text.h"
 #include "editor/Theme.h"
 #include "editor/Translation.h"
+#include "editor/clip/lanes/LaneText.h"
 
 #include <pacini/foundation/Units.h>
 
@@ -107,14 +108,14 @@ void SceneTimeline::paint(juce::Graphics& g)
     g.setColour(p.card);
     g.fillRect(0, 0, getWidth(), rulerHeight);
     const double step = tickStep(axis.secondsPerPixel);
+    int taken = 0; // by the text before
     for (double i = std::ceil(axis.start / step); axis.xOf(i * step) < getWidth(); i += 1.0)
     {
         const int x = juce::roundToInt(axis.xOf(i * step));
         g.setColour(p.line);
         g.fillRect(x, 0, 1, getHeight());
         g.setColour(p.dim);
-        g.drawText(numberText(i * step, step < 0.1 ? 2 : 1) + " s", x + 4, 2, 80, rulerHeight - 6,
-                   juce::Justification::centredLeft, false);
+        taken = drawTickText(g, timeText(i * step, step), x, {0, 2, getWidth(), rulerHeight - 6}, taken);
     }
     const auto& parts = selection.scene().parts;
     for (std::size_t i = 0; i < parts.size(); ++i)

@@ -12,7 +12,7 @@ namespace
 /// {0} is the number.
 struct Words
 {
-    const char *point, *points, *transient, *transients, *both;
+    const char *point, *points, *event, *events, *both;
 };
 
 Words wordsOf(SelectionStep step)
@@ -22,19 +22,18 @@ Words wordsOf(SelectionStep step)
     case SelectionStep::move:
         break;
     case SelectionStep::remove:
-        return {"Delete point", "Delete {0} points", "Delete transient", "Delete {0} transients",
-                "Delete {0} points and transients"};
+        return {"Delete point", "Delete {0} points", "Delete event", "Delete {0} events",
+                "Delete {0} points and events"};
     case SelectionStep::scale:
-        return {"Scale point", "Scale {0} points", "Scale transient", "Scale {0} transients",
-                "Scale {0} points and transients"};
+        return {"Scale point", "Scale {0} points", "Scale event", "Scale {0} events", "Scale {0} points and events"};
     case SelectionStep::setValue:
-        return {"Set value of point", "Set value of {0} points", "Set value of transient",
-                "Set value of {0} transients", "Set value of {0} points and transients"};
+        return {"Set value of point", "Set value of {0} points", "Set value of event", "Set value of {0} events",
+                "Set value of {0} points and events"};
     case SelectionStep::setSharpness:
-        return {"Set sharpness of point", "Set sharpness of {0} points", "Set sharpness of transient",
-                "Set sharpness of {0} transients", "Set sharpness of {0} points and transients"};
+        return {"Set sharpness of point", "Set sharpness of {0} points", "Set sharpness of event",
+                "Set sharpness of {0} events", "Set sharpness of {0} points and events"};
     }
-    return {"Move point", "Move {0} points", "Move transient", "Move {0} transients", "Move {0} points and transients"};
+    return {"Move point", "Move {0} points", "Move event", "Move {0} events", "Move {0} points and events"};
 }
 } // namespace
 
@@ -44,8 +43,8 @@ std::string stepName(SelectionStep step, const Selection& changed)
     const std::size_t count = selectedCount(changed);
     const std::size_t events = changed.transients.size();
     if (count == 1)
-        return events == 0 ? words.point : words.transient;
-    const juce::String pattern = events == 0 ? words.points : events == count ? words.transients : words.both;
+        return events == 0 ? words.point : words.event;
+    const juce::String pattern = events == 0 ? words.points : events == count ? words.events : words.both;
     return pattern.replace("{0}", juce::String(static_cast<juce::int64>(count))).toStdString();
 }
 

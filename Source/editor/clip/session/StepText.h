@@ -22,7 +22,7 @@ enum class SelectionStep
     setSharpness
 };
 
-/// "Move point", "Move 3 points", "Move 2 transients", "Move 5 points and transients".
+/// "Move point", "Move 3 points", "Move 2 events", "Move 5 points and events".
 [[nodiscard]] std::string stepName(SelectionStep step, const Selection& changed);
 
 /// The name of a step in the language of the window.

@@ -48,7 +48,7 @@ CommandSheet::CommandSheet(Menus& ofView) : Sheet("Find a command", 560, 440), m
     words.setFont(usualFont());
     words.setIndents(grid, 0);
     words.setJustification(juce::Justification::centredLeft);
-    words.setTextToShowWhenEmpty(tr("Words of a command"), juce::Colours::grey);
+    words.showWhenEmpty(tr("Words of a command"));
     words.onTextChange = [this]
     {
         search();
@@ -130,11 +130,11 @@ void CommandSheet::paintListBoxItem(int row, juce::Graphics& g, int width, int h
         g.fillRoundedRectangle(area.toFloat().reduced(1.0f), 4.0f);
     }
     area = area.reduced(grid, 0);
-    g.setColour(p.dim);
+    g.setColour(quietTextColour(p, selected));
     g.setFont(smallFont());
     g.drawText(entry.keys, area.removeFromRight(18 * grid), juce::Justification::centredRight, true);
     g.drawText(entry.menu, area.removeFromLeft(11 * grid), juce::Justification::centredLeft, true);
-    g.setColour(entry.possible ? p.text : p.dim);
+    g.setColour(entry.possible ? p.text : quietTextColour(p, selected));
     g.setFont(usualFont());
     g.drawText(entry.name, area, juce::Justification::centredLeft, true);
 }

@@ -3,6 +3,7 @@
 
 // Dialog that finds a command by words of its name, menu or help, and does it.
 
+#include "editor/Controls.h"
 #include "editor/List.h"
 #include "editor/clip/commands/Menus.h"
 #include "editor/clip/sheets/Sheet.h"
@@ -44,7 +45,7 @@ private:
     Menus& menus;
     std::vector<Entry> all;
     std::vector<const Entry*> shown;
-    juce::TextEditor words;
+    PromptField words;
     List list{{}, this};
 };
 

@@ -2,6 +2,7 @@
 #include "editor/clip/sheets/ExportSheet.h"
 
 #include "editor/Controls.h"
+#include "editor/FileQuestion.h"
 #include "editor/Text.h"
 #include "editor/Theme.h"
 #include "editor/Translation.h"
@@ -70,13 +71,13 @@ ExportSheet::ExportSheet(const EditorModel& project, const Actuators& profiles, 
     losses.setIndents(grid, 6); // as the texts of the fields above
     losses.setColour(juce::TextEditor::backgroundColourId, juce::Colours::transparentBlack);
     losses.setColour(juce::TextEditor::outlineColourId, juce::Colours::transparentBlack);
-    table.onPlace = [this](double time, double duration)
+    table.onPlace = [this](int clip, double time, double duration)
     {
         remember();
         const auto place = onPlace;
         close();
         if (place)
-            place(time, duration);
+            place(clip, time, duration);
     };
     addAll(*this, {&format, &alsoButton, &rate, &all, &events, &target, &browseButton, &losses, &table});
     int order = 1;
@@ -121,7 +122,7 @@ void ExportSheet::prepareFormat()
     if (rate.indexOfItemId(memory.sampleRate) >= 0)
         rate.setSelectedId(memory.sampleRate, juce::dontSendNotification);
     events.setTitle("Events");
-    events.setTooltip("Each event as its own transient, or merged into the voice where that is as strong");
+    events.setTooltip("Each event on its own, or merged into the voice where that is as strong");
     events.addItem("Transients", itemOf(EventExport::transients));
     events.addItem("Merged into voice", itemOf(EventExport::merged));
     events.setTextWhenNothingSelected(tr("Set by the format"));
@@ -283,27 +284,53 @@ void ExportSheet::followExtension()
     showLosses();
 }
 
+std::vector<std::pair<int, std::shared_ptr<const Clip>>> ExportSheet::chosenClips() const
+{
+    if (!all.getToggleState())
+        return {{model.activeId(), model.clip()}};
+    std::vector<std::pair<int, std::shared_ptr<const Clip>>> clips;
+    const auto selected = model.selectedClips();
+    for (const auto& item : model.document().project().clips)
+        if (selected.size() < 2 || std::find(selected.begin(), selected.end(), item->id) != selected.end())
+            clips.emplace_back(item->id, item->clip);
+    return clips;
+}
+
+juce::String ExportSheet::keptText() const
+{
+    const auto wanted = choices();
+    if (wanted.size() == 1)
+        return tr(toText(chosenFormat().keeps));
+    juce::StringArray lines;
+    for (const ExportChoice& one : wanted)
+        for (const ClipFormat& known : exportFormats())
+            if (known.name == one.format)
+                lines.add(tr(toText(known.title)) + ": " + tr(toText(known.keeps)));
+    return lines.joinIntoString("\n");
+}
+
 void ExportSheet::showLosses()
 {
-    const juce::String kept = tr(toText(chosenFormat().keeps));
+    const juce::String kept = keptText();
     losses.setText(kept + "\n", false);
     table.show({});
     const int number = ++asked;
-    using Found = std::vector<std::pair<std::string, std::vector<FormatLoss>>>; // by format
+    using Found = std::vector<LossTable::Part>; // a format's name as the title
     jobs.run(
-        [clip = model.clip(), wanted = choices()]() -> Result<Found>
+        [clips = chosenClips(), wanted = choices()]() -> Result<Found>
         {
             Found found;
-            for (const ExportChoice& one : wanted)
-            {
-                auto lost = exportLosses(*clip, one);
-                if (!lost)
-                    return ofFormat(lost.error(), one, wanted.size() > 1);
-                found.emplace_back(one.format, std::move(*lost));
-            }
+            for (const auto& [id, clip] : clips)
+                for (const ExportChoice& one : wanted)
+                {
+                    auto lost = exportLosses(*clip, one);
+                    if (!lost)
+                        return ofFormat(lost.error(), one, wanted.size() > 1);
+                    found.push_back({toText(one.format), std::move(*lost), id});
+                }
             return found;
         },
-        [this, kept, number](const Result<Found>& found)
+        [this, kept, number, formats = choices().size(), clips = chosenClips().size()](const Result<Found>& found)
         {
             if (number != asked)
                 return;
@@ -312,10 +339,17 @@ void ExportSheet::showLosses()
             if (!found)
                 text << tr("Cannot be exported: {0}", {translateMessage(toText(found.error().text()))});
             else
-                for (const auto& [name, lost] : *found)
+                for (LossTable::Part part : *found)
+                {
+                    juce::StringArray titles;
+                    if (const auto item = model.document().clip(part.clip); clips > 1 && item)
+                        titles.add(toText(item->clip->name));
                     for (const ClipFormat& one : exportFormats())
-                        if (one.name == name)
-                            parts.push_back({found->size() > 1 ? tr(toText(one.title)) : juce::String(), lost});
+                        if (formats > 1 && toText(one.name) == part.title)
+                            titles.add(tr(toText(one.title)));
+                    part.title = titles.joinIntoString(", ");
+                    parts.push_back(std::move(part));
+                }
             table.show(parts);
             if (found && table.isEmpty())
                 text << tr("No losses.");
@@ -334,13 +368,14 @@ void ExportSheet::browse()
         std::make_unique<juce::FileChooser>(tr(folder ? "Export to a folder" : "Export to a file"),
                                             juce::File::getCurrentWorkingDirectory().getChildFile(target.getText()),
                                             folder ? juce::String() : "*" + toText(chosenFormat().extension));
-    chooser->launchAsync(folder ? Browser::openMode | Browser::canSelectDirectories
-                                : Browser::saveMode | Browser::canSelectFiles, // run() asks
-                         [this](const juce::FileChooser& done)
-                         {
-                             if (done.getResult() != juce::File())
-                                 target.setText(done.getResult().getFullPathName(), false);
-                         });
+    askForFiles(*chooser,
+                folder ? Browser::openMode | Browser::canSelectDirectories
+                       : Browser::saveMode | Browser::canSelectFiles, // run() asks
+                [this](const juce::FileChooser& done)
+                {
+                    if (done.getResult() != juce::File())
+                        target.setText(done.getResult().getFullPathName(), false);
+                });
 }
 
 void ExportSheet::run()
@@ -348,18 +383,15 @@ void ExportSheet::run()
     ExportChoice first = choice();
     first.needed = filesOf(model.document());
     Clips clips;
+    for (const auto& [id, clip] : chosenClips())
+        clips.push_back(clip);
     const juce::File place = juce::File::getCurrentWorkingDirectory().getChildFile(target.getText());
     if (all.getToggleState())
     {
-        const auto selected = model.selectedClips();
-        for (const auto& item : model.document().project().clips)
-            if (selected.size() < 2 || std::find(selected.begin(), selected.end(), item->id) != selected.end())
-                clips.push_back(item->clip);
         first.folder = pathOf(place);
     }
     else
     {
-        clips.push_back(model.clip());
         first.folder = pathOf(place.getParentDirectory());
         first.file = place.getFileName().toStdString();
         if (!place.hasFileExtension(toText(chosenFormat().extension)))

@@ -16,6 +16,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace pacini::editor
@@ -37,7 +38,8 @@ public:
     /// `last` outlives it; what was exported is written there.
     ExportSheet(const EditorModel& project, const Actuators& profiles, ExportMemory& last);
 
-    std::function<void(double time, double duration)> onPlace; ///< a loss was chosen; the sheet is closed before
+    /// A loss was chosen, of the clip with that id; the sheet is closed before.
+    std::function<void(int clip, double time, double duration)> onPlace;
 
     /// Whether the clips are written in this format too. The format of the box always is.
     void setAlso(const std::string& format, bool wanted);
@@ -56,6 +58,10 @@ private:
     void browse();
     void run();
     using Clips = std::vector<std::shared_ptr<const Clip>>;
+    /// Those that would be written, with their ids.
+    [[nodiscard]] std::vector<std::pair<int, std::shared_ptr<const Clip>>> chosenClips() const;
+    /// What the chosen formats keep, each by its name where there are several.
+    [[nodiscard]] juce::String keptText() const;
     void write(const Clips& clips, const std::vector<ExportChoice>& wanted);
     void chooseAlso();
     void showAlso();

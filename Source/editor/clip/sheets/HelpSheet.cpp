@@ -93,7 +93,7 @@ void HelpSheet::show(const Topic& topic)
         else
             add(paragraph + "\n\n", usualFont(), p.text);
     }
-    text.setCaretPosition(0);
+    text.moveCaretToTop(false); // scrolls to the heading, too
 }
 
 void HelpSheet::lookAndFeelChanged()

@@ -49,7 +49,8 @@ void HistorySheet::paintListBoxItem(int row, juce::Graphics& g, int width, int h
         g.fillRoundedRectangle(area.toFloat().reduced(1.0f), 4.0f);
     }
     // What was undone is still there.
-    g.setColour(row > static_cast<int>(model.document().steps().current()) ? p.dim : p.text);
+    const bool undone = row > static_cast<int>(model.document().steps().current());
+    g.setColour(undone ? quietTextColour(p, selected) : p.text);
     g.setFont(usualFont());
     g.drawText(getNameForRow(row), area.reduced(grid, 0), juce::Justification::centredLeft, true);
 }

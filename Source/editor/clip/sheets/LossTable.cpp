@@ -106,7 +106,8 @@ void LossTable::show(const std::vector<Part>& parts)
                             .worst = worstText(group.worst),
                             .place = placeText(group.worst),
                             .time = group.worst.time,
-                            .duration = group.worst.duration});
+                            .duration = group.worst.duration,
+                            .clip = part.clip});
     }
     list.deselectAllRows();
     list.updateContent();
@@ -135,7 +136,7 @@ void LossTable::go(int row)
     // What is called may remove this table.
     const Row one = rows[static_cast<std::size_t>(row)];
     const auto place = onPlace;
-    place(one.time, one.duration);
+    place(one.clip, one.time, one.duration);
 }
 
 void LossTable::listBoxItemClicked(int row, const juce::MouseEvent&)
@@ -162,7 +163,7 @@ void LossTable::paintListBoxItem(int row, juce::Graphics& g, int width, int heig
                juce::Justification::centredLeft, true);
     g.drawText(one.count, columns[1], juce::Justification::centredRight, true);
     g.drawText(one.worst, columns[2], juce::Justification::centredRight, true);
-    g.setColour(p.dim);
+    g.setColour(quietTextColour(p, selected));
     g.drawText(one.place, columns[3], juce::Justification::centredRight, true);
 }
 

@@ -32,16 +32,17 @@ public:
     LossTable();
     ~LossTable() override;
 
-    /// The losses of one format; `title` is empty where there is only one.
+    /// The losses of one clip in one format; `title` is empty where there is only one of both.
     struct Part
     {
         juce::String title;
         std::vector<FormatLoss> losses;
+        int clip = 0; ///< its id
     };
     void show(const std::vector<Part>& parts);
     [[nodiscard]] bool isEmpty() const noexcept { return rows.empty(); }
 
-    std::function<void(double time, double duration)> onPlace; ///< s
+    std::function<void(int clip, double time, double duration)> onPlace; ///< s
 
     int getNumRows() override { return static_cast<int>(rows.size()); }
     juce::String getNameForRow(int row) override;
@@ -53,6 +54,7 @@ private:
     {
         juce::String loss, count, worst, place;
         double time = 0.0, duration = 0.0;
+        int clip = 0;
         bool isTitle = false;
     };
 

@@ -23,7 +23,7 @@ constexpr std::array<const char*, 5> names{"Output", "Actuator", "Gain", "Delay"
 } // namespace
 
 OutputsSheet::OutputsSheet(HapticOutputs& hapticOutputs, const Actuators& profiles, const juce::StringArray& channels)
-    : Sheet("Haptic outputs", 840, 520),
+    : Sheet("Haptic outputs", 1060, 520),
       outputs(hapticOutputs),
       actuators(profiles),
       channelNames(channels),

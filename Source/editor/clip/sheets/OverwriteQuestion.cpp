@@ -15,7 +15,7 @@ namespace
 {
 juce::String kindText(const StandingFile& file)
 {
-    const char* what = "{0} is a file of another program.";
+    const char* what = "{0} is a file that Pacini cannot tell the kind of.";
     switch (file.kind)
     {
     case FileKind::sound:

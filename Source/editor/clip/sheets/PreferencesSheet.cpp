@@ -81,7 +81,7 @@ PreferencesSheet::PreferencesSheet(EditorView& shown) : Sheet("Preferences", 520
     };
     const SnapTargets targets = viewState.snapTargets();
     for (const auto& [member, name] :
-         {std::pair(&SnapTargets::on, "Snap"), std::pair(&SnapTargets::transients, "Snap to transients"),
+         {std::pair(&SnapTargets::on, "Snap"), std::pair(&SnapTargets::transients, "Snap to events"),
           std::pair(&SnapTargets::grid, "Snap to ruler lines")})
         addSwitch(name, "Dragging snaps to nearby targets; hold Alt to bypass", targets.*member,
                   [target, member = member](bool on) { target(member, on); });

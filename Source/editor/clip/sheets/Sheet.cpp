@@ -175,6 +175,8 @@ MessageSheet::MessageSheet(const juce::String& title, const juce::String& text, 
     words.setColour(juce::TextEditor::outlineColourId, juce::Colours::transparentBlack);
     words.setColour(juce::TextEditor::focusedOutlineColourId, juce::Colours::transparentBlack);
     words.setFont(usualFont());
+    words.setBorder({});
+    words.setIndents(0, 4); // below its title
     words.setText(translateMessage(text), juce::dontSendNotification);
     words.setTitle(translateMessage(title));
     words.setWantsKeyboardFocus(false);

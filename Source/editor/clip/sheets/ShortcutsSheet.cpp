@@ -21,7 +21,7 @@ namespace
 constexpr int shortcutRowHeight = 3 * grid;
 constexpr int keyWidth = 24 * grid;
 constexpr std::array<std::pair<const char*, const char*>, 13> gestures{{
-    {"Double-click", "Adds a point or a transient"},
+    {"Double-click", "Adds a point or an event"},
     {"Drag a point", "Moves the selection; Shift: one direction only, Alt: no snapping"},
     {"Ctrl+drag a line", "Bends the line between its two points"},
     {"Drag with D, or Draw", "Draws the curve"},
