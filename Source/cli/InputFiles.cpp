@@ -64,9 +64,18 @@ void addFolder(const fs::path& folder, const std::vector<std::string>& extension
         std::error_code ignored;
         if (entry->is_directory(ignored) && (isHidden(path) || !canBeListed(path, found)))
             entry.disable_recursion_pending();
-        else if (!isHidden(path) && !isManifestName(path) && entry->is_regular_file(ignored) &&
+        else if (!isHidden(path) && !isManifestName(path) &&
                  std::find(extensions.begin(), extensions.end(), lowerExtension(path)) != extensions.end())
-            paths.push_back(path);
+        {
+            const auto status = entry->status(ignored);
+            if (fs::is_regular_file(status))
+                paths.push_back(path);
+            else if (entry->is_symlink(ignored) && !fs::exists(status))
+                found.failures.push_back({path,
+                                          {ErrorCode::io, "",
+                                           "is a link to a file that is not there; restore that file, or remove the "
+                                           "link"}});
+        }
         entry.increment(error);
     }
     if (error)

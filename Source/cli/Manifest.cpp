@@ -191,8 +191,10 @@ MissingShards ShardUnion::missing() const
     return least.value_or(MissingShards());
 }
 
-std::optional<Manifest> readManifest(const std::filesystem::path& path)
+std::optional<Manifest> readManifest(const std::filesystem::path& path, bool* hasEnd)
 {
+    if (hasEnd != nullptr)
+        *hasEnd = true;
     if (std::error_code ignored; !std::filesystem::exists(path, ignored))
         return Manifest();
     const auto text = readWholeFile(path, largestManifest);
@@ -203,6 +205,8 @@ std::optional<Manifest> readManifest(const std::filesystem::path& path)
         if (const auto tree = readJsonTree(*text, largestManifest); tree)
             return manifestIn(*tree);
         // One that was not completed: the lines that are whole.
+        if (hasEnd != nullptr)
+            *hasEnd = false;
         std::istringstream lines(*text);
         std::string line;
         std::getline(lines, line);

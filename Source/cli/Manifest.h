@@ -98,8 +98,8 @@ struct ShardUnion
 };
 
 /// Reads a manifest as far as it goes: that of a killed run has no end. None if the file is not a manifest, empty if it
-/// does not exist.
-[[nodiscard]] std::optional<Manifest> readManifest(const std::filesystem::path& path);
+/// does not exist. `hasEnd` becomes whether the manifest was completed.
+[[nodiscard]] std::optional<Manifest> readManifest(const std::filesystem::path& path, bool* hasEnd = nullptr);
 
 /// The name of an output in a manifest: its path relative to the manifest's folder, with /.
 [[nodiscard]] std::string pathFromManifest(const std::filesystem::path& manifest, const std::filesystem::path& output);

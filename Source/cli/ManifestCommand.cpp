@@ -27,11 +27,21 @@ namespace pacini::cli
 
 namespace
 {
-/// A manifest that must be there; the console has said why it is not.
-std::optional<Manifest> openManifest(Console& console, const std::string& path)
+/// A manifest that must be there; the console has said why it is not, and that it has no end. `hasEnd` becomes false
+/// for that of a run that was stopped, or for one that was cut off: what it lacks is not known.
+std::optional<Manifest> openManifest(Console& console, const std::string& path, bool& hasEnd)
 {
     std::error_code ignored;
-    auto manifest = fs::exists(path, ignored) ? readManifest(path) : std::nullopt;
+    bool completed = true;
+    auto manifest = fs::exists(path, ignored) ? readManifest(path, &completed) : std::nullopt;
+    if (manifest && !completed)
+    {
+        hasEnd = false;
+        console.error(path, {ErrorCode::truncated, "",
+                             fmt::format("has no end: the run was stopped, or the file is cut off after {}; start the "
+                                         "run again to continue it",
+                                         counted(manifest->entries.size(), "file", "files"))});
+    }
     if (!manifest)
         console.error(path, {ErrorCode::invalidData, "",
                              fs::exists(path, ignored)
@@ -93,9 +103,10 @@ struct MergeSubcommand : Command
     {
         Manifest merged;
         ShardUnion made;
+        bool allEnd = true;
         for (const std::string& input : inputs)
         {
-            const auto one = openManifest(console, input);
+            const auto one = openManifest(console, input, allEnd);
             if (!one)
                 return Exit::failed;
             if (input != inputs.front() && one->command != merged.command)
@@ -133,7 +144,7 @@ struct MergeSubcommand : Command
                              {"notMade", missing.files}});
         console.wrote(output, fmt::format("{}, {} failed", counted(merged.entries.size(), "file", "files"), failed));
         if (missing.names.empty())
-            return Exit::ok;
+            return allEnd ? Exit::ok : Exit::failed;
         console.error(output, notMade(missing));
         return Exit::failed;
     }
@@ -178,9 +189,10 @@ struct CheckSubcommand : Command
     {
         std::size_t files = 0, failed = 0, faulty = 0, lost = 0;
         std::map<std::string, std::pair<std::string, ShardUnion>> runs; // with the first manifest of each
+        bool whole = true;
         for (const std::string& input : inputs)
         {
-            const auto manifest = openManifest(console, input);
+            const auto manifest = openManifest(console, input, whole);
             if (!manifest)
                 return Exit::failed;
             runs.try_emplace(runOf(input, *manifest), input, ShardUnion()).first->second.second.add(manifest->shards);
@@ -203,7 +215,6 @@ struct CheckSubcommand : Command
                 console.error(name, {ErrorCode::invalidData, "", fault});
             }
         }
-        bool whole = true;
         for (const auto& [name, run] : runs)
             if (const MissingShards missing = run.second.missing(); !missing.names.empty())
             {
@@ -238,7 +249,8 @@ struct RetrySubcommand : Command
 
     Exit run(Console& console) override
     {
-        const auto manifest = openManifest(console, input);
+        bool hasEnd = true;
+        const auto manifest = openManifest(console, input, hasEnd);
         if (!manifest)
             return Exit::failed;
         return console.fail(input, {ErrorCode::invalidData, "",

@@ -13,10 +13,11 @@ namespace pacini
 [[nodiscard]] inline const std::vector<std::string>& audioExtensions()
 {
     static const std::vector<std::string> extensions = {
-        ".wav", ".wave", ".aif", ".aiff", ".aifc", ".flac", ".ogg",  ".oga", ".opus", ".mp3",  ".caf",
-        ".w64", ".rf64", ".bwf", ".au",   ".snd",  ".mp4",  ".m4v",  ".mov", ".mkv",  ".webm", ".avi",
-        ".m4a", ".mka",  ".aac", ".ac3",  ".3gp",  ".mpg",  ".m2ts", ".wma", ".wmv",  ".asf",  ".flv",
-        ".ogv", ".spx",  ".wv",  ".ape",  ".tta",  ".amr",  ".dts",  ".eac3"};
+        ".wav",  ".wave", ".aif", ".aiff", ".aifc", ".flac", ".ogg",  ".oga", ".opus", ".mp3", ".caf", ".w64",
+        ".rf64", ".bwf",  ".au",  ".snd",  ".mp4",  ".m4v",  ".mov",  ".mkv", ".webm", ".avi", ".m4a", ".mka",
+        ".aac",  ".ac3",  ".3gp", ".mpg",  ".m2ts", ".wma",  ".wmv",  ".asf", ".flv",  ".ogv", ".spx", ".wv",
+        ".ape",  ".tta",  ".amr", ".dts",  ".eac3", ".mts",  ".mpeg", ".ts",  ".vob",  ".mp2", ".m4b", ".adts",
+        ".ismv", ".3g2",  ".voc", ".nist", ".avr",  ".iff",  ".8svx", ".paf", ".sds",  ".wve", ".pvf"};
     return extensions;
 }
 

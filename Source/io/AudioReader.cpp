@@ -534,8 +534,11 @@ struct AudioReader::State
         {
             const double held =
                 static_cast<double>(part().packetFrames) - static_cast<double>(part().preSkip + part().framesLeftOut);
+            // Of pages that are not found at all only the times of those behind them tell.
+            const double unfound =
+                part().skippedBytes > 0 ? static_cast<double>(part().lastRightTime) / unit - seconds(here) : 0.0;
             warn("is damaged: {} of its pages have wrong checksums, about {:.3f} s are missing", part().damagedPages,
-                 std::max(part().packetFrames > 0 ? held / unit - seconds(here) : missing, 0.0));
+                 std::max({part().packetFrames > 0 ? held / unit - seconds(here) : missing, unfound, 0.0}));
         }
         else if (part().skippedBytes > 0)
             warn("is damaged: {} bytes are no sound, about {:.3f} s are missing", part().skippedBytes,
@@ -555,6 +558,8 @@ struct AudioReader::State
         if (!next)
             return false;
         parts[current].end = next->begin;
+        if (parts[current].isNumbered)
+            parts[current].promisedFrames = flacFrames(file.get(), part().begin, part().end);
         parts.insert(parts.begin() + static_cast<std::ptrdiff_t>(current) + 1, std::move(*next));
         if (!openView(false))
             return false;

@@ -255,7 +255,7 @@ Result<std::unique_ptr<ChildProgram>> started(const char* name, const std::vecto
 Result<Json> probed(const std::string& name, std::FILE* pipe)
 {
     constexpr const char* entries =
-        "stream=index,codec_type,codec_name,sample_rate,channels,channel_layout,start_time,duration:"
+        "stream=index,codec_type,codec_name,sample_rate,channels,channel_layout,start_time,duration,nb_frames:"
         "stream_disposition=default,attached_pic:stream_tags:format=format_name,duration:"
         "chapter=start_time:chapter_tags=title";
     auto words = safely("level+error");
@@ -424,11 +424,22 @@ Result<void> FilmSound::takeTimes(Probe& probe)
         duration = Duration::atLeast;
         end = secondsOfTag(textOf(partOf(track, "tags"), "DURATION"));
     }
+    else if (kind == "avi")
+    {
+        // By the number of its blocks, those of PCM are frames; damaged ones are passed over.
+        end = numberOf(track, "duration");
+        if (const auto frames = numberOf(track, "nb_frames"); !end && frames && probe.codec.starts_with("pcm_"))
+            end = *frames / rate;
+        statesTrack = end.has_value();
+        if (end)
+            *end += begins;
+    }
     else if (kind == "wv" || kind == "tta" || kind == "ape" || kind == "caf")
     {
         duration = Duration::atLeast;
         end = numberOf(track, "duration");
     }
+    statesSound = end.has_value() || !hasPicture;
     if (!end)
     {
         duration = Duration::estimated;
@@ -517,7 +528,7 @@ Result<void> FilmSound::checkCut(std::FILE* file, const std::string& kind)
                          : fmt::format("is cut off: {} bytes are missing of what its header states", missing);
     if (!takesTruncated)
         return Error{ErrorCode::truncated, "", message + "; get a complete copy"};
-    warnings.push_back(std::move(message));
+    cutOff = std::move(message); // told at the end, in seconds where they are known
     return {};
 }
 
@@ -590,7 +601,21 @@ Result<void> FilmSound::explainEnd()
     if (delivered == 0)
         return invalid(
             withReason("has no sound that ffmpeg can decode; get a complete copy, or convert it to WAV elsewhere"));
+    // ffmpeg begins its filters anew with other channels or another rate, and fills up from 0 again.
+    constexpr std::string_view filters = "[graph_0_in_";
+    const auto first = ending.complaint.find(filters);
+    const auto again = first == std::string::npos ? first : ending.complaint.find(filters, first + 1);
+    if (again != std::string::npos &&
+        sumOf(std::string_view(ending.complaint).substr(again), "adding ", " audio samples of silence") / rate >
+            shortest)
+        return invalid(
+            "changes the channels or the sample rate of its sound, which would come late from there on; save "
+            "its sound as one WAV first (ffmpeg -i FILM -vn SOUND.wav)");
     const bool lacks = here < held || (duration != Duration::estimated && here + shortest < promised);
+    const bool isShort = statesTrack && here + shortest < promised;
+    if (!cutOff.empty())
+        warnings.push_back(isShort ? fmt::format("is cut off: {:.3f} s of {:.3f} s are there", here, promised)
+                                   : cutOff);
     if (lacks || !ending.succeeded)
     {
         if (!takesTruncated)
@@ -604,9 +629,13 @@ Result<void> FilmSound::explainEnd()
                                             : fmt::format("is damaged after {:.3f} s", here)));
     }
     else if (!why.empty())
-        warnings.push_back(
-            withReason(fmt::format("is damaged, or ffmpeg does not know all of it; {:.3f} s were decoded", here)));
-    else if (duration == Duration::estimated && !hasPicture && here < 0.5 * promised)
+        warnings.push_back(withReason(
+            statesSound && here + shortest < promised
+                ? fmt::format("is damaged, or ffmpeg does not know all of it; {:.3f} s of {:.3f} s were decoded", here,
+                              promised)
+                : fmt::format("is damaged, or ffmpeg does not know all of it; {:.3f} s were decoded", here)));
+    else if (statesTrack ? isShort && cutOff.empty()
+                         : duration == Duration::estimated && !hasPicture && here < 0.5 * promised)
         warnings.push_back(
             fmt::format("lasts about {:.3f} s by its header, of which {:.3f} s can be decoded", promised, here));
     // Of a block of AAC that has fewer channels than its header states, in ffmpeg's words.

@@ -91,9 +91,12 @@ private:
     Duration duration = Duration::estimated;
     double held = 0.0; ///< s that the tables of an MP4 promise at least
     bool hasPicture = false;
+    bool statesSound = false; ///< `stated` is of the sound, not of all that the file holds
+    bool statesTrack = false; ///< `stated` is counted by the header of its track, though nothing of it is refused
     bool takesTruncated = false;
     double late = 0.0; ///< s by which the sound begins after the picture
     FoundMarkers markers;
+    std::string cutOff; ///< what the file as a whole lacks; empty: nothing
     std::vector<std::string> warnings;
     std::unique_ptr<ChildProgram> ffmpeg;
     std::vector<float> behind; ///< what came behind the stated end, until it is known whether it is filling

@@ -328,6 +328,7 @@ OggContent oggContent(ByteWindow& file, std::uint64_t begin, std::uint64_t end, 
                      if (!hasTime || !isSound || page.time() > mostFrames)
                          return true;
                      const auto time = static_cast<std::int64_t>(page.time());
+                     content.lastTime = std::max(content.lastTime, static_cast<std::uint64_t>(page.time()));
                      const auto frames = static_cast<std::int64_t>(lengths.frames());
                      if (!isTimed && !page.endsStream())
                          start = time - frames; // of a stream that was cut at its beginning, or begins before it

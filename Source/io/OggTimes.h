@@ -32,6 +32,7 @@ struct OggContent
 {
     std::uint64_t frames = 0;       ///< of all packets, also of damaged pages
     std::uint64_t leftOut = 0;      ///< of these at the end, by the time of the last page; 0 for less than a packet
+    std::uint64_t lastTime = 0;     ///< the latest of pages that are not damaged
     std::uint64_t damagedPages = 0; ///< whose checksum is wrong, which decoders leave out
 };
 

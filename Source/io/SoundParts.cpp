@@ -8,6 +8,7 @@
 #include "io/OggTimes.h"
 #include "io/SampleWords.h"
 #include "io/SoundCodec.h"
+#include "io/SoundLengths.h"
 #include "io/SoundTags.h"
 
 #include <fmt/format.h>
@@ -68,7 +69,11 @@ public:
         const unsigned char high = count[0];
         const auto frames = (std::uint64_t{high & 0x0Fu} << 32u) | file.number(begin + 22, 4, true);
         if (frames == 0)
+        {
+            part.promisedFrames = numberedFlacFrames(file, begin, part.end);
+            part.isNumbered = true;
             return part;
+        }
         part.promisedFrames = frames;
         part.patches.push_back({begin + 21, static_cast<char>(high & 0xF0u) + std::string(4, '\0')});
         return part;
@@ -199,6 +204,8 @@ private:
             // libsndfile reads a CAF of any version.
             if (startsSound(file, begin) || file.has(begin, "caff"))
                 parts.back().presentBytes = end - begin; // at most
+            else if (const auto stated = statedSound(file, begin, end))
+                addStated(parts.back(), *stated);
             return {};
         }
         later.reset();
@@ -247,6 +254,22 @@ private:
             addHeader(part, chunks[i]);
         }
         return next;
+    }
+
+    /// A length that only the header knows.
+    static void addStated(SoundPart& part, const StatedSound& stated)
+    {
+        constexpr std::uint64_t filling = 64; // bytes, with the end mark of a VOC
+        if (stated.behind > filling)
+        {
+            part.leftOutBytes = stated.behind;
+            part.end -= stated.behind;
+        }
+        if (stated.present >= stated.promised)
+            return;
+        part.promisedBytes = stated.promised;
+        part.presentBytes = stated.present;
+        part.isWhole = false;
     }
 
     /// Whether a WAV or W64 says twice how its samples look, and each time otherwise.
@@ -609,6 +632,7 @@ private:
         part.framesLeftOut = content.leftOut;
         part.damagedPages = content.damagedPages;
         part.packetFrames = content.frames;
+        part.lastRightTime = content.lastTime;
         auto shift = vorbisShift(file, part.begin, part.end, stream);
         if (shift.frames == 0)
             return;
@@ -703,6 +727,12 @@ std::string numberBytes(std::uint64_t value, std::size_t count, bool bigEndian)
 std::vector<SoundPart> soundParts(std::FILE* file)
 {
     return Planner(file).run();
+}
+
+std::optional<std::uint64_t> flacFrames(std::FILE* file, std::uint64_t begin, std::uint64_t end)
+{
+    ByteWindow window(file);
+    return numberedFlacFrames(window, begin, end);
 }
 
 std::optional<SoundPart> nextFlac(std::FILE* file, std::uint64_t offset, std::uint64_t end)

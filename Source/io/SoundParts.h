@@ -44,13 +44,15 @@ struct SoundPart
     std::uint64_t skippedBytes = 0;             ///< before it, that are no sound and no tag
 
     std::optional<std::uint64_t> promisedFrames; ///< length stated by a header, if it may be wrong
+    bool isNumbered = false;                     ///< of FLAC: they are by the number of the last block
     std::optional<std::uint64_t> countedFrames;  ///< actual length
     std::uint64_t firstTime = 0;                 ///< of an Ogg stream: the earliest and latest of its pages' times, in
     std::uint64_t lastTime = 0;                  ///< frames, those of Opus at 48 kHz
     std::uint64_t leadFrames = 0;                ///< decoded before its first that are no sound of it
     std::uint64_t preSkip = 0;                   ///< of Opus: frames at 48 kHz that its header leaves out
     std::uint64_t packetFrames = 0;              ///< of an Ogg stream: frames of all packets, those of Opus at 48 kHz
-    std::uint64_t framesLeftOut = 0;             ///< of these, left out at the end by its times
+    std::uint64_t lastRightTime = 0;             ///< of an Ogg stream: lastTime of the pages that are not damaged
+    std::uint64_t framesLeftOut = 0;             ///< of its packets, left out at the end by its times
     int opusGain = 0;                            ///< of Opus: dB / 256 that its header adds
     std::uint64_t shiftedFrames = 0;             ///< of an Ogg stream, by which its times are too early
     std::uint64_t lostPages = 0;                 ///< of an Ogg stream, which counts them
@@ -64,6 +66,10 @@ struct SoundPart
 /// Returns the parts of `file` for libsndfile to read, in order; at least one unless the file is empty. Moves the
 /// stream's position; trusts no number.
 [[nodiscard]] std::vector<SoundPart> soundParts(std::FILE* file);
+
+/// The frames of a FLAC stream that ends at `end`, where only the number of its last block tells (see
+/// numberedFlacFrames()).
+[[nodiscard]] std::optional<std::uint64_t> flacFrames(std::FILE* file, std::uint64_t begin, std::uint64_t end);
 
 /// The FLAC stream that begins between `offset` and `end`, where the decoder of another lost its way.
 [[nodiscard]] std::optional<SoundPart> nextFlac(std::FILE* file, std::uint64_t offset, std::uint64_t end);

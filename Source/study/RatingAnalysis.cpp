@@ -269,11 +269,19 @@ RatingAnalysis analyseRatings(const std::vector<Rating>& ratings, const RatingAn
         analysis.groups.push_back(groupOf(name, members.back(), means, analysis.stimuli));
     }
     analysis.plainGroups = analysis.groups.size();
+    std::vector<std::string> notCombined;
     for (const GroupUnion& one : params.unions)
     {
         std::string name;
         for (const std::string& member : one)
             name += (name.empty() ? "{" : "+") + member;
+        const auto missing = std::find_if_not(one.begin(), one.end(),
+                                              [&](const std::string& member) { return holds(groupNames, member); });
+        if (missing != one.end())
+        {
+            notCombined.push_back(fmt::format("{}}} is not compared: {} has no answers here", name, *missing));
+            continue;
+        }
         members.push_back(one);
         analysis.groups.push_back(groupOf(name + "}", one, means, analysis.stimuli));
     }
@@ -297,6 +305,7 @@ RatingAnalysis analyseRatings(const std::vector<Rating>& ratings, const RatingAn
     analysis.agreement = intraclassCorrelation(analysis.everybody.complete);
     analysis.order = friedman(analysis.everybody.complete);
     analysis.doubts = doubtsOf(analysis);
+    analysis.doubts.insert(analysis.doubts.end(), notCombined.begin(), notCombined.end());
     return analysis;
 }
 

@@ -15,6 +15,7 @@
 #include <cctype>
 #include <cmath>
 #include <optional>
+#include <set>
 #include <utility>
 
 namespace pacini::study
@@ -201,6 +202,81 @@ Result<std::vector<std::optional<std::size_t>>> placesIn(const std::vector<std::
     return places;
 }
 
+/// Lines of a table that do not count for one reason: the first, and how many.
+class LinesLeftOut
+{
+public:
+    LinesLeftOut(std::string whyOne, std::string whyAll) : one(std::move(whyOne)), several(std::move(whyAll)) {}
+
+    void add(const std::string& place)
+    {
+        if (number++ == 0)
+            first = place;
+    }
+
+    void tell(std::size_t lines, std::vector<std::string>& said) const
+    {
+        if (number > 0)
+            said.push_back(
+                fmt::format("{}: {}; {} of {} lines {} and are left out", first, one, number, lines, several));
+    }
+
+    [[nodiscard]] std::size_t count() const noexcept { return number; }
+    [[nodiscard]] const std::string& place() const noexcept { return first; }
+
+private:
+    std::string one, several, first;
+    std::size_t number = 0;
+};
+
+/// Leaves out ratings without a participant (or group) where others have one: together they would be one person (or a
+/// further group).
+void leaveOutUnnamed(std::vector<Rating>& ratings, std::vector<std::string>& places, std::string Rating::*name,
+                     std::string_view what, std::size_t lines, std::vector<std::string>& said)
+{
+    const auto isUnnamed = [&](const Rating& one)
+    {
+        return (one.*name).empty();
+    };
+    if (std::all_of(ratings.begin(), ratings.end(), isUnnamed))
+        return;
+    LinesLeftOut unnamed(fmt::format("has no {}", what), "have none");
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < ratings.size(); ++i)
+        if (isUnnamed(ratings[i]))
+            unnamed.add(places[i]);
+        else if (kept++ != i)
+        {
+            ratings[kept - 1] = std::move(ratings[i]);
+            places[kept - 1] = std::move(places[i]);
+        }
+    ratings.resize(kept);
+    places.resize(kept);
+    unnamed.tell(lines, said);
+}
+
+constexpr std::string_view typeColumn = "trial_type"; // of jsPsych
+
+/// What a line of jsPsych was; empty where there is no such column.
+std::string typeIn(const std::vector<std::string>& fields, const std::vector<std::string>& heading)
+{
+    const auto column = columnsNamed(heading, {typeColumn});
+    return column.empty() || column[0] >= fields.size() ? std::string() : inSmallLetters(fields[column[0]]);
+}
+
+/// The types of a jsPsych table's lines that are ratings: its sliders, where it has any. Other lines have a response
+/// too, such as the number of a button or a text. None: all lines are.
+std::set<std::string> typesOfRatings(CsvLines lines, const std::vector<std::string>& heading, std::size_t rating)
+{
+    std::set<std::string> types;
+    if (inSmallLetters(heading[rating]) != "response" || columnsNamed(heading, {typeColumn}).empty())
+        return types;
+    while (const auto fields = lines.next())
+        if (const std::string type = typeIn(*fields, heading); type.find("slider") != std::string::npos)
+            types.insert(type);
+    return types;
+}
+
 /// Whether a line has more fields than the heading that say something.
 bool isTooLong(const std::vector<std::string>& fields, std::size_t columns)
 {
@@ -229,12 +305,14 @@ Result<std::vector<Rating>> ratingsOfCsv(std::string_view bytes, const RatingCol
     const auto places = placesIn(heading, columns);
     if (!places)
         return places.error();
-    constexpr std::size_t stimulusRole = 3;
+    constexpr std::size_t stimulusRole = 3, ratingRole = 4;
     if (isWebMushra != nullptr)
         *isWebMushra = inSmallLetters(heading[*(*places)[stimulusRole]]) == "rating_stimulus";
+    const std::set<std::string> ratingTypes = typesOfRatings(lines, heading, *(*places)[ratingRole]);
     std::vector<Rating> ratings;
-    std::size_t missing = 0;
-    std::string firstMissing;
+    LinesLeftOut missing("has no rating", "have none"), withoutStimulus("has no stimulus", "have none"),
+        ofOtherTypes("is no rating of jsPsych's sliders by its trial_type", "are none");
+    std::vector<std::string> placesOf; // of the ratings
     while (const auto fields = lines.next())
     {
         if (lines.endsInQuotes())
@@ -252,10 +330,15 @@ Result<std::vector<Rating>> ratingsOfCsv(std::string_view bytes, const RatingCol
             const auto& place = (*places)[role];
             return std::string(place && *place < fields->size() ? trimmed((*fields)[*place]) : std::string_view());
         };
-        const std::string number = field(4);
+        if (!ratingTypes.empty() && !ratingTypes.contains(typeIn(*fields, heading)))
+        {
+            ofOtherTypes.add(lines.place());
+            continue;
+        }
+        const std::string number = field(ratingRole);
         if (isMissing(number))
         {
-            firstMissing = missing++ == 0 ? lines.place() : firstMissing;
+            missing.add(lines.place());
             continue;
         }
         const auto value = ratingIn(number);
@@ -263,13 +346,25 @@ Result<std::vector<Rating>> ratingsOfCsv(std::string_view bytes, const RatingCol
             return Error{ErrorCode::invalidData, lines.place(), fmt::format("'{}' is not a rating", shownText(number))};
         if (ratings.size() == mostRatings)
             return Error{ErrorCode::tooLarge, lines.place(), fmt::format("has more than {} ratings", mostRatings)};
-        ratings.push_back({field(0), field(1), field(2), field(3), *value});
+        if (field(stimulusRole).empty())
+        {
+            withoutStimulus.add(lines.place());
+            continue;
+        }
+        ratings.push_back({field(0), field(1), field(2), field(stimulusRole), *value});
+        placesOf.push_back(lines.place());
     }
     if (ratings.empty())
-        return Error{ErrorCode::invalidData, firstMissing, "has no rating"};
-    if (missing > 0 && warnings != nullptr)
-        warnings->push_back(fmt::format("{}: has no rating; {} of {} lines have none and are left out", firstMissing,
-                                        missing, missing + ratings.size()));
+        return Error{ErrorCode::invalidData, missing.place(), "has no rating"};
+    const std::size_t others = missing.count() + withoutStimulus.count() + ofOtherTypes.count();
+    const std::size_t all = ratings.size() + others;
+    std::vector<std::string> said;
+    for (const LinesLeftOut* lost : {&ofOtherTypes, &missing, &withoutStimulus})
+        lost->tell(all, said);
+    leaveOutUnnamed(ratings, placesOf, &Rating::participant, "participant", all, said);
+    leaveOutUnnamed(ratings, placesOf, &Rating::group, "group", all, said);
+    if (warnings != nullptr)
+        warnings->insert(warnings->end(), said.begin(), said.end());
     return ratings;
 }
 

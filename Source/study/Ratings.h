@@ -36,8 +36,9 @@ struct RatingColumns
 /// block; or those of webMUSHRA (session_uuid, trial_id, rating_stimulus, rating_score), of jsPsych (stimulus,
 /// response) and the like. Fields are apart by tabs, semicolons or commas, as the first line has them; texts may stand
 /// in quotes (RFC 4180), and numbers may have a decimal comma. What is not UTF-8 is Latin-1, which `warnings` says.
-/// Lines without a rating (empty, NA, NaN, null) are left out and counted in `warnings`. `isWebMushra` becomes whether
-/// the stimuli are in a column of webMUSHRA. Errors (invalidData) at a line
+/// Lines without a rating (empty, NA, NaN, null) or a stimulus, those without a participant or a group where others
+/// have one, and those of jsPsych that are not of a slider where others are, are left out and counted in `warnings`.
+/// `isWebMushra` becomes whether the stimuli are in a column of webMUSHRA. Errors (invalidData) at a line
 /// such as `line 3`: UTF-16, a column that is missing or of which there are several, a line that is too long, a rating
 /// that is no finite number, no rating at all.
 [[nodiscard]] Result<std::vector<Rating>> ratingsOfCsv(std::string_view bytes, const RatingColumns& columns = {},

@@ -9,7 +9,10 @@
 
 #include <cerrno>
 #include <chrono>
+#include <cmath>
+#include <optional>
 #include <system_error>
+#include <type_traits>
 #include <utility>
 
 namespace pacini::study
@@ -26,52 +29,106 @@ using Line = nlohmann::ordered_json;
 constexpr std::size_t largestLog = 256'000'000; // bytes
 constexpr std::size_t largestLine = 1'000'000;
 
+/// The entry of that type, if there is one; a number within the range of T.
+template <typename T>
+std::optional<T> entryOf(const Json& entry)
+{
+    if constexpr (std::is_same_v<T, std::string>)
+        return entry.is_string() ? std::optional(entry.get<std::string>()) : std::nullopt;
+    else if constexpr (std::is_same_v<T, bool>)
+        return entry.is_boolean() ? std::optional(entry.get<bool>()) : std::nullopt;
+    else
+    {
+        if (!entry.is_number())
+            return std::nullopt;
+        const double number = entry.get<double>();
+        if (!std::isfinite(number))
+            return std::nullopt;
+        if constexpr (std::is_floating_point_v<T>)
+            return static_cast<T>(number);
+        else
+        {
+            constexpr double most = 1e9; // of whole numbers in a log
+            const bool fits =
+                number == std::floor(number) && number >= (std::is_signed_v<T> ? -most : 0.0) && number <= most;
+            return fits ? std::optional(static_cast<T>(number)) : std::nullopt;
+        }
+    }
+}
+
 template <typename T>
 T valueOr(const Json& line, const char* name, T otherwise)
 {
     const auto entry = line.find(name);
-    if (entry == line.end())
-        return otherwise;
-    if constexpr (std::is_same_v<T, std::string>)
-        return entry->is_string() ? entry->template get<std::string>() : otherwise;
-    else if constexpr (std::is_same_v<T, bool>)
-        return entry->is_boolean() ? entry->template get<bool>() : otherwise;
-    else
-        return entry->is_number() ? static_cast<T>(entry->template get<double>()) : otherwise;
+    return entry == line.end() ? otherwise : entryOf<T>(*entry).value_or(std::move(otherwise));
 }
 
-template <typename T>
-std::optional<T> optionalOf(const Json& line, const char* name)
+/// Reads a line's entries, and keeps the names of those that are there and are not what they should be.
+class Entries
 {
-    return line.contains(name) ? std::optional(valueOr(line, name, T{})) : std::nullopt;
-}
+public:
+    Entries(const Json& ofLine, std::vector<std::string>& toNote) : line(ofLine), unreadable(toNote) {}
+
+    template <typename T>
+    std::optional<T> get(const char* name)
+    {
+        const auto entry = line.find(name);
+        if (entry == line.end())
+            return std::nullopt;
+        auto value = entryOf<T>(*entry);
+        if (!value)
+            unreadable.emplace_back(name);
+        return value;
+    }
+
+    template <typename T>
+    std::vector<T> list(const char* name)
+    {
+        std::vector<T> values;
+        const auto entries = line.find(name);
+        if (entries == line.end())
+            return values;
+        bool whole = entries->is_array();
+        if (whole)
+            for (const Json& entry : *entries)
+            {
+                auto value = entryOf<T>(entry);
+                whole = whole && value.has_value();
+                values.push_back(value.value_or(T{}));
+            }
+        if (!whole)
+            unreadable.emplace_back(name);
+        return values;
+    }
+
+private:
+    const Json& line;
+    std::vector<std::string>& unreadable;
+};
 
 Record recordOf(const Json& line)
 {
     Record record;
-    record.trial = valueOr(line, "trial", std::size_t(0));
+    Entries entries(line, record.unreadable);
+    record.trial = entries.get<std::size_t>("trial").value_or(0);
     record.block = valueOr(line, "block", std::string());
     record.task = valueOr(line, "task", std::string());
-    if (const auto stimuli = line.find("stimuli"); stimuli != line.end() && stimuli->is_array())
-        for (const Json& name : *stimuli)
-            record.stimuli.push_back(name.is_string() ? name.get<std::string>() : std::string());
-    record.training = valueOr(line, "training", false);
-    record.level = optionalOf<double>(line, "level");
-    record.correct = optionalOf<bool>(line, "correct");
-    record.answer.value = optionalOf<double>(line, "value");
-    if (const auto values = line.find("values"); values != line.end() && values->is_array())
-        for (const Json& value : *values)
-            record.answer.values.push_back(value.is_number() ? value.get<double>() : 0.0);
-    record.answer.choice = optionalOf<int>(line, "choice");
-    record.answer.words = valueOr(line, "words", std::string());
+    record.stimuli = entries.list<std::string>("stimuli");
+    record.training = entries.get<bool>("training").value_or(false);
+    record.level = entries.get<double>("level");
+    record.correct = entries.get<bool>("correct");
+    record.answer.value = entries.get<double>("value");
+    record.answer.values = entries.list<double>("values");
+    record.answer.choice = entries.get<int>("choice");
+    record.answer.words = entries.get<std::string>("words").value_or(std::string());
     if (const auto items = line.find("items"); items != line.end() && items->is_object())
         for (const auto& [name, text] : items->items())
             record.answer.items.emplace_back(name, text.is_string() ? text.get<std::string>() : text.dump());
     record.answer.seconds = valueOr(line, "seconds", 0.0);
     record.answer.replays = valueOr(line, "replays", 0);
-    record.answer.soundOnset = optionalOf<double>(line, "soundOnset");
-    record.answer.touchOnset = optionalOf<double>(line, "touchOnset");
-    record.answer.dropouts = valueOr(line, "dropouts", 0);
+    record.answer.soundOnset = entries.get<double>("soundOnset");
+    record.answer.touchOnset = entries.get<double>("touchOnset");
+    record.answer.dropouts = entries.get<int>("dropouts").value_or(0);
     record.time = valueOr(line, "time", std::string());
     return record;
 }

@@ -63,7 +63,8 @@ struct Record
     std::optional<double> level; ///< value of the staircase's variable, in its unit
     std::optional<bool> correct;
     Answer answer;
-    std::string time; ///< UTC, ISO 8601
+    std::string time;                    ///< UTC, ISO 8601
+    std::vector<std::string> unreadable; ///< names of entries that are no number, no truth or no text where one belongs
 };
 
 /// A log that was read.

@@ -1,5 +1,6 @@
 #include "study/StudyResults.h"
 
+#include "study/AnswerCheck.h"
 #include "study/Session.h"
 #include "study/StudyFile.h"
 
@@ -52,7 +53,12 @@ public:
     void add(const Record& record)
     {
         const Block* block = blockNamed(results.study, record.block);
-        if (block == nullptr || record.training || record.stimuli.empty() != !hasStimuli(*block))
+        if (block == nullptr)
+        {
+            leaveOut(record, fmt::format("the study has no block '{}'", record.block));
+            return;
+        }
+        if (record.training)
             return;
         if (record.answer.dropouts > 0)
         {
@@ -60,30 +66,31 @@ public:
             return;
         }
         const Answer& answer = record.answer;
-        const bool wholePage = answer.values.size() == record.stimuli.size();
+        if (auto fault = faultOf(results.study, *block, record))
+        {
+            leaveOut(record, *fault);
+            return;
+        }
         switch (block->task)
         {
         case Task::rating:
-            if (answer.value)
-                results.ratings.push_back(rating(record, 0, *answer.value));
+            results.ratings.push_back(rating(record, 0, *answer.value));
             break;
         case Task::words:
             results.descriptions.push_back({head.group, head.participant, record.stimuli.front(), answer.words});
             break;
         case Task::similarity:
-            if (answer.value && record.stimuli.size() == 2)
-                results.pairs.push_back(
-                    {head.group, head.participant, record.block, record.stimuli[0], record.stimuli[1], *answer.value});
+            results.pairs.push_back(
+                {head.group, head.participant, record.block, record.stimuli[0], record.stimuli[1], *answer.value});
             break;
         case Task::multiStimulus:
         case Task::ranking:
-            for (std::size_t i = 0; wholePage && i < record.stimuli.size(); ++i)
+            for (std::size_t i = 0; i < record.stimuli.size(); ++i)
                 (block->task == Task::ranking ? results.ranks : results.ratings)
                     .push_back(rating(record, i, answer.values[i]));
             break;
         case Task::sorting:
-            if (wholePage)
-                addPairs(results.together, head, record);
+            addPairs(results.together, head, record);
             break;
         case Task::staircase:
             staircases[{block, testedOf(*block, record)}].push_back(record);
@@ -96,9 +103,8 @@ public:
             break;
         case Task::count:
         case Task::which:
-            if (answer.choice)
-                results.events.push_back(
-                    {head.group, head.participant, record.block, record.stimuli.front(), *answer.choice});
+            results.events.push_back(
+                {head.group, head.participant, record.block, record.stimuli.front(), *answer.choice});
             [[fallthrough]];
         case Task::side:
         case Task::abx:
@@ -129,9 +135,20 @@ public:
         for (const auto& [key, counts] : choices)
             results.choices.push_back(
                 {head.group, head.participant, key.first->name, key.second, counts.first, counts.second});
+        if (leftOut > 0)
+            results.warnings.push_back(fmt::format("{}: {}{}", head.participant, firstLeftOut,
+                                                   leftOut == 1 ? "; the answer is left out"
+                                                                : fmt::format("; {} answers are left out", leftOut)));
     }
 
 private:
+    /// A session tells its first answer that does not count, and how many there are.
+    void leaveOut(const Record& record, const std::string& fault)
+    {
+        if (leftOut++ == 0)
+            firstLeftOut = fmt::format("trial {} of {}: {}", record.trial, record.block, fault);
+    }
+
     [[nodiscard]] Rating rating(const Record& record, std::size_t i, double value) const
     {
         return {head.group, head.participant, record.block, record.stimuli[i], value};
@@ -154,7 +171,7 @@ private:
     void addPlace(const Block& block, const Record& record)
     {
         const std::size_t stimulus = stimulusNamed(results.study, record.stimuli.front());
-        if (!record.answer.value || stimulus == noStimulus || !results.study.stimuli[stimulus].place)
+        if (!results.study.stimuli[stimulus].place)
             return;
         const double position = results.study.stimuli[stimulus].place->position;
         results.places.push_back({head.group, head.participant, record.block, record.stimuli.front(),
@@ -164,6 +181,8 @@ private:
 
     StudyResults& results;
     const SessionHead& head;
+    std::size_t leftOut = 0;
+    std::string firstLeftOut;
     std::map<std::pair<const Block*, std::string>, std::vector<Record>> staircases;
     std::map<std::pair<const Block*, std::string>, std::pair<std::size_t, std::size_t>> choices;
 };
@@ -318,6 +337,8 @@ Result<StudyResults> readResults(const std::filesystem::path& named)
         return Error{ErrorCode::io, "sessions", "has no session that could be read"};
     for (const LoggedSession& session : results.sessions)
     {
+        for (const std::string& missing : missingAnswers(results.study, session))
+            results.warnings.push_back(fmt::format("{}: {}", session.head.participant, missing));
         Sorting sorting(results, session.head);
         for (const Record& record : session.records)
             sorting.add(record);

@@ -172,6 +172,18 @@ class Batch(CommandTest):
         self.assertTrue(all(f["report"]["seconds"] > 0 for name, f in self.entries("run.manifest.json").items()
                             if not f["report"]["upToDate"]))
 
+    def test_a_manifest_that_is_cut_off_has_no_end(self):
+        self.sounds(4)
+        self.succeeds("encode", "in", "-o", "out", "--manifest", "run.manifest.json")
+        whole = (self.folder / "run.manifest.json").read_bytes()
+        lines = whole.splitlines(keepends=True)
+        for cut in (len(whole) // 2, len(b"".join(lines[:3])), len(whole) - 3):
+            self.put("cut.manifest.json", whole[:cut])
+            self.fails(1, ["manifest", "check", "cut.manifest.json", "-q"], "cut.manifest.json: has no end")
+            self.fails(1, ["manifest", "merge", "cut.manifest.json", "-o", "all.manifest.json", "-q", "-y"],
+                       "has no end")
+        self.succeeds("manifest", "check", "run.manifest.json")
+
     def test_render_convert_and_compare_have_shards_too(self):
         self.sounds(5)
         self.succeeds("encode", "in", "-o", "clips", "--format", "packed")

@@ -50,6 +50,19 @@ class Encode(CommandTest):
             self.assertEqual([path.name for path in (self.folder / out).iterdir()], ["link.pacb"])
         self.assertEqual([path.name for path in (self.folder / "elsewhere").iterdir()], ["long.wav"])
 
+    def test_nothing_readable_of_a_folder_is_passed_over(self):
+        names = [f"{i}{extension}" for i, extension in enumerate((
+            ".wav", ".voc", ".mts", ".mpeg", ".ts", ".vob", ".mp2", ".m4b", ".adts", ".ismv", ".NIST", ".avr",
+            ".8svx"))]
+        for name in names:
+            self.put(f"in/{name}", wav(sine(100, 0.2)))  # found by their names, read by what they are
+        found = self.report("encode", "in", "-o", "out")["files"]
+        self.assertEqual(sorted(os.path.basename(file["input"]) for file in found), sorted(names))
+        (self.folder / "in/gone.wav").symlink_to(self.folder / "elsewhere/gone.wav")
+        (self.folder / "in/gone.txt").symlink_to(self.folder / "elsewhere/gone.txt")
+        self.fails(1, ["encode", "in", "-o", "out", "-y", "-q"],
+                   "pacini: in/gone.wav: is a link to a file that is not there")
+
     def test_several_files_go_into_a_folder_that_is_made(self):
         for name in ("a.wav", "b.wav"):
             self.put(name, wav(sine(100, 0.2)))

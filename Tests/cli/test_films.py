@@ -275,6 +275,31 @@ class Films(FilmTest):
         done = self.run_command("info", "b.m4a")
         self.assertRegex(done.stderr.decode(), r"^pacini: b.m4a: (warning: )?.*(damaged|truncated)")
 
+    def test_an_avi_with_damaged_blocks_says_how_much_is_missing(self):
+        for codec in ("libmp3lame", "pcm_s16le", "ac3"):
+            self.film("a.avi", "-c:a", codec)
+            self.events("a.avi")
+            self.assertEqual(self.said, "" if codec != "libmp3lame" else self.said, codec)
+            self.assertNotIn("decoded", self.said, codec)
+            content = bytearray((self.folder / "a.avi").read_bytes())
+            half, end = len(content) // 2, len(content) * 3 // 4
+            content[half:end] = bytes(end - half)
+            self.put("b.avi", bytes(content))
+            self.events("b.avi", "--allow-truncated")
+            if self.clip_read["duration"] < 3.8:
+                says = r"lasts about [34]\.\d+ s by its header|\d s of [34]\.\d+ s were decoded"
+                self.assertRegex(self.said, says, codec)
+
+    def test_channels_or_a_rate_that_change_within_are_no_silence(self):
+        for name, changes in (("channels.aac", ("-ac", "2")), ("rate.aac", ("-ar", "44100")),
+                              ("channels.ac3", ("-ac", "6"))):
+            kind = name.rsplit(".", 1)[1]
+            for half, options in (("1", ("-ar", "48000", "-ac", "1")), ("2", ("-ar", "48000", "-ac", "1", *changes))):
+                self.ffmpeg("-i", "sound.wav", "-c:a", kind, *options, f"{half}.{kind}")
+            self.put(name, b"".join((self.folder / f"{half}.{kind}").read_bytes() for half in "12"))
+            self.fails(1, ["encode", name, "-o", "x.json"], f"pacini: {name}: changes the channels or the sample rate",
+                       "save its sound as one WAV first")
+
     def test_what_has_no_sound_or_no_ffmpeg_says_so(self):
         self.ffmpeg(*PICTURE, "-t", "1", "-c:v", "mpeg4", "mute.mp4")
         self.fails(1, ["encode", "mute.mp4"], "pacini: mute.mp4: is a film without sound; choose one with sound")

@@ -59,6 +59,34 @@ def chapter(ms):
     return b"CHAP" + struct.pack(">IH", len(content), 0) + content
 
 
+def stated_sounds(samples):
+    """Files of less common formats that state how long their sound is, of samples of 16 bits, one second of them."""
+    values = struct.unpack(f"<{len(samples) // 2}h", samples)
+    count, big = len(values), struct.pack(f">{len(values)}h", *values)
+    nist = (f"NIST_1A\n   1024\nchannel_count -i 1\nsample_rate -i {RATE}\nsample_n_bytes -i 2\nsample_sig_bits -i 16\n"
+            f"sample_coding -s3 pcm\nsample_byte_format -s2 01\nsample_count -i {count}\nend_head\n")
+    yield "NIST", nist.encode().ljust(1024) + samples
+    block = struct.pack("<I", 12 + len(samples))[:3] + struct.pack("<IBBH4x", RATE, 16, 1, 4)
+    yield "VOC", b"Creative Voice File\x1a" + struct.pack("<HHH", 26, 0x114, 0x111F) + b"\x09" + block + samples + b"\0"
+    avr = struct.pack(">4s8sHHHHHIIII", b"2BIT", b"", 0, 16, 0xFFFF, 0, 0xFFFF, RATE, count, 0, 0)
+    yield "AVR", avr.ljust(128, b"\0") + big
+    head = struct.pack(">4sIIIIHBBI", b"VHDR", 20, count, 0, 0, RATE, 1, 0, 0xFFFF)
+    body = b"16SV" + head + b"BODY" + struct.pack(">I", len(big)) + big
+    yield "8SVX", b"FORM" + struct.pack(">I", len(body)) + body
+    rate = struct.pack("<5I", 0, 1, 1, 0, 11) + b"samplerate\0" + struct.pack("<d", RATE)
+    yield "MAT 4", rate + struct.pack("<5I", 30, 1, count, 0, 9) + b"wavedata\0" + samples
+    mpc = b"\1\4" + b"x".ljust(17) + struct.pack("<BBBIIIIBBH", 100, 0, 0, 0, count, count, count, 0, 1, RATE)
+    yield "MPC 2000", mpc + samples
+    def sevens(number):
+        return bytes(number >> shift & 127 for shift in (0, 7, 14))
+    sds = b"\xf0\x7e\0\1\0\0\x10" + sevens(10**9 // RATE) + sevens(count) + bytes(6) + b"\0\xf7"
+    for packet in range(0, count, 40):
+        words = [value + 32768 for value in values[packet:packet + 40]]
+        data = b"".join(bytes([word >> 9, word >> 2 & 127, word << 5 & 127]) for word in words).ljust(120, b"\0")
+        sds += b"\xf0\x7e\0\2" + bytes([packet // 40 & 127]) + data + b"\0\xf7"
+    yield "SDS", sds
+
+
 class SoundTable(CommandTest):
     def setUp(self):
         super().setUp()
@@ -136,6 +164,38 @@ class SoundTable(CommandTest):
         item = struct.pack("<II", 5, 0) + b"Title\0Hello"
         footer = b"APETAGEX" + struct.pack("<4I", 2000, len(item) + 32, 1, 0x80000000) + bytes(8)
         self.reads(self.row("the footer of an APE tag"), with_size(self.sound, 0xFFFFFFFF) + item + footer)
+
+    def check_stated_lengths(self):
+        """Lengths that libsndfile does not hold against the file."""
+        kinds = self.row("a NIST, VOC, AVR, 8SVX")
+        behind = self.row("more than 64 bytes behind")
+        for name, content in stated_sounds(self.sound[44:]):
+            self.assertEqual(self.encode(content), 0, name + self.said)
+            self.assertEqual(self.said, "", name)
+            self.assertAlmostEqual(self.clip_read["duration"], 1.0, delta=0.001, msg=name)
+            cut = content[:len(content) * 6 // 10]
+            self.refuses(kinds, cut, "is truncated")
+            self.assertEqual(self.encode(cut, "--allow-truncated"), 0, name + self.said)
+            self.assertRegex(self.said, r"warning: is cut off: 0\.(59|6)\d* s of 1\.000 s are there", name)
+            if name != "8SVX":  # libsndfile refuses one that another follows
+                self.reads_with_a_word(behind, content + content, "behind its sound that are left out")
+
+    def check_numbered_blocks(self):
+        """A FLAC from a program that streams: the number of its last block tells how long it is."""
+        says = self.row("a FLAC that states no length")
+        if not HAS_FFMPEG:
+            return
+        self.put("a.wav", wav(sine(100, 3.0)))
+        subprocess.run(["ffmpeg", "-v", "error", "-y", "-i", "a.wav", "b.flac"], cwd=self.folder, check=True)
+        flac = (self.folder / "b.flac").read_bytes()
+        flac = flac[:21] + bytes([flac[21] & 0xF0]) + bytes(4) + flac[26:]
+        blocks = [at for at in range(42, len(flac)) if flac.startswith(b"\xff\xf8", at)]
+        self.assertGreater(len(blocks), 30)
+        self.reads("read", flac, 3.0)
+        hole = flac[:blocks[5]] + flac[blocks[20]:]  # the decoder fills a few blocks up
+        self.refuses(says, hole, "frames of 144000")
+        self.assertEqual(self.encode(hole, "--allow-truncated"), 0, self.said)
+        self.assertIn("of 3.000 s are there", self.said)
 
     def test_every_row_is_true(self):
         sound, mp3, size = self.sound, self.mp3, self.bytes
@@ -260,6 +320,8 @@ class SoundTable(CommandTest):
         stereo = chunk(b"fmt ", struct.pack("<HHIIHH", 1, 2, RATE, 4 * RATE, 4, 16))
         self.reads_with_a_word(says, sound[:36] + stereo + sound[36:], "two descriptions")
         self.check_words()
+        self.check_stated_lengths()
+        self.check_numbered_blocks()
         self.check_texts()
         says = self.row("damaged pictures")
         flac = (SOUNDS / "ramp.flac").read_bytes()

@@ -235,6 +235,78 @@ class Steps(StudyTest):
         self.warns("study", "report", "missing.csv", "--columns", "rating=slider",
                    says="line 4: has no rating; 2 of 10 lines have none and are left out")
 
+    def warned_report(self, named):
+        """The report of a study or table about which warnings are told."""
+        done = self.run_command("study", "report", named, "--json", "-y")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return json.loads(done.stdout)
+
+    def test_lines_of_a_table_that_are_no_ones_or_of_nothing_are_left_out(self):
+        rows = [("A" if p < 3 else "B", f"p{p}", s, 40 + 7 * p + 3 * i) for p in range(6) for i, s in enumerate("xyz")]
+        def table(change):
+            lines = [",".join(map(str, change(i, list(row)))) for i, row in enumerate(rows)]
+            return self.put("table.csv", "\n".join(["group,participant,stimulus,rating", *lines]))
+        for column, what in enumerate(["group", "participant", "stimulus"]):
+            def without(i, row, column=column):
+                return row[:column] + ["" if i in (0, 4) else row[column]] + row[column + 1:]
+            table(without)
+            found = self.warned_report("table.csv")
+            everybody = found["ratings"]["Ratings"]
+            self.assertEqual([one["group"] for one in everybody["groups"]], ["A", "B"], what)
+            self.assertNotIn("", everybody["groups"][0]["stimuli"], what)
+            self.assertIn(f"table: line 2: has no {what}; 2 of 18 lines have none and are left out", found["leftOut"])
+
+    def test_lines_of_jspsych_that_are_no_ratings_are_left_out(self):
+        head = "rt,stimulus,response,trial_type,subject"
+        rated = [f"1,{s}.wav,{50 + 5 * p + i},audio-slider-response,p{p}" for p in range(4) for i, s in enumerate("ab")]
+        self.put("plain.csv", "\n".join([head, *rated]))
+        wanted = self.report("study", "report", "plain.csv")["ratings"]
+        others = ["1,<p>Press</p>,0,html-button-response,p0", '1,<p>Who?</p>,"{""Q0"":""male""}",survey-text,p1']
+        self.put("js.csv", "\n".join([head, *others, *rated]))
+        said = self.warns("study", "report", "js.csv", "--json", "-y",
+                          says="line 2: is no rating of jsPsych's sliders by its trial_type; 2 of 10 lines are none")
+        self.assertEqual(json.loads(said)["ratings"], wanted)
+
+    def test_answers_that_no_session_can_have_are_left_out_and_told(self):
+        # Each template with what a damaged or edited log may hold in its first answer that counts.
+        def changed(template, says, change):
+            with self.subTest(template, says=says):
+                folder = f"study {template}"
+                if not (self.folder / folder).exists():
+                    self.succeeds("study", "new", f"new {template}", "--template", template, *self.sounds_for(template))
+                    self.succeeds("study", "simulate", f"new {template}", "-o", folder, "--runs", "10")
+                log = sorted((self.folder / folder / "sessions").glob("*.jsonl"))[2]
+                kept = log.read_text()
+                lines = [json.loads(line) for line in kept.splitlines()]
+                place = next(i for i, line in enumerate(lines) if line["type"] == "answer" and not line.get("training"))
+                changes = change(lines[place])
+                lines[place:place + 1] = [] if changes is None else [{**lines[place], **changes}]
+                log.write_text("".join(json.dumps(line) + "\n" for line in lines))
+                left = self.warned_report(folder)["leftOut"]
+                log.write_text(kept)
+                self.assertTrue(any(says in one and one.startswith(lines[0]["participant"]) for one in left), left)
+        def first(line, value):
+            return {"values": [value, *line["values"][1:]]}
+        for value in (None, "x"):
+            changed("mushra", 'its "values" cannot be read', lambda line, value=value: first(line, value))
+        for value in (150, -5):
+            changed("mushra", f"its value {value} is outside of the scale from 0 to 100",
+                    lambda line, value=value: first(line, value))
+        changed("mushra", "values for", lambda line: {"values": line["values"][1:]})
+        changed("mushra", "the study has no block 'other'", lambda line: {"block": "other"})
+        changed("mushra", "the study has no stimulus 'other'", lambda line: {"stimuli": ["other", *line["stimuli"][1:]]})
+        changed("mushra", "is missing, the first at trial 0", lambda line: None)
+        changed("ranking", "its places are not the numbers from 1 to", lambda line: first(line, 7))
+        for value in (None, True, "7"):
+            changed("similarity", 'its "value" cannot be read', lambda line, value=value: {"value": value})
+        changed("similarity", "is outside of the scale", lambda line: {"value": 99999})
+        changed("abx", "its choice 7 is none of those from 0 to 1", lambda line: {"choice": 7})
+        changed("abx", 'its "choice" cannot be read', lambda line: {"choice": 1e300})
+        for value in (None, "x"):
+            changed("jnd", 'its "level" cannot be read', lambda line, value=value: {"level": value})
+        for value in (0, -1, 1e6, 1e300):
+            changed("jnd", "is outside of the range from", lambda line, value=value: {"level": value})
+
     def test_a_table_in_latin_1_is_read_and_told(self):
         rows = "stimulus,participant,rating\nT\u00fcr \u2013 auf,1,2\nT\u00fcr \u2013 auf,2,3\nz,1,4\nz,2,5\n"
         self.put("old.csv", rows.encode("cp1252"))
@@ -390,6 +462,13 @@ class People(StudyTest):
         page = (self.folder / "one.report/report.md").read_text()
         self.assertRegex(page, r"(?m)^\| 0 \| 3\.00 \| +\| +\|$")
         self.assertNotIn("0.00", page.split("## Methods")[0].replace("10.00", ""))
+
+    def test_groups_that_are_combined_must_be_there(self):
+        rows = [(g, p, s, p + 3 * s % 5) for g in "AB" for p in (1, 2, 3) for s in range(4)]
+        self.table("groups.csv", rows)
+        for union, says in (("A+Z", "'Z' is no group; there are A, B"), ("A+A", "names 'A' twice")):
+            self.fails(1, ["study", "report", "groups.csv", "--combine", union], f"--combine: {says}")
+            self.assertFalse((self.folder / "groups.report").exists())
 
     def test_who_may_be_one_person_is_told(self):
         answers = [4, 7, 2, 9, 3, 8, 5, 6]

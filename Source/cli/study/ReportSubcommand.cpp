@@ -126,6 +126,23 @@ struct ReportSubcommand : Command
         return write(console, *report, output.empty() ? beside : fs::path(output));
     }
 
+    /// A combination that names a group which is not there, or one twice, would be a group alone under another name.
+    [[nodiscard]] static std::optional<Error> wrongUnion(const std::vector<study::GroupUnion>& unions,
+                                                         const std::set<std::string>& groups)
+    {
+        for (const study::GroupUnion& members : unions)
+        {
+            std::set<std::string> named;
+            for (const std::string& name : members)
+                if (!groups.contains(name))
+                    return Error{ErrorCode::invalidArgument, "--combine",
+                                 fmt::format("'{}' is no group; there are {}", name, fmt::join(groups, ", "))};
+                else if (!named.insert(name).second)
+                    return Error{ErrorCode::invalidArgument, "--combine", fmt::format("names '{}' twice", name)};
+        }
+        return std::nullopt;
+    }
+
     /// What --columns says; an error if that is no role and a name.
     [[nodiscard]] std::optional<Error> takeColumns(study::RatingColumns& names) const
     {
@@ -157,6 +174,11 @@ struct ReportSubcommand : Command
             return ratings.error();
         console.warnings(path.string(), table.warnings);
         table.ratings = std::move(*ratings);
+        std::set<std::string> groups;
+        for (const study::Rating& one : table.ratings)
+            groups.insert(one.group);
+        if (const auto wrong = wrongUnion(params.unions, groups))
+            return *wrong;
         std::vector<std::string> hidden = references;
         constexpr const char* usual = "reference"; // as webMUSHRA calls it
         if (hidden.empty() && isWebMushra &&
@@ -194,6 +216,11 @@ struct ReportSubcommand : Command
         if (!references.empty())
             return Error{ErrorCode::invalidArgument, "--reference",
                          "is for tables of ratings; the blocks of a study name theirs in study.json"};
+        std::set<std::string> groups;
+        for (const study::Group& one : results->study.groups)
+            groups.insert(one.name);
+        if (const auto wrong = wrongUnion(params.unions, groups))
+            return *wrong;
         results->screening = study::screenListeners(results->ratings, results->study, keepsEverybody);
         warnOf(console, path, results->screening);
         if (!only.empty() && !study::keepClass(*results, only))

@@ -188,6 +188,13 @@ function number(names, given, what) {
   return names[given];
 }
 
+/** A value of one class; another, whose memory the library would read in its own way, is refused. */
+function needs(value, type, what) {
+  if (!(value instanceof type))
+    throw new PaciniError('invalid', `${what} must be a ${type.name}, not ${value?.constructor?.name ?? value}`);
+  return value;
+}
+
 const clips = new FinalizationRegistry((handle) => c.clipRelease(handle));
 const textures = new FinalizationRegistry((handle) => c.textureRelease(handle));
 const engines = new FinalizationRegistry((handle) => c.engineDestroy(handle));
@@ -210,6 +217,7 @@ export class Texture {
 
   /** From the bytes of such a file, a Uint8Array. */
   static fromBytes(bytes) {
+    needs(bytes, Uint8Array, 'bytes');
     const out = [0n];
     check(c.textureLoad(bytes, bytes.length, out));
     return new Texture(out[0]);
@@ -243,6 +251,7 @@ export class Clip {
 
   /** From the bytes of such a file, a Uint8Array. */
   static fromBytes(bytes) {
+    needs(bytes, Uint8Array, 'bytes');
     const out = [0n];
     check(c.clipLoad(bytes, bytes.length, out));
     return new Clip(out[0]);
@@ -263,7 +272,7 @@ export class Clip {
   get handle() { return this.#handle; }
 
   /** Puts other content in its place; what plays of it fades over. */
-  reload(bytes) { check(c.clipReload(this.#handle, bytes, bytes.length)); }
+  reload(bytes) { check(c.clipReload(this.#handle, needs(bytes, Uint8Array, 'bytes'), bytes.length)); }
 
   /** name, duration (s), events, bytes */
   get info() {
@@ -330,7 +339,7 @@ export class Engine {
   play(clip, settings = {}) {
     const struct = fill(filled(c.playSettingsInit), settingFields, settings, 'a play');
     const out = [0n];
-    check(c.playStart(this.#handle, clip.handle, struct, out));
+    check(c.playStart(this.#handle, needs(clip, Clip, 'clip').handle, struct, out));
     return new Play(out[0]);
   }
 
@@ -338,12 +347,13 @@ export class Engine {
   playTexture(texture, speed = 0, force = 1, settings = {}) {
     const struct = fill(filled(c.playSettingsInit), settingFields, settings, 'a play');
     const out = [0n];
-    check(c.textureStart(this.#handle, texture.handle, speed, force, struct, out));
+    check(c.textureStart(this.#handle, needs(texture, Texture, 'texture').handle, speed, force, struct, out));
     return new Play(out[0]);
   }
 
   /** Fills a Float32Array with the next frames: samples[frame * channels + actuator]; returns it. */
   render(samples, channels = this.#actuators) {
+    needs(samples, Float32Array, 'samples');
     const result = c.renderInterleaved(this.#handle, samples, channels, Math.floor(samples.length / channels));
     // It does not write down why, as it is for audio threads.
     if (result !== 0) throw new PaciniError(codes[result], `engine: ${c.resultText(result)}`);

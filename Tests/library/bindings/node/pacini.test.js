@@ -22,6 +22,18 @@ const fails = (code, words, work) => assert.throws(work, (error) => {
   return true;
 });
 
+test('a value of another class is refused', () => {
+  const engine = new Engine({ sampleRate: 8000 });
+  for (const samples of [new Float64Array(256), new Uint8Array(256), [0, 0], undefined])
+    fails('invalid', 'samples must be a Float32Array', () => engine.render(samples));
+  for (const clip of [undefined, null, {}, bytes(hum)]) fails('invalid', 'clip must be a Clip', () => engine.play(clip));
+  fails('invalid', 'texture must be a Texture', () => engine.playTexture(Clip.fromBytes(bytes(hum))));
+  for (const text of [hum, new Float32Array(8), undefined])
+    fails('invalid', 'bytes must be a Uint8Array', () => Clip.fromBytes(text));
+  assert.ok(Clip.fromBytes(Buffer.from(hum)).info.bytes > 20);
+  engine.destroy();
+});
+
 test('a clip plays and is changed; what is stale throws', () => {
   assert.ok(version >= 1000);
   const clip = Clip.fromBytes(bytes(hum));
