@@ -52,12 +52,15 @@ class Encode(CommandTest):
 
     def test_nothing_readable_of_a_folder_is_passed_over(self):
         names = [f"{i}{extension}" for i, extension in enumerate((
-            ".wav", ".voc", ".mts", ".mpeg", ".ts", ".vob", ".mp2", ".m4b", ".adts", ".ismv", ".NIST", ".avr",
+            ".wav", ".voc", ".mts", ".mpeg", ".vob", ".mp2", ".m4b", ".adts", ".ismv", ".NIST", ".avr",
             ".8svx"))]
         for name in names:
             self.put(f"in/{name}", wav(sine(100, 0.2)))  # found by their names, read by what they are
         found = self.report("encode", "in", "-o", "out")["files"]
         self.assertEqual(sorted(os.path.basename(file["input"]) for file in found), sorted(names))
+        self.put("code/main.ts", b"export const strength = 0.4;\n")
+        self.put("code/a.wav", wav(sine(100, 0.2)))
+        self.assertEqual(len(self.report("encode", "code", "-o", "out2")["files"]), 1)
         (self.folder / "in/gone.wav").symlink_to(self.folder / "elsewhere/gone.wav")
         (self.folder / "in/gone.txt").symlink_to(self.folder / "elsewhere/gone.txt")
         self.fails(1, ["encode", "in", "-o", "out", "-y", "-q"],
