@@ -16,7 +16,7 @@ import spdx  # noqa: E402
 LICENCES = {"MIT", "GPL-3.0-or-later", "GPL-3.0-only", "CC0-1.0", "LicenseRef-public-domain", "ISC", "BSD-3-Clause",
             "BSD-2-Clause", "MPL-2.0", "BSL-1.0", "Apache-2.0", "LGPL-2.1-or-later", "LGPL-2.1-only",
             "LGPL-2.0-or-later",
-            "Zlib", "bzip2-1.0.6", "dtoa", "SunPro", "ZPL-2.1", "CPL-1.0", "Apache-2.0 WITH LLVM-exception",
+            "Zlib", "bzip2-1.0.6", "libpng-2.0", "IJG", "dtoa", "SunPro", "ZPL-2.1", "CPL-1.0", "Apache-2.0 WITH LLVM-exception",
             "GPL-3.0-or-later WITH GCC-exception-3.1"}
 
 
