@@ -206,10 +206,8 @@ TEST_CASE("A scene says in plain words which rule it breaks, and where", "[scene
     CHECK(broken([](Scene& s) { s.plays[1].transposition = 97.0; }) ==
           "plays[1].transposition: must be -96 to 96 semitones");
     CHECK(broken([](Scene& s) { s.plays[1].stretch = 101.0; }) == "plays[1].stretch: must be 0.01 to 100");
-    CHECK(broken([](Scene& s) { s.plays[1].variation.amount = 1.1; }) ==
-          "plays[1].variation: is outside 0 to 1");
-    CHECK(broken([](Scene& s) { s.plays[1].variation.amount = -0.1; }) ==
-          "plays[1].variation: is outside 0 to 1");
+    CHECK(broken([](Scene& s) { s.plays[1].variation.amount = 1.1; }) == "plays[1].variation: is outside 0 to 1");
+    CHECK(broken([](Scene& s) { s.plays[1].variation.amount = -0.1; }) == "plays[1].variation: is outside 0 to 1");
     CHECK(broken([](Scene& s) { s.changes.resize(1'000'001); }) == "changes: has more than 1000000 changes");
     CHECK(codeOf([](Scene& s) { s.changes.resize(1'000'001); }) == ErrorCode::tooLarge);
     CHECK(broken([](Scene& s) { s.changes[0].time = -1e-9; }) == "changes[0].time: " + outsideADay);
