@@ -46,6 +46,21 @@ def processor_seconds(pid):
 
 
 class Arrays(FolderTest):
+    def test_what_a_mask_hides_is_not_encoded(self):
+        sound = np.ma.masked_array(knocks(), mask=False)
+        whole = pacini.encode(sound, RATE)
+        self.assertEqual(whole.to_bytes(), pacini.encode(knocks(), RATE).to_bytes())
+        sound[1000:1100] = np.ma.masked
+        points = np.ma.masked_array([[0.0, 1.0], [1.0, 0.5]], mask=[[False, False], [False, True]])
+        for call, hidden in (
+            (lambda: pacini.encode(sound, RATE), 100),
+            (lambda: pacini.compare(sound, knocks(), RATE), 100),
+            (lambda: pacini.Band(40, 60, 80, amplitude=points), 1),
+            (lambda: pacini.simplify([0.0, 1.0], points[:, 1], count=2), 1),
+        ):
+            with self.assertRaisesRegex(pacini.ArgumentError, rf"\w: has {hidden} masked values; .*\.filled\(0\)$"):
+                call()
+
     def test_every_layout_of_one_sound_makes_one_clip(self):
         mono = knocks()
         stereo = np.stack([mono, 0.5 * mono])

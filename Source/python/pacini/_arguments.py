@@ -94,8 +94,15 @@ def path(value: object, where: str) -> Any:
     wrong("must be a path", where, value)
 
 
+def refuse_masked(values: object, where: str) -> None:
+    """What lies below a mask would count as any other value."""
+    if isinstance(values, np.ma.MaskedArray) and (masked := int(cast(Any, np.ma).count_masked(values))):
+        raise ArgumentError(f"has {masked} masked values; give what stands in their place: {where}.filled(0)", where)
+
+
 def numbers(values: object, where: str) -> list[float]:
     """Numbers in one dimension."""
+    refuse_masked(values, where)
     try:
         array = np.asarray(values)
     except (TypeError, ValueError):

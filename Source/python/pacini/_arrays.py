@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Union
 import numpy as np
 import numpy.typing as npt
 
-from ._arguments import number
+from ._arguments import number, refuse_masked
 from ._errors import ArgumentError, Error
 
 if TYPE_CHECKING:
@@ -30,6 +30,7 @@ def is_path(value: object) -> TypeIs[PathLike]:
 
 def as_sound(samples: object, axis: int, where: str = "sound") -> FloatArray:
     """A view as (frames,) or (channels, frames); `axis` is the one that the frames are on. Never a copy of an array."""
+    refuse_masked(samples, where)
     try:
         array = np.asarray(samples)
     except (TypeError, ValueError):  # rows of different lengths
@@ -85,6 +86,7 @@ def rows_of(points: object, dtype: np.dtype[np.void], where: str) -> npt.NDArray
     """Points of a structured array, or rows of plain numbers, as the native module takes them."""
     assert dtype.names is not None
     columns = len(dtype.names)
+    refuse_masked(points, where)
     try:
         array = np.asarray(points)
         if array.dtype.names is not None:
