@@ -2,8 +2,10 @@
 // How the plugin finds sndfile.dll: in its own folder, where Windows does not look for what a plugin needs, when the
 // first sound is read. Without it the plugin works, and reading a sound is an error that names the file.
 
-#include <delayimp.h>
+// clang-format off
 #include <windows.h>
+#include <delayimp.h> // takes the types of the one before it
+// clang-format on
 
 #include <string>
 #include <string_view>
