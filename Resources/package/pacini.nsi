@@ -41,6 +41,7 @@ SectionEnd
 Section "Uninstall"
     SetOutPath "$TEMP"
     !include "${FOLDER}/remove.nsh"
+    RMDir "$LOCALAPPDATA\Programs" ; where the plugins' folder was, unless other programs are there
     Delete "$INSTDIR\uninstall.exe"
     RMDir "$INSTDIR"
     Delete "$SMPROGRAMS\Pacini\Pacini editor.lnk"

@@ -298,6 +298,8 @@ bool isFilm(std::FILE* opened, std::uint64_t begin)
 /// What ffprobe tells of a film, and what of it is read.
 struct FilmSound::Probe
 {
+    explicit Probe(Json told) : found(std::move(told)) {}
+
     Json found;
     const Json* track = nullptr;   ///< the one that is read
     std::optional<double> picture; ///< s at which the first one begins
@@ -322,8 +324,7 @@ Result<FilmSound> FilmSound::open(const fs::path& path, std::FILE* file, const O
     auto found = probed(name, pipe);
     if (!found)
         return found.error();
-    Probe probe;
-    probe.found = std::move(*found);
+    Probe probe(std::move(*found));
     FilmSound sound;
     sound.takesTruncated = options.allowTruncated;
     if (const auto taken = sound.takeTrack(probe); !taken)

@@ -100,11 +100,12 @@ struct LivePad::Link
     }
 
     /// Blocks of its sound device count as reports.
-    void playSound(LiveDrive& drive, double fs)
+    void playSound(LiveDrive& drive, double driveRate)
     {
         constexpr double margin = 0.010; // s, as for a sound card whose blocks are not known
         const double goes = static_cast<double>(pad.sound->blockFrames()) / pad.sound->sampleRate();
-        tracked.emplace(drive, fs, pad.sound->sampleRate(), static_cast<std::size_t>((goes + margin) * fs));
+        tracked.emplace(drive, driveRate, pad.sound->sampleRate(),
+                        static_cast<std::size_t>((goes + margin) * driveRate));
         failure = pad.sound->play(
             [this](std::span<float> frames)
             {

@@ -350,7 +350,8 @@ juce::PopupMenu PluginWindow::controllerMenu()
     const auto add = [&](const juce::String& text, bool ticked, std::function<void()> action)
     {
         juce::PopupMenu::Item item(text);
-        item.setTicked(ticked).setEnabled(action != nullptr).setAction(std::move(action));
+        item.setTicked(ticked).setEnabled(action != nullptr);
+        item.setAction(std::move(action));
         menu.addItem(std::move(item));
     };
     add(editor::tr("None"), chosen.name.empty(), [&pad] { pad.choose({}); });
